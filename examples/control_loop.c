@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A control loop: every millisecond a controller looks at the crank of the slider-crank and sets
- * the torque of its motor, so that the speed stays what it is when a brake comes on. Fixed steps
- * make the work of an interval bounded: ten steps, which allocate nothing; the table of wall times
- * tells how well the bound is kept. */
+/* A control loop: every millisecond a controller reads the crank of the slider-crank and sets
+ * the torque of its motor, to keep the speed when a brake comes on. With fixed steps the work of
+ * an interval is bounded: ten steps, which allocate nothing. The table of wall times shows how
+ * well the bound is kept. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -10,25 +10,25 @@
 enum { STEPS = 10 /* of one interval */, INTERVALS = 250 /* of one row */, ROWS = 12, BINS = 8 };
 
 static const double STEP = 1e-4;         /* [s] */
-static const double SPEED = 150.0;       /* [rad/s] wanted, and at start */
+static const double SPEED = 150.0;       /* [rad/s] set point and initial speed */
 static const double PROPORTIONAL = 0.02; /* [N m s/rad] */
 static const double INTEGRAL = 0.1;      /* [N m/rad] */
 static const double BRAKE = -0.2;        /* [N m] */
-static const double BRAKE_TIME = 1.0;    /* [s] when it comes on */
+static const double BRAKE_TIME = 1.0;    /* [s] at which it comes on */
 
 typedef struct loop {
   baum_simulation *run;
   baum_joint_id pin;
   baum_input_id motor;
   baum_input_id brake;
-  double crank[2];      /* [rad] angle and [rad/s] rate */
+  double crank[2];      /* [rad] angle and [rad/s] angular velocity */
   double work;          /* [J] done by the motor and, negative, by the brake */
   double longest;       /* [s] wall time of an interval */
   double longest_step;  /* [s] of a step, as a mean over an interval */
   long histogram[BINS]; /* intervals of 2^k us to twice that; the last all above */
 } loop;
 
-/* A torque on the crank as large as an input says. */
+/* A torque on the crank whose size is an input. */
 static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, const char *name)
 {
   baum_planar_load_def load = baum_planar_load_def_default();
@@ -45,7 +45,7 @@ static void look(loop *l)
   CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
 }
 
-/* The integral of the speed's error is what the angle lags behind. */
+/* The integral of the speed error is the lag of the angle. */
 static double controller(const loop *l, double t)
 {
   return PROPORTIONAL * (SPEED - l->crank[1]) + INTEGRAL * (SPEED * t - l->crank[0]);
@@ -101,7 +101,7 @@ int main(int argc, char **argv)
 {
   example_begin(argc, argv, "control_loop");
   slider_crank s = slider_crank_build(false);
-  baum_mechanism *plant = NULL; /* a copy, for s.mechanism is frozen */
+  baum_mechanism *plant = NULL; /* a copy, because s.mechanism is frozen */
   loop l = {.pin = s.pin_a};
   CHECK(baum_mechanism_copy(s.mechanism, &plant));
   l.motor = add_torque(plant, s.crank, "motor");

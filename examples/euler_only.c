@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The smallest program: a static one that calls only baum_euler() holds nothing of SUNDIALS. A rod
- * turns about its upper end for one second. */
+/* The smallest program: linked statically, a program that calls only baum_euler() contains
+ * nothing of SUNDIALS. A rod swings about its upper end for one second. */
 #include "example_util.h"
 
 static baum_mechanism *turning_rod(void)

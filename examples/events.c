@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What happens at times: a pendulum that falls against a stop and bounces, at times that the run
- * finds, and one that is kicked by a torque at times that are known before. */
+/* Events and break times: a pendulum bounces at a stop, at times that the run finds; and a
+ * torque kicks a pendulum at times that are known in advance. */
 #include <baum/baum.h>
 
 #include "example_util.h"
@@ -8,9 +8,9 @@
 enum { BOUNCES = 8, KICKS = 3 };
 
 static const double LENGTH = 1.0;      /* [m] of a uniform rod of 1 kg */
-static const double ANGLE = 1.0;       /* [rad] at which it is let go */
+static const double ANGLE = 1.0;       /* [rad] at which it is released */
 static const double STOP = 0.0;        /* [rad] straight below the pin */
-static const double RESTITUTION = 0.9; /* [-] of the speed that a bounce leaves */
+static const double RESTITUTION = 0.9; /* [-] share of the speed that a bounce leaves */
 
 typedef struct pendulum {
   baum_mechanism *mechanism;
@@ -57,7 +57,7 @@ static baum_simulation *start(const pendulum *p)
   return run;
 }
 
-/* ---- times that are found ---- */
+/* ---- events: times that the run finds ---- */
 
 /* [s] a quarter of the period of swings to an angle: K(sin(angle / 2)) sqrt(2 l / (3 g)), K by the
  * arithmetic-geometric mean (Abramowitz, Stegun 1964, 17.6.3). */
@@ -83,7 +83,7 @@ static void add_stop(baum_simulation *run, const pendulum *p)
   CHECK(baum_simulation_add_event(run, &stop, NULL));
 }
 
-/* The run stands at the stop; the velocities that it leaves with are set. */
+/* Sets the velocities after the bounce; the run stands at the stop. */
 static void bounce(baum_simulation *run)
 {
   double v[3];
@@ -93,8 +93,8 @@ static void bounce(baum_simulation *run)
   CHECK(baum_simulation_set_state(run, baum_simulation_time(run), baum_simulation_q(run), v));
 }
 
-/* Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into 1 -
- * cos(angle). */
+/* Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
+ * proportional to 1 - cos(angle). */
 static double tell_bounces(baum_simulation *run)
 {
   static const example_column columns[] = {{"bounce", "bounce", 'd', 0},
@@ -123,7 +123,7 @@ static double tell_bounces(baum_simulation *run)
   return worst;
 }
 
-/* ---- times that are known ---- */
+/* ---- break times: known in advance ---- */
 
 static double tell_kicks(baum_simulation *run, const pendulum *p)
 {

@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What happens at times: a pendulum that falls against a stop and bounces, at times that the run
-finds, and one that is kicked by a torque at times that are known before."""
+"""Events and break times: a pendulum bounces at a stop, at times that the run finds; and a torque
+kicks a pendulum at times that are known in advance."""
 import sys
 
-import numpy as np
-
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 LENGTH = 1.0  # [m] of a uniform rod of 1 kg
-ANGLE = 1.0  # [rad] at which it is let go
+ANGLE = 1.0  # [rad] at which it is released
 STOP = 0.0  # [rad] straight below the pin
 RESTITUTION = 0.9  # of the speed that a bounce leaves
 BOUNCES = 8
 KICKS = (1.0, 10.0), (1.05, 0.0), (2.0, 10.0), (2.05, 0.0), (3.0, 10.0), (3.05, 0.0)  # s, N m
 
 
-def pendulum():
+def pendulum() -> baum.Mechanism:
     m = baum.Mechanism()
     place = LENGTH / 2 * np.sin(ANGLE), -LENGTH / 2 * np.cos(ANGLE)
     rod = m.planar_body(
@@ -27,35 +27,36 @@ def pendulum():
     return m.freeze()
 
 
-def quarter(angle):
+def quarter(angle: float) -> float:
     """A quarter of the period of swings to an angle [s]: K(sin(angle / 2)) sqrt(2 l / (3 g)), K by
     the arithmetic-geometric mean."""
     a, b = 1.0, np.cos(angle / 2)
     for _ in range(8):
         a, b = (a + b) / 2, np.sqrt(a * b)
-    return np.pi / (2 * a) * np.sqrt(2 * LENGTH / (3 * 9.81))
+    return float(np.pi / (2 * a) * np.sqrt(2 * LENGTH / (3 * 9.81)))
 
 
 def exact_times():
-    """Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into
-    1 - cos(angle)."""
+    """Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
+    proportional to 1 - cos(angle)."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
-    return quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
+    times: Array = quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
+    return times
 
 
 def bounces(m):
-    """Times [s] and rates before [rad/s]."""
+    """Times [s] of the bounces and angular velocities before them [rad/s]."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")
-    rows = []
+    rows: list[tuple[float, float]] = []
     while len(rows) < BOUNCES and s.advance_to(100) == baum.Status.STOP_EVENT:
         rows.append((s.time, s.v[2]))
         s.set_state(s.time, s.q, -RESTITUTION * s.v)
     return np.array(rows).T
 
 
-def main():
+def main() -> int:
     report = Report("events")
     m = pendulum()
     times, rates = bounces(m)

@@ -35,11 +35,11 @@ static struct {
   const char *name;
   FILE *json;
   FILE *data;
-  const char *page; /* path for a page, of those that make one; NULL: not wanted */
+  const char *page; /* path of a page, for programs that make one; NULL: none */
   const example_column *columns;
   int column_count;
   int column; /* of the next cell */
-  bool shown; /* on the screen too */
+  bool shown; /* also on the screen */
   long rows;
   int checks;
   int failures;
@@ -77,7 +77,7 @@ static inline void example_begin(int argc, char **argv, const char *name)
   }
 }
 
-/* Ends the program when a part of the library is not built in. */
+/* Ends the program if a part of the library is not built in. */
 static inline void example_needs(const char *feature)
 {
   if (!baum_has(feature)) {
@@ -154,7 +154,7 @@ static inline void example_table(const char *name, const example_column *columns
   }
 }
 
-/* Opens the next cell in the files: what comes between it and the one before. */
+/* Writes the separator before the next cell in the files. */
 static inline const example_column *example_next_cell(void)
 {
   const example_column *column = &example.columns[example.column];
@@ -206,8 +206,7 @@ static inline void example_text(const char *text)
   example_close_cell();
 }
 
-/* The next cell of a row. What is not a number is shown as a dash, null in JSON, NaN for
- * gnuplot. */
+/* The next cell of a row. NaN is shown as a dash, null in JSON, NaN for gnuplot. */
 static inline void example_number(double value)
 {
   const example_column *column = example_next_cell();
@@ -230,7 +229,7 @@ static inline void example_number(double value)
   example_close_cell();
 }
 
-/* One line of what a run has cost, also as "counters" in the JSON. */
+/* One line with the cost of a run, also as "counters" in the JSON. */
 static inline void example_counters(baum_simulation *simulation)
 {
   baum_counters c;
@@ -250,7 +249,7 @@ static inline void example_counters(baum_simulation *simulation)
 
 /* ---- Judgement ------------------------------------------------------------ */
 
-/* A check that value <= limit; what is not a number fails. */
+/* Checks that value <= limit; NaN fails. */
 static inline void example_expect(const char *name, double value, double limit)
 {
   bool ok = value <= limit;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The first program: 1 kg on a massless rod of 1 m, let go from the horizontal. */
+/* The first program: 1 kg on a massless rod of 1 m, released from the horizontal. */
 #include <stdio.h>
 
 #include <baum/baum.h>
 
-/* Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod. */
+/* Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod. */
 static int circle(double t, const double *q, double *phi, void *user)
 {
   (void)t;

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a formulation and an integrator cost and give: the undriven slider-crank, let go at 150
- * rad/s, for 0.2 s. Error: the largest difference from the reference at its samples, angles in
- * radians, lengths by the length scale. Violations: of all rows; that of the guide's angle is in
- * radians. */
+/* Cost and accuracy of integrators and formulations: the undriven slider-crank, released at 150
+ * rad/s, for 0.2 s. Error: the largest difference from the reference at its samples, with angles
+ * in radians and lengths relative to the characteristic length. Violations: the largest of all
+ * rows; that of the guide's angle is in radians. */
 #include "slider_crank_reference.h"
 
 enum { SETTINGS = 3, SHOWN = 1 }; /* coarse, as in the table, fine */
 
-typedef enum way { STEP, RTOL } way;
+typedef enum tuning { STEP, RTOL } tuning;
 
 typedef struct method {
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  way goes_by;
+  tuning tuned_by;
   double settings[SETTINGS]; /* step [s] or rtol [-] */
   double error;              /* limit of its error in the table */
 } method;
@@ -35,7 +35,7 @@ static const method methods[] = {
 };
 enum { METHODS = sizeof methods / sizeof methods[0], BUILT_IN = 9 /* without SUNDIALS */ };
 
-/* What one run gave. */
+/* The results of one run. */
 typedef struct outcome {
   double error;
   double energy; /* [J] largest change of the energy */
@@ -47,7 +47,7 @@ static outcome simulate(const slider_crank *s, const method *how, int setting)
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = how->integrator();
   options.formulation = how->formulation;
-  *(how->goes_by == STEP ? &options.step : &options.rtol) = how->settings[setting];
+  *(how->tuned_by == STEP ? &options.step : &options.rtol) = how->settings[setting];
   baum_simulation *run = NULL;
   outcome out = {0};
   CHECK(baum_simulation_create(s->mechanism, &options, &run));
@@ -78,7 +78,7 @@ static void row(int k, int setting, const outcome *out)
   example_number(out->energy);
 }
 
-/* What was measured, in the table and, with all settings, in the files; then what decides. */
+/* Writes the results into the table and, with all settings, into the files; then the checks. */
 static void tell(outcome outcomes[][SETTINGS], int count)
 {
   static const example_column columns[] = {{"integrator", "integrator", 's', 19},
@@ -125,8 +125,8 @@ int main(int argc, char **argv)
   example_begin(argc, argv, "formulations");
   int count = baum_has("sundials") ? METHODS : BUILT_IN;
   slider_crank s = slider_crank_build(false);
-  printf("formulations: slider-crank, 3 bodies, 4 joints, 1 freedom; crank let go at %g rad/s, to "
-         "%g s\n",
+  printf("formulations: slider-crank, 3 bodies, 4 joints, 1 degree of freedom; crank released at "
+         "%g rad/s, to %g s\n",
          SLIDER_CRANK_SPEED, reference_time(REFERENCE_SAMPLES - 1));
   for (int k = 0; k < SETTINGS * count; k++) {
     outcomes[k / SETTINGS][k % SETTINGS] = simulate(&s, &methods[k / SETTINGS], k % SETTINGS);

@@ -1,21 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaper's quick-return motion by kinematics: its motor leaves no freedom, so that every configuration
-follows from the constraints alone, and the torque of the motor from the accelerations.
+"""A shaper's quick-return motion by kinematics: its motor leaves no degree of freedom, so that
+every configuration follows from the constraints alone, and the torque of the motor from the
+accelerations.
 
 A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps
 level. With the crank at angle p the ram is at x = H R cos(p) / (D + R sin(p)).
 """
+
 import sys
 
-import numpy as np
-
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 R, D, H = 0.1, 0.25, 0.6  # [m] crank, its shaft and the ram above the pivot of the rocker
-OMEGA = 4 * np.pi  # [rad/s] two turns a second
+OMEGA = 4 * np.pi  # [rad/s] two revolutions per second
 DAMPING = 200.0  # [N s/m] of the guide
-SAMPLES = 360  # of one turn
+SAMPLES = 360  # of one revolution
 
 COLUMNS = {
     "p": ("crank [deg]", "9.1f"),
@@ -28,7 +30,7 @@ COLUMNS = {
 
 
 def shaper():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
+    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)
@@ -43,7 +45,7 @@ def shaper():
     return m.freeze()
 
 
-def ram_at(t):
+def ram_at(t: Array) -> Array:
     """x [m], x' and x'' of the ram, from the closed form."""
     sine, cosine = np.sin(OMEGA * t), np.cos(OMEGA * t)
     height = D + R * sine
@@ -54,12 +56,13 @@ def ram_at(t):
 
 
 def turning_times():
-    """When the ram turns round [s]: sin(p) = -R / D; in between it goes back."""
+    """Times [s] at which the ram reverses: sin(p) = -R / D; in between it goes back."""
     more = np.arcsin(R / D)
-    return np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    return times
 
 
-def main():
+def main() -> int:
     report = Report("kinematics")
     m = shaper()
     times = np.linspace(0, 2 * np.pi / OMEGA, SAMPLES + 1)
@@ -81,7 +84,7 @@ def main():
     report.expect("its acceleration, off by [m/s^2]", error[2], 1e-9)
     turned = m.simulate(turning_times(), "kinematics")["ram.velocity"][:, 0]
     report.expect("velocity where it turns round [m/s]", abs(turned).max(), 1e-11)
-    # Means over a turn of what repeats itself: the trapezoidal rule is exact but for rounding.
+    # Means over a revolution of periodic values: the trapezoidal rule is exact except for rounding.
     work = OMEGA * effort[1:].mean() * times[-1]
     lost = DAMPING * (ram[1, 1:] ** 2).mean() * times[-1]
     report.expect("motor's work less the oil's [J]", abs(work - lost), 1e-9 * lost)

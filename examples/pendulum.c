@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pendulum by one function: 1 kg on a massless rod of 1 m, let go from the horizontal. */
+/* A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal. */
 #include <baum/baum.h>
 
 #include "example_util.h"
@@ -8,7 +8,7 @@ enum { SAMPLES = 501, SHOWN = 25 /* every so many */ };
 
 static double path[SAMPLES][5]; /* t, x, y, error, energy change, for the figure */
 
-/* Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod. */
+/* Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod. */
 static int circle(double t, const double *q, double *phi, void *user)
 {
   (void)t;
@@ -91,7 +91,7 @@ int main(int argc, char **argv)
   options.rtol = 1e-9;
   baum_simulation *run = NULL;
   CHECK(baum_simulation_create(mechanism, &options, &run));
-  printf("pendulum: 1 kg on a rod of 1 m, let go from the horizontal\n%s\n\n",
+  printf("pendulum: 1 kg on a rod of 1 m, released from the horizontal\n%s\n\n",
          baum_simulation_explain(run));
 
   static const example_column columns[] = {{"t", "t [s]", 'f', 1},

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pendulum by one function: 1 kg on a massless rod of 1 m, let go from the horizontal."""
+"""A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
 
 import sys
-
-import numpy as np
+from typing import Any
 
 import baum
+import numpy as np
 from support.report import Report
 
-METHOD = (
+METHOD: dict[str, Any] = (
     dict(integrator="cvode_adams", rtol=1e-9)
     if baum.has("sundials")
     else dict(integrator="rk4", step=2e-3)
@@ -23,7 +23,7 @@ COLUMNS = {
 
 
 def pendulum():
-    """Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod."""
+    """Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint("rod", [bob], rows=1, phi=lambda t, q: q @ q - 1)
@@ -31,15 +31,15 @@ def pendulum():
 
 
 def period():
-    """Of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
+    """Period of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
     arithmetic-geometric mean."""
     a, b = 1.0, np.sqrt(0.5)
     for _ in range(6):
         a, b = (a + b) / 2, np.sqrt(a * b)
-    return 2 * np.pi / a * np.sqrt(1 / 9.81)
+    return float(2 * np.pi / a * np.sqrt(1 / 9.81))
 
 
-def main():
+def main() -> int:
     report = Report("pendulum")
     m = pendulum()
     lowest = period() * (0.25 + 0.5 * np.arange(8))

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rollback: every two milliseconds a controller tries two torques on the run itself, a turn of the
- * crank ahead each, goes back to where it was by what it has saved, and takes the torque whose end
- * has the better speed. Saving and restoring allocate nothing, and with a one-step method and
- * blocks the run goes on as if nothing had been tried. */
+/* Rollback: every two milliseconds a controller tries two torques on the run itself, each for
+ * one revolution of the crank. It restores the saved run after each trial and takes the torque
+ * that ends with the better speed. Saving and restoring allocate nothing. With a one-step method
+ * and blocks the run continues as if nothing had been tried. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -10,7 +10,7 @@
 enum { STEPS = 20 /* of one interval */, AHEAD = 420, INTERVALS = 125 /* of one row */, ROWS = 8 };
 
 static const double STEP = 1e-4;   /* [s] */
-static const double SPEED = 150.0; /* [rad/s] wanted; the run starts with it */
+static const double SPEED = 150.0; /* [rad/s] set point and initial speed */
 static const double BRAKE = -0.1;  /* [N m] always on */
 static const double FULL = 0.6;    /* [N m] of the motor, which can be on or off */
 
@@ -39,7 +39,7 @@ static double angle(const plant *p)
   return crank[0];
 }
 
-/* How far off the mean speed is when a torque acts for a while from here; the run is put back. */
+/* The error of the mean speed if a torque acts for a while from here; the run is restored. */
 static double try_torque(plant *p, double torque)
 {
   size_t size = 0;
@@ -59,7 +59,7 @@ static double try_torque(plant *p, double torque)
 
 static baum_mechanism *build(slider_crank *s, plant *p)
 {
-  baum_mechanism *mechanism = NULL; /* a copy, for that of s is frozen */
+  baum_mechanism *mechanism = NULL; /* a copy, because that of s is frozen */
   CHECK(baum_mechanism_copy(s->mechanism, &mechanism));
   baum_planar_load_def load = baum_planar_load_def_default();
   load.body = s->crank;
@@ -84,7 +84,8 @@ int main(int argc, char **argv)
   options.integrator = baum_semi_implicit_euler();
   options.step = STEP;
   CHECK(baum_simulation_create(mechanism, &options, &p.run));
-  CHECK(baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* the size that is always enough */
+  CHECK(
+    baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* a capacity that is always sufficient */
   p.buffer = malloc(p.capacity);
   if (!p.buffer) {
     return EXIT_FAILURE;

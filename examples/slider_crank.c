@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 3 of Flores et al. 2008: the eccentric slider-crank, its crank driven at constant speed, by
- * explicit Euler with eight sets of Baumgarte's gains: what becomes of Phi_3.
+/* Fig. 3 of Flores et al. 2008: Phi_3 of the eccentric slider-crank, its crank driven at constant
+ * speed, with explicit Euler and eight sets of Baumgarte's gains.
  *
- * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e; what was
- * there before goes on by (6), so that
+ * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e. Earlier
+ * violations obey (6), so that
  *   Phi_3+ = Phi_3 + h Phi_3' + d,   Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e,
  * the recursion with the characteristic equation (19). */
 #include "slider_crank_model.h"
@@ -12,7 +12,7 @@ enum { STEPS = 10000, TURN = 419, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
 
 static const double H = 1e-4; /* [s] */
 
-/* What the runs are compared with, at every step. */
+/* The exact motion at every step, with which the runs are compared. */
 static struct {
   double t[STEPS + 1];
   double x[STEPS + 1]; /* of the slider */
@@ -20,13 +20,14 @@ static struct {
   double e[STEPS + 1];
 } exact;
 
-/* What comes out of a run at every step: Phi_3 and Phi_4; x, y and angle of the slider. */
+/* Results of a run at every step: Phi_3 and Phi_4; x, y and angle of the slider. */
 enum { PHI3, X = 2, CHANNELS = 5 };
 
 static double rows[SETS][STEPS + 1][CHANNELS];
 static double predicted[SETS][STEPS + 1]; /* Phi_3 */
 
-/* A driven mechanism has no freedom left: its motion follows from the constraints alone. */
+/* A driven mechanism has no degree of freedom left: its motion follows from the constraints
+ * alone. */
 static void solve_kinematics(const baum_mechanism *mechanism)
 {
   baum_workspace *workspace = NULL;
@@ -190,7 +191,7 @@ int main(int argc, char **argv)
          "predicted     by the recursion of (19); steady: by the library, for gains >= 0.1/h\n\n",
          SLIDER_CRANK_SPEED, H, STEPS);
   example_table("gain_sets", columns, 11, true);
-  double steady = 0.0; /* what the library itself predicts for the last set */
+  double steady = 0.0; /* the library's own prediction for the last set */
   for (int set = 0; set < SETS; set++) {
     baum_gains gains = {.rule = sets[set].rule, .value = {sets[set].value[0], sets[set].value[1]}};
     baum_counters counters = simulate(&s, gains, set);

@@ -6,12 +6,14 @@ Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 
 Table 1. The eccentricity and the other numbers of the runs are choices made here, because the
 paper's are not known. The motion is known in closed form: each run shows its error too.
 """
+
 import sys
 import warnings
-
-import numpy as np
+from typing import Any
 
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 R, L, E = 0.153, 0.306, 0.05  # [m] crank, rod, height of the guide
@@ -29,16 +31,22 @@ GAINS = {
     "stiff, alpha = beta = 1/h": baum.scaled(1, 1),
 }
 
+Row = dict[str, Any]
 COLUMNS = {
-    "gains": ("gains", "25s"), "alpha": ("alpha [1/s]", "9.1f"), "beta": ("beta [1/s]", "9.1f"),
-    "spectral_radius": ("largest |z|", "9.5f"), "stability": ("class", "8s"),
-    "max_phi3": ("max|Phi_3| [m]", "9.2e"), "final_phi3": ("at the end [m]", "9.2e"),
-    "max_phi": ("max|Phi|", "9.2e"), "slider_error": ("slider off by [m]", "9.1e"),
+    "gains": ("gains", "25s"),
+    "alpha": ("alpha [1/s]", "9.1f"),
+    "beta": ("beta [1/s]", "9.1f"),
+    "spectral_radius": ("largest |z|", "9.5f"),
+    "stability": ("class", "8s"),
+    "max_phi3": ("max|Phi_3| [m]", "9.2e"),
+    "final_phi3": ("at the end [m]", "9.2e"),
+    "max_phi": ("max|Phi|", "9.2e"),
+    "slider_error": ("slider off by [m]", "9.1e"),
 }
 
 
 def slider_crank():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
+    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -51,13 +59,14 @@ def slider_crank():
     return m.freeze()
 
 
-def slider_at(t):
+def slider_at(t: Array) -> Array:
     """x of the slider [m], from the closed loop."""
-    return R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
+    x: Array = R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
+    return x
 
 
 def simulate(m, gains, times):
-    """A run and what the table says of it; Phi_3 is the first row of pin B."""
+    """A run and its row of the table; Phi_3 is the first row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -67,12 +76,12 @@ def simulate(m, gains, times):
 
 
 def check(report, runs, said):
-    """What the paper says of its eight sets, in numbers."""
+    """Checks of the paper's statements on its eight sets."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # the start is forgotten after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # decayed after half of the run
             report.expect(f"{name}, last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)
@@ -82,7 +91,7 @@ def check(report, runs, said):
     report.expect("stiff: slider off by [m]", said[name]["slider_error"], 1e-4)
 
 
-def plot(path, runs):
+def plot(path: str, runs: dict[str, baum.Run]) -> None:
     """Phi_3 over time, each set in a frame of its own."""
     import matplotlib.pyplot as plt
 
@@ -95,9 +104,9 @@ def plot(path, runs):
     figure.savefig(path)
 
 
-def main():
+def main() -> int:
     report = Report("slider_crank", plot="draw the third constraint there; needs Matplotlib")
-    m, times = slider_crank(), H * np.arange(10001)
+    m, times = slider_crank(), H * np.arange(10001.0)
     print(f"{m}: {m.mobility()}\nexplicit Euler, h = {H:g} s, crank at {OMEGA:g} rad/s for 1 s\n")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", baum.Warning)  # of marginal gains, as the table shows

@@ -16,7 +16,7 @@
 static const double SLIDER_CRANK_R = 0.153;     /* [m] crank */
 static const double SLIDER_CRANK_L = 0.306;     /* [m] rod */
 static const double SLIDER_CRANK_E = 0.05;      /* [m] height of the guide above the crank's pin */
-static const double SLIDER_CRANK_SPEED = 150.0; /* [rad/s] of the crank, at start or always */
+static const double SLIDER_CRANK_SPEED = 150.0; /* [rad/s] of the crank, initial or prescribed */
 
 typedef struct slider_crank {
   baum_mechanism *mechanism;
@@ -30,7 +30,7 @@ typedef struct slider_crank {
   baum_joint_id motor; /* when driven */
 } slider_crank;
 
-/* A pin on the x axes of two bodies, at so much from their centres. */
+/* A pin on the x axes of two bodies, at given distances from their centres. */
 static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const char *name,
                                              baum_body_id body_a, double at_a, baum_body_id body_b,
                                              double at_b)
@@ -47,7 +47,7 @@ static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const ch
   return id;
 }
 
-/* Bodies in a rough design configuration with the crank at angle 0; assembly does the rest. */
+/* Bodies in a rough design configuration with the crank at angle 0; assembly closes the joints. */
 static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
 {
   const double r = SLIDER_CRANK_R;
@@ -79,8 +79,8 @@ static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
   CHECK(baum_mechanism_add_planar_body(s->mechanism, &body, &s->slider));
 }
 
-/* Driven: the crank turns at constant speed and no freedom is left. Else only its speed at start is
- * given. */
+/* Driven: the crank rotates at constant speed and no degree of freedom is left. Otherwise only
+ * its initial speed is given. */
 static inline slider_crank slider_crank_build(bool driven)
 {
   const double r = SLIDER_CRANK_R;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 1 of Flores et al. 2008, for every integrator of fixed step: for which gains does it keep
- * constraints? The library says so before any run: inside the outline of its region in the plane of
- * alpha h and beta^2 h^2, which is equation (19)'s triangle for explicit Euler, and how fast
- * violations decay there. A slider-crank says what it does: it starts with all rows violated, and
- * gains are good when the largest violation never gets out of hand and is smaller in the last
- * quarter of the run than in the first. */
+/* Fig. 1 of Flores et al. 2008 for every fixed-step integrator: which gains are stable?
+ * Predicted: the library knows the outline of the stable region in the plane of alpha h and
+ * beta^2 h^2 (for explicit Euler the triangle of equation (19)) and how fast violations decay
+ * there. Observed: a slider-crank starts with all rows violated. Gains count as stable if the
+ * largest violation stays bounded and is smaller in the last quarter of the run than in the
+ * first. */
 #include "slider_crank_model.h"
 
 enum { CELLS = 22, STEPS = 1500, NQ = 9, NC = 8, OUTLINE = 2000 };
 
 static const double H = 1e-5 / 150.0; /* [s] the crank turns by 1e-5 rad a step */
-static const double OFF = 1e-6;       /* [m, rad] of every coordinate at start */
-static const double FAR = 1e3;        /* out of hand, times the start's violation */
+static const double OFF = 1e-6;       /* [m, rad] initial error of every coordinate */
+static const double FAR = 1e3;        /* bound, times the initial violation */
 static const double LEVELS[] = {1.0, 0.9, 0.75, 0.5, 0.25};
 
 typedef const baum_integrator *integrator_fn(void);
@@ -25,7 +25,7 @@ enum { INTEGRATOR_COUNT = sizeof INTEGRATORS / sizeof INTEGRATORS[0] };
 typedef struct bench {
   baum_mechanism *mechanism;
   baum_workspace *workspace;
-  double q[NQ]; /* violated */
+  double q[NQ]; /* configuration that violates all rows */
   double v[NQ];
 } bench;
 
@@ -44,7 +44,7 @@ static baum_simulation *start(const bench *b, const baum_integrator *integrator,
   return run;
 }
 
-/* The assembled start, every coordinate moved a little, no two alike. */
+/* The assembled initial configuration, with every coordinate moved by a different small amount. */
 static bench make_bench(void)
 {
   bench out = {.mechanism = slider_crank_build(false).mechanism};
@@ -103,7 +103,8 @@ static bool predicted_stable(const baum_integrator *integrator, double alpha_h, 
   return z.stability == BAUM_STABLE;
 }
 
-/* The level lines, a table of its own. @return the largest alpha h and beta^2 h^2 of the region */
+/* Writes the contours into a table of their own. @return the largest alpha h and beta^2 h^2 of
+ * the region */
 static void draw_outlines(const baum_integrator *integrator, double most[2])
 {
   static const example_column columns[] = {{"radius", "spectral radius [-]", 'f', 2},
@@ -121,7 +122,7 @@ static void draw_outlines(const baum_integrator *integrator, double most[2])
       example_number(LEVELS[l]);
       example_number(line[0][k]);
       example_number(line[1][k]);
-      most[0] = fmax(most[0], line[0][k]); /* of the first, which is the widest */
+      most[0] = fmax(most[0], line[0][k]); /* of the first contour, which is the widest */
       most[1] = fmax(most[1], line[1][k]);
     }
   }
@@ -134,7 +135,7 @@ typedef struct window {
   double step[2];
 } window;
 
-/* Off the axes and off edges with round numbers. */
+/* Points off the axes and off edges at round numbers. */
 static double alpha_at(const window *w, int i)
 {
   return fmax(0.0, w->step[0] * (i + 0.6));
@@ -188,8 +189,8 @@ typedef struct summary {
   const char *name;
   double limit;   /* of alpha h at alpha = beta */
   double best[2]; /* alpha h, beta^2 h^2 */
-  double radius;  /* there */
-  double agree;   /* [%] */
+  double radius;  /* at the best point */
+  double agree;   /* [%] of the points that agree */
 } summary;
 
 static summary examine(const bench *b, const baum_integrator *integrator, int *astray)
@@ -224,9 +225,8 @@ static void show(const summary *all)
   }
 }
 
-/* With Taylor's gains explicit Euler has z^2 = -1: a violation comes back every fourth step and
- * stays.
- * @return its relative change in 1000 steps */
+/* With Taylor's gains explicit Euler has z^2 = -1: a violation returns every fourth step and
+ * stays. @return its relative change in 1000 steps */
 static double taylor(const bench *b)
 {
   static const example_column columns[] = {{"step", "step", 'd', 5}, {"phi", "Phi_1 [m]", 'e', 3}};

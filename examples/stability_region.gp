@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fig. 1 for every integrator of fixed step: the predicted region with level lines of the spectral
-# radius, and what a slider-crank did. Run in the folder of stability_region.dat.
+# Fig. 1 for every fixed-step integrator: the predicted region with contours of the spectral radius,
+# and the observed behaviour of a slider-crank. Run in the folder of stability_region.dat.
 set terminal pngcairo size 1900,860 font "Sans,11"
 set output "stability_region.png"
 data = "stability_region.dat"
@@ -25,7 +25,7 @@ do for [k=1:10] {
   name = word(names, k)
   set title word(titles, k) font "Sans,12" offset 0,-0.6
   if (k == 10) { set key at screen 0.5,0.03 center center maxrows 1 samplen 2 width 1 } else { unset key }
-  # What has no points in one of the plots would be missing in its key.
+  # A kind without points in one of the plots would be missing in its key.
   plot data index name."_points" using ($4 == 0 ? $1 : NaN):2 with points pt 7 ps 0.25 \
          lc rgb "#d9a27a" notitle, \
        data index name."_points" using ($4 == 1 ? $1 : NaN):2 with points pt 7 ps 0.55 \

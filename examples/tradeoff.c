@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What accuracy costs: a study of the undriven slider-crank, let go at 150 rad/s, for 0.2 s. Every
- * integrator with every formulation, and what to take for an error. With --page FILE all of it as a
- * page for a browser. */
+/* Accuracy against cost: a study of the undriven slider-crank, released at 150 rad/s, for 0.2 s.
+ * It runs every integrator with every formulation and recommends settings. --page FILE writes
+ * everything as a page for a browser. */
 #include "slider_crank_reference.h"
 
-static const char TITLE[] = "Undriven slider-crank, let go at 150 rad/s";
+static const char TITLE[] = "Undriven slider-crank, released at 150 rad/s";
 
-/* A grid that takes some seconds: few settings, and a limit on the cost of one. */
+/* A grid that takes a few seconds: few settings, and a limit on the cost of each. */
 static baum_study *make_study(const slider_crank *s)
 {
   baum_study *study = NULL;
@@ -72,7 +72,7 @@ static void tell_entries(const baum_study *study)
   }
 }
 
-/* The error of a run with these options, against values that this library has not made. */
+/* The error of a run with these options against a reference that was made without this library. */
 static double error_of(const slider_crank *s, const baum_simulation_options *options)
 {
   baum_simulation *run = NULL;
@@ -86,7 +86,7 @@ static double error_of(const slider_crank *s, const baum_simulation_options *opt
   return error;
 }
 
-/* What to take for some errors, tried. */
+/* Recommendations for some errors, and runs that try them. */
 static void recommend(const baum_study *study, const slider_crank *s)
 {
   static const double wanted[] = {1e-2, 1e-4, 1e-6, 1e-8};

@@ -3,7 +3,7 @@
 # usage: sh tests/run.sh [STAGE...]
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
-#   format docs build test asan minimal install python
+#   format types docs build test asan minimal install python
 #   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   longer or rarer, by name only
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders have 100 in any case.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
@@ -12,7 +12,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-usual="format docs build test asan minimal install python"
+usual="format types docs build test asan minimal install python"
 named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
@@ -26,6 +26,17 @@ stage_format() {
   need_venv
   echo "limits"
   sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
+}
+
+# Layout, hints and lines of the Python package and of the examples.
+stage_types() {
+  need_venv
+  settings=bindings/python/pyproject.toml
+  "$venv/bin/ruff" format --quiet --check --diff --config $settings bindings/python examples
+  "$venv/bin/ruff" check --quiet --config $settings bindings/python examples
+  "$venv/bin/mypy" --strict --config-file $settings bindings/python/baum examples/*.py \
+    tests/python/hints.py
+  "$venv/bin/pyright" --project $settings --pythonpath "$venv/bin/python"
 }
 
 # The reference manual in build/doxygen; every public function, parameter and field is documented.
@@ -129,6 +140,7 @@ stage_coverage() {
     grep -v ' 100% *$' build/coverage/below.txt
     return 1
   }
+  "$venv/bin/python" tests/layout/check_messages.py --untriggered "$all.json" .
 }
 
 # What stage asan leaves out.

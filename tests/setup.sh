@@ -6,7 +6,8 @@ jobs=$(nproc)
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev
   libgsl-dev libcmocka-dev python3 python3-venv"
 venv=build/venv
-venv_packages="numpy matplotlib lizard"
+venv_packages="numpy matplotlib pandas pandas-stubs lizard mypy==2.4.1
+  pyright[nodejs]==1.1.414 ruff==0.17.6"
 
 heading() {
   printf '\n==== %s\n' "$*"

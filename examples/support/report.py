@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the Python examples share: tables, checks that decide, the JSON file with both.
+"""Shared by the Python examples: tables, checks that decide the exit code, the JSON file with both.
 
 The JSON is as that of the C examples:
 "name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
@@ -8,22 +8,25 @@ The JSON is as that of the C examples:
 import argparse
 import json
 import math
+from typing import Any, Iterable, Sequence
 
-from baum import library_version
+from baum import Counters, library_version
 
 
 class Report:
     """An example's command line, and what it prints and writes."""
 
-    def __init__(self, name, **options):
+    def __init__(self, name: str, **options: str) -> None:
         parser = argparse.ArgumentParser(prog=name)
         for option, explanation in {"json": "write tables and checks there", **options}.items():
             parser.add_argument(f"--{option}", metavar="FILE", help=explanation)
         self.options = parser.parse_args()
-        self._tables = {"example": name, "version": library_version}
-        self._checks = []
+        self._tables: dict[str, Any] = {"example": name, "version": library_version}
+        self._checks: list[dict[str, Any]] = []
 
-    def table(self, name, columns, rows):
+    def table(
+        self, name: str, columns: dict[str, tuple[str, str]], rows: Iterable[Sequence[Any]]
+    ) -> None:
         """Print and keep a table. columns: key -> (title, format); rows: lists of values."""
         widths = {
             key: max(len(title), len(self._text(form, -1.0 if "s" not in form else "")))
@@ -45,20 +48,22 @@ class Report:
         }
 
     @staticmethod
-    def _text(form, value):
+    def _text(form: str, value: Any) -> str:
         return "-" if isinstance(value, float) and math.isnan(value) else format(value, form)
 
     @staticmethod
     def _number(value):
-        """A value for JSON, which knows no NaN."""
+        """A value for JSON, which has no NaN."""
         return (
             value
             if isinstance(value, (str, int))
-            else float(value) if math.isfinite(value) else None
+            else float(value)
+            if math.isfinite(value)
+            else None
         )
 
     def counters(self, counters):
-        """Print and keep what a run has cost."""
+        """Print and keep the cost of a run."""
         kept = {
             key: getattr(counters, key)
             for key in ("steps", "evaluations", "rejected", "factorizations")
@@ -67,12 +72,12 @@ class Report:
         self._tables["counters"] = kept
 
     def expect(self, name, value, limit):
-        """A check that value <= limit; what is not a number fails."""
+        """Check that value <= limit; NaN fails."""
         ok = bool(value <= limit)
         print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")
         self._checks.append({"name": name, "value": self._number(value), "limit": limit, "ok": ok})
 
-    def end(self):
+    def end(self) -> int:
         """Write the file. Returns the exit code."""
         ok = all(check["ok"] for check in self._checks)
         if self.options.json:

@@ -546,7 +546,7 @@ typedef struct baum_counters {
   /** [-] of these, those that chose new pivots and may allocate. */
   int64_t full_factorizations;
   int64_t nonlinear_iterations; /**< [-] of CVODE, IDA, kinematics. */
-  int64_t restarts;             /**< [-] of a multistep method. */
+  int64_t restarts;             /**< [-] of multistep and variable-step methods. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
   int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
   double wall;                  /**< [s] inside advance_to, step and sample. */

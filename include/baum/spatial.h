@@ -7,12 +7,12 @@
  *  It has six velocities: r' in ground axes and the angular velocity in body axes. A particle has
  *  three of each.
  *
- *  Placing: as in planar.h, by `point` in ground axes, or by `point_a` and `point_b` in the axes of
- *  the bodies. Planar bodies and particles may take part in spatial joints and springs; they stay
- *  in their plane z = 0.
+ *  Points: joints and springs are placed as in planar.h, by `point` in ground axes, or by `point_a`
+ *  and `point_b` in the axes of the bodies. Planar bodies and particles may take part in spatial
+ *  joints and springs. They stay in the plane z = 0.
  *
- *  Reaction of a joint: force [N] and moment [N m] on body_b, ground axes, about the joint's point
- *  on body_b.
+ *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
+ *  point on body_b.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H
@@ -43,28 +43,24 @@ typedef struct baum_spatial_body_def {
   bool held; /**< Assembly keeps the design position and orientation. Default: false. */
 } baum_spatial_body_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_body_def_init(baum_spatial_body_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_body_def baum_spatial_body_def_default(void)
 {
   baum_spatial_body_def def;
   baum_spatial_body_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_body(baum_mechanism *mechanism,
                                                      const baum_spatial_body_def *def,
                                                      baum_body_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_body(const baum_mechanism *mechanism,
                                                      baum_body_id id, baum_spatial_body_def *out,
                                                      size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_body(baum_mechanism *mechanism, baum_body_id id,
                                                      const baum_spatial_body_def *def);
 
@@ -80,29 +76,25 @@ typedef struct baum_spatial_particle_def {
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_spatial_particle_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_particle_def_init(baum_spatial_particle_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_particle_def baum_spatial_particle_def_default(void)
 {
   baum_spatial_particle_def def;
   baum_spatial_particle_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_particle(baum_mechanism *mechanism,
                                                          const baum_spatial_particle_def *def,
                                                          baum_body_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_particle(const baum_mechanism *mechanism,
                                                          baum_body_id id,
                                                          baum_spatial_particle_def *out,
                                                          size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechanism, baum_body_id id,
                                                          const baum_spatial_particle_def *def);
 
@@ -114,8 +106,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechani
 typedef struct baum_spatial_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
@@ -128,29 +120,25 @@ typedef struct baum_spatial_spring_def {
   bool depends_on_velocity;
 } baum_spatial_spring_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_spring_def_init(baum_spatial_spring_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_spring_def baum_spatial_spring_def_default(void)
 {
   baum_spatial_spring_def def;
   baum_spatial_spring_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_spring(baum_mechanism *mechanism,
                                                        const baum_spatial_spring_def *def,
                                                        baum_force_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_spring(const baum_mechanism *mechanism,
                                                        baum_force_id id,
                                                        baum_spatial_spring_def *out,
                                                        size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism, baum_force_id id,
                                                        const baum_spatial_spring_def *def);
 
@@ -161,7 +149,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 typedef struct baum_spatial_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;  /**< Must be set; not ground. */
+  baum_body_id body;  /**< Default: none, must be set; not ground. */
   double point[3];    /**< [m] on the body, its axes. Default: (0, 0, 0). */
   double force[3];    /**< [N]. Default: (0, 0, 0). */
   double moment[3];   /**< [N m] about the point; zero on a particle. Default: (0, 0, 0). */
@@ -169,28 +157,24 @@ typedef struct baum_spatial_load_def {
   baum_input_id input; /**< Default: none. */
 } baum_spatial_load_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_load_def_init(baum_spatial_load_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_load_def baum_spatial_load_def_default(void)
 {
   baum_spatial_load_def def;
   baum_spatial_load_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_load(baum_mechanism *mechanism,
                                                      const baum_spatial_load_def *def,
                                                      baum_force_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_load(const baum_mechanism *mechanism,
                                                      baum_force_id id, baum_spatial_load_def *out,
                                                      size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_load(baum_mechanism *mechanism, baum_force_id id,
                                                      const baum_spatial_load_def *def);
 

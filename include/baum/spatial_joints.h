@@ -22,36 +22,32 @@ extern "C" {
 typedef struct baum_spatial_spherical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
 } baum_spatial_spherical_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_spherical_def_init(baum_spatial_spherical_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_spherical_def baum_spatial_spherical_def_default(void)
 {
   baum_spatial_spherical_def def;
   baum_spatial_spherical_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_spherical(baum_mechanism *mechanism,
                                                           const baum_spatial_spherical_def *def,
                                                           baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_spherical(const baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           baum_spatial_spherical_def *out,
                                                           size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           const baum_spatial_spherical_def *def);
@@ -64,39 +60,37 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
 typedef struct baum_spatial_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
-  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
+   *  design configuration. */
+  double axis_b[3];
 } baum_spatial_revolute_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_revolute_def_init(baum_spatial_revolute_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_revolute_def baum_spatial_revolute_def_default(void)
 {
   baum_spatial_revolute_def def;
   baum_spatial_revolute_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_revolute(baum_mechanism *mechanism,
                                                          const baum_spatial_revolute_def *def,
                                                          baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_revolute(const baum_mechanism *mechanism,
                                                          baum_joint_id id,
                                                          baum_spatial_revolute_def *out,
                                                          size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechanism,
                                                          baum_joint_id id,
                                                          const baum_spatial_revolute_def *def);
@@ -108,39 +102,36 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
-  double axis_b[3]; /**< [-] likewise on body_b. Must be given. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be set. */
+  double axis_b[3];
 } baum_spatial_universal_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_universal_def_init(baum_spatial_universal_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_universal_def baum_spatial_universal_def_default(void)
 {
   baum_spatial_universal_def def;
   baum_spatial_universal_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_universal(baum_mechanism *mechanism,
                                                           const baum_spatial_universal_def *def,
                                                           baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_universal(const baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           baum_spatial_universal_def *out,
                                                           size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           const baum_spatial_universal_def *def);
@@ -153,40 +144,38 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
 typedef struct baum_spatial_cylindrical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
-  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
+   *  design configuration. */
+  double axis_b[3];
 } baum_spatial_cylindrical_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_cylindrical_def_init(baum_spatial_cylindrical_def *def,
                                                 size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_cylindrical_def baum_spatial_cylindrical_def_default(void)
 {
   baum_spatial_cylindrical_def def;
   baum_spatial_cylindrical_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_cylindrical(baum_mechanism *mechanism,
                                                             const baum_spatial_cylindrical_def *def,
                                                             baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_cylindrical(const baum_mechanism *mechanism,
                                                             baum_joint_id id,
                                                             baum_spatial_cylindrical_def *out,
                                                             size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
   baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_cylindrical_def *def);
 
@@ -198,39 +187,37 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
 typedef struct baum_spatial_prismatic_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
-  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
+   *  design configuration. */
+  double axis_b[3];
 } baum_spatial_prismatic_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_prismatic_def_init(baum_spatial_prismatic_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_prismatic_def baum_spatial_prismatic_def_default(void)
 {
   baum_spatial_prismatic_def def;
   baum_spatial_prismatic_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_prismatic(baum_mechanism *mechanism,
                                                           const baum_spatial_prismatic_def *def,
                                                           baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_prismatic(const baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           baum_spatial_prismatic_def *out,
                                                           size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechanism,
                                                           baum_joint_id id,
                                                           const baum_spatial_prismatic_def *def);
@@ -242,39 +229,37 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
 typedef struct baum_spatial_planar_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
-  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
+   *  design configuration. */
+  double axis_b[3];
 } baum_spatial_planar_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_planar_def_init(baum_spatial_planar_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_planar_def baum_spatial_planar_def_default(void)
 {
   baum_spatial_planar_def def;
   baum_spatial_planar_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_planar(baum_mechanism *mechanism,
                                                        const baum_spatial_planar_def *def,
                                                        baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_planar(const baum_mechanism *mechanism,
                                                        baum_joint_id id,
                                                        baum_spatial_planar_def *out,
                                                        size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism, baum_joint_id id,
                                                        const baum_spatial_planar_def *def);
 
@@ -285,35 +270,31 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
 typedef struct baum_spatial_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
 } baum_spatial_fixed_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_fixed_def_init(baum_spatial_fixed_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_fixed_def baum_spatial_fixed_def_default(void)
 {
   baum_spatial_fixed_def def;
   baum_spatial_fixed_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_fixed(baum_mechanism *mechanism,
                                                       const baum_spatial_fixed_def *def,
                                                       baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_fixed(const baum_mechanism *mechanism,
                                                       baum_joint_id id, baum_spatial_fixed_def *out,
                                                       size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism, baum_joint_id id,
                                                       const baum_spatial_fixed_def *def);
 
@@ -324,37 +305,33 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 typedef struct baum_spatial_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double length;       /**< [m] > 0. Default: NaN, that of the design configuration. */
 } baum_spatial_distance_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_distance_def_init(baum_spatial_distance_def *def, size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_distance_def baum_spatial_distance_def_default(void)
 {
   baum_spatial_distance_def def;
   baum_spatial_distance_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_distance(baum_mechanism *mechanism,
                                                          const baum_spatial_distance_def *def,
                                                          baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_distance(const baum_mechanism *mechanism,
                                                          baum_joint_id id,
                                                          baum_spatial_distance_def *out,
                                                          size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechanism,
                                                          baum_joint_id id,
                                                          const baum_spatial_distance_def *def);
@@ -366,38 +343,34 @@ BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechani
 typedef struct baum_spatial_point_on_line_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
 } baum_spatial_point_on_line_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_point_on_line_def_init(baum_spatial_point_on_line_def *def,
                                                   size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_point_on_line_def baum_spatial_point_on_line_def_default(void)
 {
   baum_spatial_point_on_line_def def;
   baum_spatial_point_on_line_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_point_on_line(
   baum_mechanism *mechanism, const baum_spatial_point_on_line_def *def, baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_point_on_line(const baum_mechanism *mechanism,
                                                               baum_joint_id id,
                                                               baum_spatial_point_on_line_def *out,
                                                               size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
   baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_line_def *def);
 
@@ -408,38 +381,34 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
 typedef struct baum_spatial_point_on_plane_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Must be set. */
-  baum_body_id body_b; /**< Must be set; not body_a. */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  double axis[3];
 } baum_spatial_point_on_plane_def;
 
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_init() */
 BAUM_API void baum_spatial_point_on_plane_def_init(baum_spatial_point_on_plane_def *def,
                                                    size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_spatial_point_on_plane_def baum_spatial_point_on_plane_def_default(void)
 {
   baum_spatial_point_on_plane_def def;
   baum_spatial_point_on_plane_def_init(&def, sizeof def);
   return def;
 }
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_add_coordinates() */
 BAUM_API baum_status baum_mechanism_add_spatial_point_on_plane(
   baum_mechanism *mechanism, const baum_spatial_point_on_plane_def *def, baum_joint_id *id);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_get_coordinates() */
 BAUM_API baum_status baum_mechanism_get_spatial_point_on_plane(const baum_mechanism *mechanism,
                                                                baum_joint_id id,
                                                                baum_spatial_point_on_plane_def *out,
                                                                size_t caller_size);
-
-/** See "Definitions" in mechanism.h. */
+/** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
   baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_plane_def *def);
 

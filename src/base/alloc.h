@@ -1,32 +1,33 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All heap use of the library's own code goes through here: zeroed, checked against overflow. */
+/* Heap memory. All of the library's own code allocates through these functions. */
 #ifndef BAUM_I_BASE_ALLOC_H
 #define BAUM_I_BASE_ALLOC_H
 
 #include <stddef.h>
 
-/* Zeroed memory for count elements; one byte at least, so that NULL always means "out of
+/* Allocate zeroed memory for count elements. It has at least one byte, so NULL always means "out of
  * memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
-/* Grow an array to hold count elements, which means room for the least power of two of them; on
- * failure returns NULL and leaves the old one. */
+/* Grow an array to hold count elements; its room is rounded up to a power of two. On failure the
+ * function returns NULL and the old array stays valid. */
 void *baum_i_grow(void *old, size_t count, size_t size);
 
-/* Likewise an array that has come from here or from baum_i_grow() with one element less (NULL for
- * none): it moves seldom, so that many additions cost little more than the last move. */
+/* Grow an array by one element to count elements. It must come from this function or from
+ * baum_i_grow(); NULL stands for an empty one. The array moves only when it outgrows a power of
+ * two. */
 void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
-/* Copy of count elements, or NULL. */
+/* Copy count elements; NULL when out of memory. */
 void *baum_i_copy(const void *source, size_t count, size_t size);
 
-/* Copy of a string, or NULL. */
+/* Copy a string; NULL when out of memory. */
 char *baum_i_copy_text(const char *text);
 
-/* Release; NULL is fine. Takes const memory too: who frees is who made it. */
+/* Free memory; NULL is fine. The owner may free memory that it holds as const. */
 void baum_i_free(const void *memory);
 
-/* The one way to drop const: for members of constant objects that may change all the same. */
+/* Drop const. For the few members of constant objects that change all the same. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

@@ -29,8 +29,8 @@ static double slope_after(const baum_i_cubic_spline *spline, int32_t i)
   return (spline->values[i + 1] - spline->values[i]) / length_after(spline, i);
 }
 
-/* The natural spline, and z (count); upper (count), zeroed, is scratch. */
-static void solve(const baum_i_cubic_spline *spline, double *upper, double *z)
+/* Find the natural spline, and z (count). upper (count) is zeroed scratch. */
+static void solve_natural(const baum_i_cubic_spline *spline, double *upper, double *z)
 {
   double *c = spline->bends;
   int32_t last = spline->count - 1;
@@ -72,7 +72,7 @@ baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool peri
     return BAUM_ERR_MEMORY;
   }
   double *z = work + spline->count;
-  solve(spline, work, z);
+  solve_natural(spline, work, z);
   if (periodic) {
     join_ends(spline, z);
   }
@@ -80,7 +80,7 @@ baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool peri
   return BAUM_OK;
 }
 
-/* The interval that a time is in. */
+/* Find the interval that contains a time. */
 static int32_t find_interval(const baum_i_cubic_spline *spline, double time)
 {
   int32_t low = 0;

@@ -15,10 +15,11 @@ typedef struct baum_i_cubic_spline {
   double *bends;        /* (count) half the second derivative at each */
 } baum_i_cubic_spline;
 
-/* Find the bends: zero at both ends, or periodic. BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+/* Find the bends: zero at both ends, or periodic. Returns BAUM_OK or BAUM_ERR_MEMORY and sets no
+ * message. */
 baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool periodic);
 
-/* s, s', s'' at a time from the first to the last. */
+/* Evaluate s, s', s'' at a time between the first and the last. */
 void baum_i_cubic_spline_evaluate(const baum_i_cubic_spline *spline, double time, double s[3]);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A sum over bytes by which two of them are told apart, with w the next eight bytes as a number:
+/* Hash of a sequence of bytes. With w the next eight bytes as a number:
  *
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *
- * Both are one to one, so that a change of one word alone always changes the sum. No protection
- * against people who mean it.
+ * Both steps are bijections, so a change of a single word always changes the hash. The hash does
+ * not protect against deliberate collisions.
  */
 #ifndef BAUM_I_BASE_DIGEST_H
 #define BAUM_I_BASE_DIGEST_H
@@ -16,10 +16,10 @@ typedef struct baum_i_digest {
   uint64_t value; /* 0 at first */
 } baum_i_digest;
 
-/* What is not a whole number of words is filled up with zeros. */
+/* Add bytes; the last word is padded with zeros. */
 void baum_i_digest_add(baum_i_digest *digest, const void *bytes, size_t size);
 
-/* With its length. */
+/* Add a text and its length. */
 void baum_i_digest_add_text(baum_i_digest *digest, const char *text);
 
 void baum_i_digest_add_integer(baum_i_digest *digest, int64_t value);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Four numbers side by side, two halves: one vector where the processor has it, two pairs where
- * not. What stays within halves is one instruction, so that nothing here goes from one half to the
- * other but what puts halves together or takes them apart.
+/* Four numbers in two halves: one vector where the processor has it, otherwise two pairs.
+ * Operations within halves take one instruction. Therefore only the functions that join or split
+ * halves move numbers between them.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H

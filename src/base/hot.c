@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What this processor can do. */
+/* Detects the vector instructions of this processor. */
 #include "base/hot.h"
 
 bool baum_i_hot_is_wide(void)

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A step to the least place of the parabola through the three least values so far, where such steps
- * halve at least every second time; else a golden section of the larger side.
+/* Minimum of a function of one variable by Brent's method: steps to the vertex of the parabola
+ * through the three least values so far, as long as the steps halve at least every second time;
+ * otherwise a golden section of the larger side.
  *
- * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. For functions
- * that are a parabola at their minimum some eight values lead to a millionth of the ends' distance,
- * thirty with golden sections alone.
+ * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. Where the
+ * function is a parabola at its minimum, about eight values locate it to a millionth of the
+ * interval; golden sections alone take thirty.
  */
 #include "base/least.h"
 
@@ -26,7 +27,7 @@ typedef struct search {
   double before;    /* the one before it */
 } search;
 
-/* From the least place; NaN or infinite where the three make no parabola. */
+/* Step from the least point to the vertex. It is NaN or infinite where the points are collinear. */
 static double to_vertex(const place p[3])
 {
   double u = p[0].t - p[1].t;
@@ -36,7 +37,7 @@ static double to_vertex(const place p[3])
   return -0.5 * (w * q - u * r) / (q - r);
 }
 
-/* Next to the ends nothing new is seen. */
+/* A point next to an end tells nothing new. */
 static bool is_inside(const search *s, double t)
 {
   return t - s->ends[0] >= 2.0 * s->tolerance && s->ends[1] - t >= 2.0 * s->tolerance;
@@ -60,7 +61,7 @@ static double next_place(search *s)
   return t + s->step;
 }
 
-static void keep(search *s, place new)
+static void keep_value(search *s, place new)
 {
   place *p = s->least;
   if (new.value <= p[0].value) {
@@ -96,7 +97,7 @@ double baum_i_least(baum_i_function *function, void *user, const double ends[2],
   }
   for (int k = 1; k < most && !is_known(&s); k++) {
     t = next_place(&s);
-    keep(&s, (place){t, function(user, t)});
+    keep_value(&s, (place){t, function(user, t)});
   }
   *at = s.least[0].t;
   return s.least[0].value;

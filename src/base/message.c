@@ -9,7 +9,7 @@
 #include "base/text.h"
 
 static _Thread_local char message[BAUM_I_MESSAGE_SIZE];
-static _Thread_local bool has_said; /* baum_fail() has been called since baum_i_listen() */
+static _Thread_local bool has_said; /* baum_fail() was called since baum_i_listen() */
 
 const char *baum_message(void)
 {
@@ -18,7 +18,7 @@ const char *baum_message(void)
 
 baum_status baum_i_fail(baum_status status, const char *format, ...)
 {
-  /* Formatted aside first: an argument may be the present message. */
+  /* Formatted in a buffer first, because an argument may be the present message. */
   char text[BAUM_I_MESSAGE_SIZE];
   va_list arguments;
   va_start(arguments, format);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message behind a status. One fixed buffer per thread: the one mutable thing outside
+/* The message behind a status. Each thread has one fixed buffer, the only mutable data outside
  * objects. */
 #ifndef BAUM_I_BASE_MESSAGE_H
 #define BAUM_I_BASE_MESSAGE_H
@@ -15,10 +15,10 @@
 /* Length of the longest message kept, with its terminating zero. */
 enum { BAUM_I_MESSAGE_SIZE = 1024 };
 
-/* Set this thread's message and return status, so that one can write `return baum_i_fail(...)`. */
+/* Set this thread's message and return the status, as in `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Return the status of a call unless it is BAUM_OK. For places that own nothing to be released. */
+/* Return from the function if a call fails. Only for functions that own nothing at that place. */
 #define BAUM_I_TRY(call)                     \
   do {                                       \
     const baum_status baum_i_tried = (call); \
@@ -27,12 +27,12 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
     }                                        \
   } while (0)
 
-/* What a function of the user says of its failure: before it is called, and behind; NULL:
- * nothing. */
+/* The message of a user function: call the first before the function and the second after it. The
+ * second returns NULL if the function set none. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
 
-/* The message for BAUM_ERR_MEMORY. */
+/* Set the message for BAUM_ERR_MEMORY and return it. */
 baum_status baum_i_fail_memory(void);
 
 /* BAUM_OK if memory was obtained, else baum_i_fail_memory(). */
@@ -41,15 +41,15 @@ static inline baum_status baum_i_check_memory(const void *memory)
   return memory ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A message put aside while something is tried whose failures do not matter. */
+/* A saved message, for calls whose failure does not matter. */
 typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
 } baum_i_kept_message;
 
-/* Put this thread's message aside. */
+/* Save this thread's message. */
 void baum_i_message_keep(baum_i_kept_message *kept);
 
-/* Return status; if all went well in the end, the message from before is this thread's again. */
+/* Return the status. If it is BAUM_OK, restore the saved message. */
 baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept);
 
 #endif

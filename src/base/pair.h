@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two numbers side by side, as one vector where the processor has them. */
+/* Two numbers as one vector. */
 #ifndef BAUM_I_BASE_PAIR_H
 #define BAUM_I_BASE_PAIR_H
 
@@ -24,7 +24,7 @@ static inline baum_i_pair baum_i_both(double x)
   return (baum_i_pair){x, x};
 }
 
-/* (-y, x): turned by a right angle, k x p. */
+/* (-y, x): p rotated by a right angle, k x p. */
 static inline baum_i_pair baum_i_turned(baum_i_pair p)
 {
   return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
@@ -36,7 +36,7 @@ static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
   return (baum_i_pair){p[1], p[0]};
 }
 
-/* Summed as vectors: nothing has to be taken apart. */
+/* The sum stays in vectors, which avoids extracting numbers. */
 static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
 {
   baum_i_pair product = x * y;
@@ -59,7 +59,7 @@ static inline void baum_i_store_square(double *to, baum_i_square m)
   baum_i_store(to + 2, m.column[1]);
 }
 
-/* m + x I. By products with zeros and ones: valgrind does not know how gcc sets half a vector. */
+/* m + x I. Products with zeros and ones avoid setting half a vector, which confuses valgrind. */
 static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
 {
   return (baum_i_square){

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sine and cosine of one angle, written so that a loop over angles becomes vector code: no branch,
- * no table. Within 1 ulp up to 1e6 rad; beyond that the caller takes the C library's.
+/* Sine and cosine of one angle without branches or tables, so that compilers vectorize loops over
+ * angles. The error is below 1 ulp up to 1e6 rad. Beyond that callers use the C library.
  *
  *   x = n pi/2 + r + y,  |r| <= pi/4,  y the tail that r cannot hold
  *
- * pi/2 comes in three parts of 33 bits, whose products with n (at most 20 bits) are exact, and a
- * fourth (W. J. Cody, W. Waite, 1980); differences keep what they round off (D. E. Knuth, 1969).
- * The polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
+ * pi/2 is split into three parts of 33 bits, whose products with n (at most 20 bits) are exact, and
+ * a fourth (W. J. Cody, W. Waite, 1980). Differences keep their rounding errors (D. E. Knuth,
+ * 1969). The polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
  */
 #ifndef BAUM_I_BASE_SINCOS_H
 #define BAUM_I_BASE_SINCOS_H
@@ -18,7 +18,7 @@
 /* Angles up to here are exact in the first two products. */
 static const double baum_i_sincos_limit = 1e6;
 
-/* rounded = a - b; returns what it rounds off. */
+/* Return the rounding error of rounded = a - b. */
 static inline double baum_i_difference_error(double a, double b, double rounded)
 {
   double moved = rounded - a;
@@ -55,7 +55,7 @@ static inline double baum_i_cosine_kernel(double r, double y)
   return w + (((1.0 - w) - half) + (z * tail - r * y));
 }
 
-/* For |x| up to the limit; otherwise numbers without meaning. */
+/* Valid for |x| up to the limit; beyond it the results are meaningless. */
 static inline void baum_i_sincos(double x, double *sine, double *cosine)
 {
   static const double two_over_pi = 0x1.45f306dc9c883p-1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structs that begin with `size_t struct_size`. A caller built with older headers knows fewer
- * fields: it gets these and reads in struct_size how many bytes they are. */
+ * fields. It receives these, and struct_size tells it how many bytes they are. */
 #ifndef BAUM_I_BASE_SIZED_H
 #define BAUM_I_BASE_SIZED_H
 
@@ -10,17 +10,17 @@
 
 #include <baum/status.h>
 
-/* Can something be given there? */
+/* Whether the caller's struct has room for struct_size at least. */
 bool baum_i_takes_sized(const void *out, size_t caller_size);
 
-/* BAUM_ERR_ARGUMENT where not, said of this call. */
+/* Fail with BAUM_ERR_ARGUMENT where it has not; the message names the call. */
 baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call);
 
-/* BAUM_ERR_ARGUMENT where k is none of the entries from `first`, the oldest that is kept, up to
+/* Fail with BAUM_ERR_ARGUMENT unless k is an entry from `first`, the oldest that is kept, to
  * count - 1. */
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call);
 
-/* As much of a whole struct as the caller knows; its struct_size is set. */
+/* Copy as much of a whole struct as the caller knows, and set its struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts with numbers. The locale is a thread's own while one is put together: the program's stays
- * as it is. */
+/* Formatted texts. Only the calling thread switches to the "C" locale, and only while it
+ * formats. */
 #include "base/text.h"
 
 #include <locale.h>
@@ -11,7 +11,7 @@ enum { DELETE = 0x7f };
 
 int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
 {
-  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* no memory: that of the program */
+  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* out of memory: the program's */
   locale_t before = plain ? uselocale(plain) : (locale_t)0;
   int length = vsnprintf(text, size, format, arguments);
   if (plain) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which library this is. */
+/* Version and optional features of the library. */
 #include <baum/version.h>
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Data of Andrews' squeezing mechanism, in SI units, as in the test set (andrews.f); and its
- * pose. */
+/* Data of Andrews' squeezing mechanism in SI units, as in the test set (andrews.f), and its
+ * configuration. */
 #ifndef BAUM_I_CATALOG_ANDREWS_H
 #define BAUM_I_CATALOG_ANDREWS_H
 
@@ -48,8 +48,8 @@ static const double ANDREWS_C[2] = {.014, .072};
 
 enum { ANDREWS_ANGLES = 7 };
 
-/* The angles beta, Theta, gamma, Phi, delta, Omega, epsilon for a given beta, as the mechanism
- * stands at the start of the test set. */
+/* Computes the angles beta, Theta, gamma, Phi, delta, Omega, epsilon for a given beta, on the
+ * branch of the start of the test set. */
 void baum_i_andrews_pose(double beta, double angles[ANDREWS_ANGLES]);
 
 #endif

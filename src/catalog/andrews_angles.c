@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism in 7 angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), as
  * in the test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II, p. 530 ff).
- * M, f, g below are its own, term by term; M a + G^T lambda = f.
- */
+ * M, f, g below are those of the test set, term by term; M a + G^T lambda = f. */
 #include "catalog/andrews.h"
 
 #include <math.h>
@@ -56,7 +55,7 @@ static int mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* From C, the fixed end of the spring, to D, the end on body 3. */
+/* The vector from C, the fixed end of the spring, to D, its end on body 3. */
 static void along_spring(double gamma, double out[2])
 {
   out[0] = ANDREWS_SD * cos(gamma) + ANDREWS_SC * sin(gamma) + ANDREWS_B[0] - ANDREWS_C[0];
@@ -101,7 +100,7 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The point F where bodies 2, 3, 4 and 6 meet, by body 2 minus by each of the others. */
+/* The point F where bodies 2, 3, 4 and 6 meet: by body 2 minus by each of the others. */
 static int phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -120,7 +119,7 @@ static int phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void put(double *out, int pair, int column, double x, double y)
+static void set_pair(double *out, int pair, int column, double x, double y)
 {
   out[COUNT * (2 * pair) + column] = x;
   out[COUNT * (2 * pair + 1) + column] = y;
@@ -139,15 +138,15 @@ static int jacobian(double t, const double *q, double *out, void *user)
   double x6 = ANDREWS_ZF * sin(along6);
   double y6 = -ANDREWS_ZF * cos(along6);
   for (int pair = 0; pair < 3; pair++) {
-    put(out, pair, BETA, theta[0] - ANDREWS_RR * sin(q[BETA]),
-        theta[1] + ANDREWS_RR * cos(q[BETA]));
-    put(out, pair, THETA, theta[0], theta[1]);
+    set_pair(out, pair, BETA, theta[0] - ANDREWS_RR * sin(q[BETA]),
+             theta[1] + ANDREWS_RR * cos(q[BETA]));
+    set_pair(out, pair, THETA, theta[0], theta[1]);
   }
-  put(out, 0, GAMMA, -ANDREWS_SS * cos(q[GAMMA]), -ANDREWS_SS * sin(q[GAMMA]));
-  put(out, 1, PHI, x4, y4);
-  put(out, 1, DELTA, x4 + ANDREWS_ZT * sin(q[DELTA]), y4 - ANDREWS_ZT * cos(q[DELTA]));
-  put(out, 2, OMEGA, x6, y6);
-  put(out, 2, EPSILON, x6 - ANDREWS_U * cos(q[EPSILON]), y6 - ANDREWS_U * sin(q[EPSILON]));
+  set_pair(out, 0, GAMMA, -ANDREWS_SS * cos(q[GAMMA]), -ANDREWS_SS * sin(q[GAMMA]));
+  set_pair(out, 1, PHI, x4, y4);
+  set_pair(out, 1, DELTA, x4 + ANDREWS_ZT * sin(q[DELTA]), y4 - ANDREWS_ZT * cos(q[DELTA]));
+  set_pair(out, 2, OMEGA, x6, y6);
+  set_pair(out, 2, EPSILON, x6 - ANDREWS_U * cos(q[EPSILON]), y6 - ANDREWS_U * sin(q[EPSILON]));
   return 0;
 }
 

@@ -22,7 +22,7 @@
 
 enum { BETA, MOMENT, STIFFNESS, FREE_LENGTH, COUNT };
 
-/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); centre[] is the
+/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); CENTRE is the
  * centre of mass. */
 static const double CENTRE[7][2] = {
   {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
@@ -31,7 +31,7 @@ static const double CENTRE[7][2] = {
   {ANDREWS_UA, -ANDREWS_UB},
 };
 
-/* Angle of body k, or its rate from rates. */
+/* Returns the angle of body k, or its angular velocity from rates. */
 static double turned(const double *angles, int k)
 {
   static const int added[7][2] = {{0, -1}, {0, 1}, {2, -1}, {3, 4}, {4, -1}, {5, 6}, {6, -1}};
@@ -39,7 +39,7 @@ static double turned(const double *angles, int k)
   return added[k][1] < 0 ? angle : angle + angles[added[k][1]];
 }
 
-/* The pivot of body k: at a fixed point, or at a point of the body that carries it. */
+/* Finds the pivot of body k: a fixed point, or a point of the body that carries it. */
 static baum_i_mover find_pivot(const double *angles, const double *rates, int k)
 {
   static const double *const fixed[7] = {ANDREWS_O, ANDREWS_O, ANDREWS_B, ANDREWS_A,
@@ -84,7 +84,7 @@ static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7]
   }
 }
 
-/* The point of body k that is (x, y) from its pivot. */
+/* Returns the point of body k that is (x, y) from its pivot. */
 static baum_i_spot on(const baum_body_id ids[7], int k, double x, double y)
 {
   return (baum_i_spot){ids[k], {x - CENTRE[k][0], y - CENTRE[k][1]}};

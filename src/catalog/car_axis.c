@@ -122,7 +122,7 @@ static void build(baum_i_parts *parts, const double *p)
 
 const baum_i_catalog_mechanism baum_i_car_axis = {
   .name = "car_axis",
-  .title = "car axis on a bump that moves, by functions of the user and of time",
+  .title = "car axis on a moving bump, by user functions and functions of time",
   .source = "S. Schneider; Bari test set, caraxis (as kept in cran/deTestSet)",
   .provenance =
     "extrapolation in 160 bits, two tolerances agree to 19 digits; the published values "

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What there is: entries, parameters, mechanisms. */
+/* The list of mechanisms: entries, parameters, building. */
 #include "catalog/catalog.h"
 
 #include <math.h>
@@ -7,30 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static const baum_i_catalog_mechanism *const MECHANISMS[] = {
-  &baum_i_pendulum_a01,
-  &baum_i_pendulum_sundials,
-  &baum_i_pendulum_mebdf,
-  &baum_i_slider_crank,
-  &baum_i_slider_crank_eccentric,
-  &baum_i_slider_crank_driven,
-  &baum_i_slider_crank_simeon,
-  &baum_i_slider_crank_sundials,
-  &baum_i_four_bar,
-  &baum_i_n_four_bar,
-  &baum_i_andrews_angles,
-  &baum_i_andrews_bodies,
-  &baum_i_andrews_a03,
-  &baum_i_car_axis,
-  &baum_i_chain_of_3,
-  &baum_i_chain_of_n,
-};
-
-enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], SENTENCE = 1024 };
+#define ADDRESS(name) &baum_i_##name,
+static const baum_i_catalog_mechanism *const MECHANISMS[] = {BAUM_I_CATALOG_LIST(ADDRESS)};
+enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], MESSAGE = 1024 };
 
 baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)
 {
-  char text[SENTENCE];
+  char text[MESSAGE];
   va_list arguments;
   va_start(arguments, format);
   (void)vsnprintf(text, sizeof text, format, arguments);
@@ -38,11 +21,11 @@ baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)
   return baum_fail(status, text);
 }
 
-/* ", " and a name, cut where the list is full. */
-static void list(char text[SENTENCE], const char *name)
+/* Appends ", " and a name, truncated where the list is full. */
+static void append_name(char text[MESSAGE], const char *name)
 {
   size_t used = strlen(text);
-  (void)snprintf(text + used, SENTENCE - used, "%s%s", used > 0 ? ", " : "", name);
+  (void)snprintf(text + used, MESSAGE - used, "%s%s", used > 0 ? ", " : "", name);
 }
 
 /* ---- entries ---- */
@@ -84,7 +67,7 @@ static baum_status give_entry(const baum_i_catalog_mechanism *of, baum_catalog_e
 baum_status baum_catalog_entry_at(int32_t k, baum_catalog_entry *out, size_t caller_size)
 {
   if (k < 0 || k >= COUNT) {
-    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: k is %d, there are 0 to %d", (int)k,
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: k is %d, must be 0 to %d", (int)k,
                                COUNT - 1);
   }
   return give_entry(MECHANISMS[k], out, caller_size);
@@ -92,12 +75,12 @@ baum_status baum_catalog_entry_at(int32_t k, baum_catalog_entry *out, size_t cal
 
 const baum_i_catalog_mechanism *baum_i_catalog_find(const char *name)
 {
-  char names[SENTENCE] = "";
+  char names[MESSAGE] = "";
   for (int k = 0; k < COUNT; k++) {
     if (name && strcmp(name, MECHANISMS[k]->name) == 0) {
       return MECHANISMS[k];
     }
-    list(names, MECHANISMS[k]->name);
+    append_name(names, MECHANISMS[k]->name);
   }
   (void)baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: there is no \"%.80s\"; there are %.800s",
                             name ? name : "NULL", names);
@@ -135,12 +118,12 @@ baum_status baum_catalog_parameter_at(const char *name, int32_t k, baum_catalog_
 
 static int find_parameter(const baum_i_catalog_mechanism *of, const char *name)
 {
-  char names[SENTENCE] = "";
+  char names[MESSAGE] = "";
   for (int k = 0; k < of->parameter_count; k++) {
     if (name && strcmp(name, of->parameters[k].name) == 0) {
       return k;
     }
-    list(names, of->parameters[k].name);
+    append_name(names, of->parameters[k].name);
   }
   (void)baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
                             "catalogue: \"%s\" has no parameter \"%.80s\"; there are: %.800s",
@@ -148,8 +131,8 @@ static int find_parameter(const baum_i_catalog_mechanism *of, const char *name)
   return -1;
 }
 
-static baum_status set(const baum_i_catalog_mechanism *of, const baum_catalog_setting *setting,
-                       double *p)
+static baum_status set_parameter(const baum_i_catalog_mechanism *of,
+                                 const baum_catalog_setting *setting, double *p)
 {
   int k = find_parameter(of, setting->name);
   if (k < 0) {
@@ -195,7 +178,7 @@ baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
     p[k] = (*out)->defaults[k];
   }
   for (int k = 0; k < choice->setting_count; k++) {
-    BAUM_I_CATALOG_TRY(set(*out, &choice->settings[k], p));
+    BAUM_I_CATALOG_TRY(set_parameter(*out, &choice->settings[k], p));
   }
   return BAUM_OK;
 }

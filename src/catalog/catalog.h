@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism of the catalogue from the inside: one const struct, stated at the end of its file.
- * Adding one is a file and a line in catalog.c. */
+/* A mechanism of the catalogue: one const struct at the end of its file. To add one: write a file
+ * and add a line in catalog.c. */
 #ifndef BAUM_I_CATALOG_CATALOG_H
 #define BAUM_I_CATALOG_CATALOG_H
 
@@ -9,15 +9,15 @@
 #include "catalog/parts.h"
 
 enum {
-  BAUM_I_CATALOG_PARAMETERS = 12, /* at most, of one mechanism */
-  BAUM_I_CATALOG_COLUMNS = 9,     /* at most, of a sample */
-  BAUM_I_CATALOG_WIDTH = 7        /* at most, coordinates of one body */
+  BAUM_I_CATALOG_PARAMETERS = 12, /* most parameters of a mechanism */
+  BAUM_I_CATALOG_COLUMNS = 9,     /* most columns of a sample */
+  BAUM_I_CATALOG_WIDTH = 7        /* most coordinates of a body */
 };
 
 typedef enum baum_i_catalog_range {
   BAUM_I_ANY,
   BAUM_I_POSITIVE,
-  BAUM_I_WHOLE /* > 0, too */
+  BAUM_I_WHOLE /* > 0 */
 } baum_i_catalog_range;
 
 typedef struct baum_i_catalog_parameter {
@@ -27,7 +27,7 @@ typedef struct baum_i_catalog_parameter {
   baum_i_catalog_range range;
 } baum_i_catalog_parameter;
 
-/* Parameters, in the order of the mechanism's list, are `p` below. */
+/* `p` below are the parameters, in the order of the mechanism's list. */
 typedef struct baum_i_catalog_mechanism {
   const char *name;
   const char *title;
@@ -40,14 +40,14 @@ typedef struct baum_i_catalog_mechanism {
   double end;
   double digits_q;
   double digits_v;
-  bool branches; /* passes configurations where its motion does */
-  void (*build)(baum_i_parts *parts, const double *p); /* adds all of it */
+  bool branches; /* passes bifurcations, where its motion may branch */
+  void (*build)(baum_i_parts *parts, const double *p); /* adds all elements */
 
   const char *units; /* coordinates of a body: m length, r angle, u the user's */
-  int bodies;        /* 0: count() tells */
+  int bodies;        /* 0: count() returns it */
   int (*count)(const double *p);
 
-  /* The reference: `samples` of some columns, stored or, when t is NULL, by solution() at equal
+  /* The reference: `samples` of some columns, stored or, where t is NULL, by solution() at equal
    * intervals. */
   int samples;
   const double *t; /* (samples) */
@@ -55,41 +55,37 @@ typedef struct baum_i_catalog_mechanism {
   const double *q; /* (samples x columns) */
   const double *v; /* (samples x columns) */
   double (*solution)(const double *p, double t, double *q,
-                     double *v); /* by how much they may be off */
-  /* Positions and velocities of one body from the columns; NULL: the columns are those of all
-   * bodies. */
+                     double *v); /* returns a bound of their error */
+  /* Computes positions and velocities of one body from the columns; NULL: the columns are those of
+   * all bodies. */
   void (*state)(const double *p, const double *q, const double *v, int body, double *body_q,
                 double *body_v);
 } baum_i_catalog_mechanism;
 
-/* The reference stored in data/. */
+/* A reference stored in data/. */
 #define BAUM_I_CATALOG_STORED(NAME, DIGITS)                                            \
   .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = NAME##_WIDTH, .q = NAME##_Q[0], \
   .v = NAME##_V[0], .digits_q = DIGITS, .digits_v = DIGITS
 
-/* The same of one column. */
+/* A stored reference of one column. */
 #define BAUM_I_CATALOG_SERIES(NAME, DIGITS_Q, DIGITS_V)                                 \
   .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = 1, .q = NAME##_Q, .v = NAME##_V, \
   .digits_q = DIGITS_Q, .digits_v = DIGITS_V
 
-extern const baum_i_catalog_mechanism baum_i_pendulum_a01;
-extern const baum_i_catalog_mechanism baum_i_pendulum_sundials;
-extern const baum_i_catalog_mechanism baum_i_pendulum_mebdf;
-extern const baum_i_catalog_mechanism baum_i_slider_crank;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_eccentric;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_driven;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_simeon;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_sundials;
-extern const baum_i_catalog_mechanism baum_i_four_bar;
-extern const baum_i_catalog_mechanism baum_i_n_four_bar;
-extern const baum_i_catalog_mechanism baum_i_andrews_angles;
-extern const baum_i_catalog_mechanism baum_i_andrews_bodies;
-extern const baum_i_catalog_mechanism baum_i_andrews_a03;
-extern const baum_i_catalog_mechanism baum_i_car_axis;
-extern const baum_i_catalog_mechanism baum_i_chain_of_3;
-extern const baum_i_catalog_mechanism baum_i_chain_of_n;
+/* All mechanisms, in the order of their entries. */
+/* clang-format off */
+#define BAUM_I_CATALOG_LIST(X) \
+  X(pendulum_a01) X(pendulum_sundials) X(pendulum_mebdf) \
+  X(slider_crank) X(slider_crank_eccentric) X(slider_crank_driven) X(slider_crank_simeon) \
+  X(slider_crank_sundials) X(four_bar) X(n_four_bar) \
+  X(andrews_angles) X(andrews_bodies) X(andrews_a03) \
+  X(car_axis) X(chain_of_3) X(chain_of_n)
+/* clang-format on */
 
-/* Return the status of a call that is not BAUM_OK. */
+#define BAUM_I_CATALOG_DECLARE(name) extern const baum_i_catalog_mechanism baum_i_##name;
+BAUM_I_CATALOG_LIST(BAUM_I_CATALOG_DECLARE)
+
+/* Returns the status of a call that is not BAUM_OK. */
 #define BAUM_I_CATALOG_TRY(call) \
   do {                           \
     baum_status tried_ = (call); \
@@ -98,26 +94,26 @@ extern const baum_i_catalog_mechanism baum_i_chain_of_n;
     }                            \
   } while (0)
 
-/* Set this thread's message and return the status. */
+/* Sets this thread's message and returns the status. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 baum_status
 baum_i_catalog_fail(baum_status status, const char *format, ...);
 
-/* As much of a whole struct as the caller knows; its struct_size is set. BAUM_OK or
+/* Copies as much of a whole struct as the caller knows, and sets its struct_size. BAUM_OK or
  * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size);
 
-/* A mechanism by its name; NULL when there is none, and the message is set. */
+/* Finds a mechanism by its name; NULL, with a message, where there is none. */
 const baum_i_catalog_mechanism *baum_i_catalog_find(const char *name);
 
-/* The mechanism and all its parameters. BAUM_OK or BAUM_ERR_ARGUMENT. */
+/* Finds the mechanism and all its parameters. BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
                                    const baum_i_catalog_mechanism **out,
                                    double p[BAUM_I_CATALOG_PARAMETERS]);
 
-/* Number of its bodies. */
+/* Returns the number of bodies. */
 int baum_i_catalog_bodies(const baum_i_catalog_mechanism *mechanism, const double *p);
 
 #endif

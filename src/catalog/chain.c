@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chain of uniform rods: link k from the tip of link k - 1, the first one from the origin, at an
- * angle of its own from the x axis.
- */
+/* Chain of uniform rods: link k starts at the tip of link k - 1, the first one at the origin, each
+ * at an angle of its own from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>
@@ -17,7 +16,7 @@ static const double ANGLE_3[3] = {0.0, 0.0, -0.78539816339744831};
 const baum_i_chain baum_i_chain_3 = {
   .links = 3, .mass = MASS_3, .length = LENGTH_3, .angle = ANGLE_3, .all = {.rate = 0.0}};
 
-/* Where a link begins. */
+/* The point where a link begins. */
 typedef struct tip {
   baum_body_id body;
   double length; /* of that body */

@@ -4,7 +4,7 @@
 
 #include "catalog/parts.h"
 
-/* What all links of a chain have in common. */
+/* Data that all links of a chain share. */
 typedef struct baum_i_link {
   double mass;   /* [kg] */
   double length; /* [m] */
@@ -12,7 +12,7 @@ typedef struct baum_i_link {
   double rate;   /* [rad/s] at start */
 } baum_i_link;
 
-/* A chain of uniform rods that hangs on the origin. NULL: as all links. */
+/* A chain of uniform rods that hangs from the origin. NULL: as in `all`. */
 typedef struct baum_i_chain {
   int links;
   const double *mass;   /* (links) [kg] */
@@ -22,7 +22,7 @@ typedef struct baum_i_chain {
   baum_i_link all;
 } baum_i_chain;
 
-/* Three links of different length and mass, whose motion is known. */
+/* Three links of different lengths and masses, with a known motion. */
 extern const baum_i_chain baum_i_chain_3;
 
 void baum_i_chain_add(baum_i_parts *parts, const baum_i_chain *data);

@@ -37,7 +37,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_ANY},
 };
 
-/* From the angles of crank, coupler and rocker. */
+/* Computes a body from the angles of crank, coupler and rocker. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
 {

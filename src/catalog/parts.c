@@ -4,8 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Call unless something has failed before. */
-#define GO_ON(parts, call) ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
+/* Calls unless a call failed before. */
+#define UNLESS_FAILED(parts, call) \
+  ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
 
 void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, double y)
 {
@@ -47,13 +48,13 @@ baum_i_parts baum_i_parts_begin(void)
 
 void baum_i_parts_gravity(baum_i_parts *parts, double downwards)
 {
-  GO_ON(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, -downwards, 0.0));
+  UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, -downwards, 0.0));
 }
 
 baum_body_id baum_i_parts_particle(baum_i_parts *parts, const baum_planar_particle_def *def)
 {
   baum_body_id id = {0};
-  GO_ON(parts, baum_mechanism_add_planar_particle(parts->mechanism, def, &id));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_particle(parts->mechanism, def, &id));
   return id;
 }
 
@@ -70,14 +71,14 @@ baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *
     memcpy(placed.velocity, v, sizeof placed.velocity);
     placed.angular_velocity = v[2];
   }
-  GO_ON(parts, baum_mechanism_add_planar_body(parts->mechanism, &placed, &id));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_body(parts->mechanism, &placed, &id));
   return id;
 }
 
 baum_body_id baum_i_parts_coordinates(baum_i_parts *parts, const baum_coordinates_def *def)
 {
   baum_body_id id = {0};
-  GO_ON(parts, baum_mechanism_add_coordinates(parts->mechanism, def, &id));
+  UNLESS_FAILED(parts, baum_mechanism_add_coordinates(parts->mechanism, def, &id));
   return id;
 }
 
@@ -90,7 +91,7 @@ baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spo
   def.body_b = b.body;
   memcpy(def.point_a, a.point, sizeof def.point_a);
   memcpy(def.point_b, b.point, sizeof def.point_b);
-  GO_ON(parts, baum_mechanism_add_planar_revolute(parts->mechanism, &def, &id));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_revolute(parts->mechanism, &def, &id));
   return id;
 }
 
@@ -110,7 +111,7 @@ void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slid
   def.point_a[0] = def.point_b[0] = along;
   def.point_a[1] = height;
   def.point_b[1] = 0.0;
-  GO_ON(parts, baum_mechanism_add_planar_translational(parts->mechanism, &def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_translational(parts->mechanism, &def, NULL));
 }
 
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,
@@ -123,32 +124,32 @@ void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum
   memcpy(def.point_a, a.point, sizeof def.point_a);
   memcpy(def.point_b, b.point, sizeof def.point_b);
   def.length = length;
-  GO_ON(parts, baum_mechanism_add_planar_distance(parts->mechanism, &def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_distance(parts->mechanism, &def, NULL));
 }
 
 void baum_i_parts_driver(baum_i_parts *parts, const baum_driver_def *def)
 {
-  GO_ON(parts, baum_mechanism_add_driver(parts->mechanism, def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, def, NULL));
 }
 
 void baum_i_parts_constraint(baum_i_parts *parts, const baum_user_constraint_def *def)
 {
-  GO_ON(parts, baum_mechanism_add_user_constraint(parts->mechanism, def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_user_constraint(parts->mechanism, def, NULL));
 }
 
 void baum_i_parts_spring(baum_i_parts *parts, const baum_planar_spring_def *def)
 {
-  GO_ON(parts, baum_mechanism_add_planar_spring(parts->mechanism, def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_spring(parts->mechanism, def, NULL));
 }
 
 void baum_i_parts_load(baum_i_parts *parts, const baum_planar_load_def *def)
 {
-  GO_ON(parts, baum_mechanism_add_planar_load(parts->mechanism, def, NULL));
+  UNLESS_FAILED(parts, baum_mechanism_add_planar_load(parts->mechanism, def, NULL));
 }
 
 baum_status baum_i_parts_finish(baum_i_parts *parts, baum_mechanism **out)
 {
-  GO_ON(parts, baum_mechanism_freeze(parts->mechanism));
+  UNLESS_FAILED(parts, baum_mechanism_freeze(parts->mechanism));
   if (parts->status != BAUM_OK) {
     baum_mechanism_destroy(parts->mechanism);
     parts->mechanism = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is known of the motions, and how far others are from it. */
+/* References of motions, and errors of runs against them. */
 #include "catalog/catalog.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ baum_status baum_catalog_times(const char *name, double *times)
   return BAUM_OK;
 }
 
-/* Stored samples hold for the parameters that they were made with. */
+/* Stored samples hold only for their parameters. */
 static baum_status check_parameters(const sample *at)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -65,8 +65,8 @@ static baum_status resolve(const baum_catalog_choice *choice, sample *at)
   return check_parameters(at);
 }
 
-/* Formulas are rounded, too: what grows of that is no reference any more. */
-static baum_status solve(sample *at, double t)
+/* Formulas are rounded, too: a large bound of their error makes them no reference. */
+static baum_status evaluate_formula(sample *at, double t)
 {
   const baum_i_catalog_mechanism *of = at->of;
   double off = of->solution(at->p, t, at->q, at->v);
@@ -88,7 +88,7 @@ static baum_status find_sample(sample *at, double t)
     return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: t is %g s, must be finite", t);
   }
   if (of->solution) {
-    return solve(at, t);
+    return evaluate_formula(at, t);
   }
   for (int k = 0; k < of->samples; k++) {
     if (of->t[k] == t) {
@@ -120,7 +120,7 @@ static void state_of(const sample *at, int body, double *q, double *v)
   memcpy(v, at->v + body * count, (size_t)count * sizeof *v);
 }
 
-/* Formulas may have no value, as for a driven crank that its rod is too short for. */
+/* Formulas may have no value, as where the rod of a driven crank is too short. */
 static baum_status check_finite(const sample *at, double t)
 {
   double q[BAUM_I_CATALOG_WIDTH];
@@ -175,8 +175,8 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* Largest over the coordinates of a state: differences and sizes by the scales, and what the last
- * trusted digits mean. */
+/* Largest values over the coordinates of a state: scaled differences and sizes, and the size of the
+ * last trusted digits. */
 typedef struct measure {
   double q;
   double v;
@@ -185,13 +185,13 @@ typedef struct measure {
   double floor_v;
 } measure;
 
-/* The larger one; NaN, once there, stays. */
+/* Returns the larger number; a NaN stays. */
 static double most(double a, double b)
 {
   return b > a || isnan(b) ? b : a;
 }
 
-/* q and v: all coordinates, either may be NULL. */
+/* q and v hold all coordinates; either may be NULL. */
 static measure measure_state(const sample *at, double scale, const double *q, const double *v)
 {
   measure out = {0};
@@ -216,7 +216,7 @@ static measure measure_state(const sample *at, double scale, const double *q, co
   return out;
 }
 
-/* Over all samples: the size of velocities that their errors are measured by, and the floors. */
+/* Finds, over all samples, the size of velocities that scales their errors, and the floors. */
 static baum_status measure_reference(sample *at, double scale, measure *out)
 {
   *out = (measure){0};
@@ -227,7 +227,7 @@ static baum_status measure_reference(sample *at, double scale, measure *out)
     out->floor_q = most(out->floor_q, one.floor_q);
     out->floor_v = most(out->floor_v, one.floor_v);
   }
-  /* What never moves is measured by 1 m/s of 1 m, and 1 rad/s. */
+  /* Without motion velocities are compared with 1 m/s of 1 m, and 1 rad/s. */
   out->size_v = out->size_v > 0.0 ? out->size_v : 1.0;
   return BAUM_OK;
 }

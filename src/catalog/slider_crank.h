@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank in two halves, between which others may put in more. */
+/* A slider-crank in two halves, between which other elements may be added. */
 #ifndef BAUM_I_CATALOG_SLIDER_CRANK_H
 #define BAUM_I_CATALOG_SLIDER_CRANK_H
 

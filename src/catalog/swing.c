@@ -16,18 +16,18 @@
 
 enum { TERMS = 25, MOST_STEPS = 100000 };
 
-/* Of each step, relative; steps add up like a random walk. Against 80-bit numbers motions over the
- * top are off by 2e-14,
- * 2.0e-12, 1.2e-11 rad after 10, 30, 100 s, where 8e-13, 8e-12, 1.4e-11 is said. */
+/* Relative rounding of each step; steps add up like a random walk. Against 80-bit numbers, motions
+ * over the top are off by 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30, 100 s, where the bound is
+ * 8e-13, 8e-12, 1.4e-11. */
 static const double ROUNDING = 5e-16;
 
-/* A sum and what rounding has left out of it. */
+/* A sum and its rounding error. */
 typedef struct sum {
   double value;
   double rest;
 } sum;
 
-static void add(sum *to, double more)
+static void add_compensated(sum *to, double more)
 {
   double wanted = more + to->rest;
   double next = to->value + wanted;
@@ -50,7 +50,7 @@ static void series(double k, double angle, double rate, double x[TERMS])
   }
 }
 
-static void go(double k, double h, long steps, double *angle, double *rate)
+static void integrate(double k, double h, long steps, double *angle, double *rate)
 {
   sum x = {*angle, 0.0};
   sum v = {*rate, 0.0};
@@ -63,8 +63,8 @@ static void go(double k, double h, long steps, double *angle, double *rate)
       dx = (dx + terms[n]) * h;
       dv = n > 1 ? (dv + n * terms[n]) * h : dv;
     }
-    add(&x, dx);
-    add(&v, dv);
+    add_compensated(&x, dx);
+    add_compensated(&v, dv);
   }
   *angle = x.value + x.rest;
   *rate = v.value + v.rest;
@@ -72,7 +72,7 @@ static void go(double k, double h, long steps, double *angle, double *rate)
 
 double baum_i_swing(double k, double t, double *angle, double *rate)
 {
-  /* What a motion beside this one is apart at the end tells how rounding grows on the way. */
+  /* The distance of a neighbouring motion at the end tells how rounding grows. */
   const double beside = 1e-9;
   double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
   double steps = ceil(4.0 * fabs(t) * fast) + 1.0;
@@ -83,8 +83,8 @@ double baum_i_swing(double k, double t, double *angle, double *rate)
   double h = t / steps;
   double other = *angle + beside;
   double other_rate = *rate + beside * fast;
-  go(k, h, (long)steps, angle, rate);
-  go(k, h, (long)steps, &other, &other_rate);
+  integrate(k, h, (long)steps, angle, rate);
+  integrate(k, h, (long)steps, &other, &other_rate);
   double apart = fabs(other - *angle) + (fast > 0.0 ? fabs(other_rate - *rate) / fast : 0.0);
   return ROUNDING * sqrt(steps) * (apart / beside + fabs(*angle));
 }

@@ -15,21 +15,17 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Without a solution the largest right side is all there is to name a joint by: a hint, no
- * proof. */
+/* Without a solution only the largest right side can name a joint. It is a hint, no proof. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
-  char label[BAUM_I_LABEL_SIZE] = "no joint";
-  if (row >= 0) {
-    (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
-  }
+  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
     "matrix is not positive where the constraints leave freedom); largest right side in "
     "%s",
-    w->point.t, label);
+    w->point.t, baum_i_row_label(w->mechanism, row, label));
 }
 
 static baum_status fail_blocks(const baum_workspace *w)
@@ -42,15 +38,15 @@ static baum_status fail_blocks(const baum_workspace *w)
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
-    "t = %.9g s: pivots by blocks are too small, most of all in %s: the configuration is "
-    "close to a singular one, or masses are too uneven; the solver auto goes on "
-    "with klu and qr",
+    "t = %.9g s: the pivots of the block solver are too small, the smallest in %s: the "
+    "configuration is close to a singular one, or the masses are too uneven; the solver auto "
+    "continues with klu and qr",
     w->point.t, label);
 }
 
 /* ---- the solver of the whole system ---- */
 
-/* What the right side is made of; without forces there is no gamma. */
+/* Evaluate the terms of the right side. Without forces, gamma is not evaluated. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -75,7 +71,7 @@ static void set_right_side(const baum_workspace *w, const baum_i_right_side *rig
   }
 }
 
-/* Of the present stage. */
+/* Solve with the terms of the last stage. */
 static baum_status solve_whole(baum_workspace *w, const baum_i_right_side *right)
 {
   const baum_i_kkt_values values = baum_i_kkt_values_of(w);
@@ -124,7 +120,7 @@ static baum_status accelerate_whole(baum_workspace *w, const baum_i_right_side *
   return status == BAUM_ERR_SINGULAR ? fail_singular(w) : status;
 }
 
-/* By a path, or where that is NULL or hands over by the solver of the whole system. */
+/* Solve by a path; where it is NULL or gives up, by the solver of the whole system. */
 static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
                                  const double *q, const double *v, double alpha, double beta)
 {
@@ -163,7 +159,7 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* Without blocks a solution costs little more than its factors. */
+/* Without blocks a solution costs little more than its factors, so it is computed. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: a configuration and velocities that fulfil the constraints,
- * changed the least in the metric of M.
+/* Assembly: find a configuration and velocities that fulfil the constraints, by the least change in
+ * the metric of M.
  *
  *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
  *
- * Held coordinates have their columns of J and their coupling in M cleared, so that they do not
- * move. The small S (Levenberg, Marquardt) lets redundant rows pass and turns contradicting ones
- * into a least-squares problem, whose remaining violation lies in the conflicting rows only and so
- * names them. Steps are limited, and halved until the violation falls. Violations are compared as
- * displacements: |Phi_i| / d_i, d_i the norm of row i of J times the scales.
+ * For held coordinates the columns of J and the coupling in M are cleared, so they do not move. The
+ * small S (Levenberg, Marquardt) permits redundant rows. With it, contradicting rows become a
+ * least-squares problem, whose remaining violation lies only in the conflicting rows and so names
+ * them. Steps are limited, and halved until the violation decreases. Violations are compared as
+ * displacements |Phi_i| / d_i, with d_i the norm of row i of J times the scales.
  */
 #include <math.h>
 #include <string.h>
@@ -20,12 +20,13 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU = 1e-10;        /* S relative: slows Newton down by this factor only */
-static const double STEP_LIMIT = 0.25; /* change of a coordinate in one step, of its scale */
-static const double CONVERGED = 1e-11; /* a Newton step below this leaves its square */
-static const double ROUNDING = 1e-13;  /* violation, as a displacement, that counts as none */
-static const double CONSISTENT = 1e-9; /* likewise, above which rows contradict each other */
-/* [scales per unit of time] a velocity that small is a rounded zero, and contradicts nothing. */
+static const double MU = 1e-10; /* relative size of S, and the convergence factor that it costs */
+static const double STEP_LIMIT = 0.25; /* largest change of a coordinate in one step, in scales */
+static const double CONVERGED =
+  1e-11;                              /* a Newton step of this size leaves an error of its square */
+static const double ROUNDING = 1e-13; /* violation, as a displacement, that counts as zero */
+static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
+/* [scales per unit of time] velocities below this are rounded zeros and contradict nothing. */
 static const double NO_RATE = 1e-14;
 
 /* Memory of one assembly. */
@@ -36,7 +37,7 @@ typedef struct assembly {
   double *q;        /* (nq) present configuration */
   double *trial;    /* (nq) */
   double *distance; /* (nc) d_i */
-  bool fits;        /* the violation at q, when it was last looked at, is rounding */
+  bool fits;        /* the last violation at q was rounding */
 } assembly;
 
 static bool is_held(const bool *held, int i)
@@ -75,7 +76,7 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* S, from the present J and M. A row without effect moves nothing. */
+/* Set S by the present J and M. */
 static void find_shift(baum_workspace *w)
 {
   baum_i_row_mobilities(w, w->shift);
@@ -95,7 +96,7 @@ static baum_status translate(const assembly *s, baum_status status)
   return status;
 }
 
-/* For the present J and M, which stay in place until the last solution with them. */
+/* Factor the present J and M, which must not change until the last solution with them. */
 static baum_status factor(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -106,7 +107,7 @@ static baum_status factor(const assembly *s)
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
-/* Solve for the least change that makes the rows change by rhs; the result is in w->a. */
+/* Find the least change, into w->a, that changes the rows by rhs. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -114,7 +115,7 @@ static baum_status least_change(const assembly *s)
   return translate(s, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda));
 }
 
-/* ---- naming what contradicts ---- */
+/* ---- naming contradicting joints ---- */
 
 static double displacement(const assembly *s, const double *rows, int i)
 {
@@ -131,7 +132,7 @@ static double worst_displacement(const assembly *s, const double *rows)
   return worst;
 }
 
-/* Names of joints whose rows keep at least a tenth of the worst violation. */
+/* Fail, naming the joints whose rows keep at least a tenth of the worst violation. */
 static baum_status fail_inconsistent(const assembly *s, const double *rows, const char *what,
                                      const char *unit)
 {
@@ -167,7 +168,7 @@ static double merit(const assembly *s, const double *phi)
   return sum;
 }
 
-/* Largest scaled change in w->a, cut to the limit. */
+/* Limit the step in w->a; returns its scaled size before. */
 static double limit_step(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
@@ -178,8 +179,8 @@ static double limit_step(const assembly *s)
   return size;
 }
 
-/* Take the step in w->a, halved until the violation falls; false when it does not. */
-static baum_status search(assembly *s, double before, bool *fell)
+/* Take the step in w->a, halved until the violation decreases; *fell tells whether it did. */
+static baum_status search_along_step(assembly *s, double before, bool *fell)
 {
   baum_workspace *w = s->w;
   double fraction = 1.0;
@@ -217,7 +218,7 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
   BAUM_I_TRY(factor(s));
   BAUM_I_TRY(least_change(s));
   *size = limit_step(s);
-  return search(s, before, fell);
+  return search_along_step(s, before, fell);
 }
 
 static baum_status assemble_positions(assembly *s)
@@ -256,7 +257,7 @@ static baum_status check_sides(const assembly *s)
 
 /* ---- velocities ---- */
 
-/* What is left of Phi' at v: its opposite as the right side, and as a displacement per time. */
+/* Set the right side to -Phi' at v, and *worst to the largest Phi' as a displacement per time. */
 static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;
@@ -279,8 +280,8 @@ static baum_status correct_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* Held are the velocities that were given; free ones arrive as zero. The matrix is that of the
- * configuration all the time. */
+/* Complete velocities: given ones are held, free ones start at zero. The matrix is that of the
+ * configuration throughout. */
 static baum_status assemble_velocities(const assembly *s, double *v)
 {
   double last = (double)INFINITY;
@@ -299,7 +300,7 @@ static baum_status assemble_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* v (nv): given or NaN, then completed. */
+/* v (nv) has given velocities, or NaN for free ones, which are then completed. */
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {
   baum_workspace *w = s->w;

@@ -9,17 +9,17 @@
 #include "base/hot.h"
 #include "base/message.h"
 
-/* Rounding grows along chains while no pivot becomes small, at worst in proportion: up to so many
- * nodes it stays below 5e-13. Above, the residual is looked at in every evaluation. */
+/* Along chains rounding grows even without small pivots, at worst in proportion to the nodes. Up to
+ * this number it stays below 5e-13; above it every evaluation checks the residual. */
 enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
 
-/* Changes of the multipliers by a refinement: nothing more to gain; still a solution. */
+/* Changes of the multipliers by a refinement: converged; still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
-/* Where inverse masses differ by more than the first, and a0 of a light body is larger than all of
- * a by more than the second, a = a0 - W J^T lambda has lost so much that the residual is looked
- * at. */
+/* If inverse masses differ by more than the first factor, and a0 of a light body exceeds all of a
+ * by more than the second, a = a0 - W J^T lambda has cancelled so much that the residual is
+ * checked. */
 static const double UNEVEN = 1e3;
 static const double CANCELLED = 2048.0;
 
@@ -30,7 +30,7 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* What the solver asks about bodies, joints and rows. */
+/* What the solver needs to know about bodies, joints and rows. */
 typedef struct traits {
   baum_i_block_pin *pins;
   unsigned char *diagonal;
@@ -86,7 +86,7 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   return status;
 }
 
-/* Points of the pins in the solver's order; marks them among the joints. */
+/* Copy the points of pins in the solver's order, and mark these joints as done. */
 static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
                                 unsigned char *is_done)
 {
@@ -105,7 +105,7 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
   return BAUM_OK;
 }
 
-/* The groups of the mechanism without the pins of the block and what is left out. */
+/* Make the groups of the mechanism without joints that are done. */
 static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_done,
                                baum_i_block_path *path)
 {
@@ -144,6 +144,23 @@ static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum
   return status;
 }
 
+static baum_status list_omitted_rows(const baum_workspace *w, baum_i_block_path *path)
+{
+  path->omitted = baum_i_alloc((size_t)w->mechanism->nc, sizeof *path->omitted);
+  if (!path->omitted) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
+    if (w->rows.omitted[i]) {
+      const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, i)];
+      int nl = joint->span.nl;
+      path->omitted[path->omitted_count++] =
+        (baum_i_omitted_row){i, joint->jacobian + (i - joint->row) * nl, nl, joint->span.columns};
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
@@ -160,7 +177,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   return BAUM_OK;
 }
 
-/* The first body whose M has no factor L L^T, or 0. */
+/* Find the first body whose M has no factor L L^T, or 0. */
 static int find_massless(const baum_workspace *w, const baum_i_block *block)
 {
   for (int i = 0; i < block->dense_count; i++) {
@@ -175,7 +192,7 @@ static int find_massless(const baum_workspace *w, const baum_i_block *block)
   return 0;
 }
 
-/* Masses that do not change are inverted here. BAUM_ERR_SINGULAR where M is not positive. */
+/* Invert constant masses. Returns BAUM_ERR_SINGULAR where M is not positive definite. */
 static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdict,
                                   baum_i_block_path *path)
 {
@@ -191,21 +208,21 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Smallest and largest of what has been seen. */
+/* Smallest positive and largest number so far. */
 typedef struct range {
   double least;
   double most;
 } range;
 
-static void see(range *r, double x)
+static void include(range *r, double x)
 {
   r->least = x > 0.0 && x < r->least ? x : r->least;
   r->most = x > r->most ? x : r->most;
 }
 
-/* Whether joints may hold a light body by a heavy one: how easily a body's side of a pin moves, w_0
- * + w_2 |p|^2, and how easily bodies turn that other joints hold by each other. Dense bodies are
- * not asked. */
+/* Whether joints may connect a light body to a heavy one. The criteria are the inverse masses w_0 +
+ * w_2 |p|^2 at both sides of pins, and the inverse inertias of bodies connected by other joints.
+ * Mechanisms with dense bodies count as uneven. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;
@@ -214,14 +231,14 @@ static bool is_uneven(const baum_i_block_path *path)
   for (int i = 0; i < 2 * b->pin_count; i++) {
     const double *w = b->weight + 2 * (size_t)b->pins[i / 2].body_block[i % 2];
     const double *p = path->points + 2 * (size_t)i;
-    see(&moves, w[0] + w[1] * (p[0] * p[0] + p[1] * p[1]));
+    include(&moves, w[0] + w[1] * (p[0] * p[0] + p[1] * p[1]));
   }
   for (int i = 0; i < b->full_count; i++) {
     const baum_i_full_node *full = &b->fulls[i];
     for (int k = full->first_side; full->side_count > 1 && k < full->first_side + full->side_count;
          k++) {
-      see(&moves, b->weight[2 * (size_t)b->side_body_block[k]]);
-      see(&turns, b->weight[2 * (size_t)b->side_body_block[k] + 1]);
+      include(&moves, b->weight[2 * (size_t)b->side_body_block[k]]);
+      include(&turns, b->weight[2 * (size_t)b->side_body_block[k] + 1]);
     }
   }
   return b->dense_count > 0 || moves.most > UNEVEN * moves.least ||
@@ -233,6 +250,7 @@ static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict
 {
   BAUM_I_TRY(make_block(w, for_motion, verdict, path));
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
+  BAUM_I_TRY(list_omitted_rows(w, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   BAUM_I_TRY(prepare_forces(w, path));
   path->uneven = is_uneven(path);
@@ -245,9 +263,7 @@ baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
 {
   *out = NULL;
   baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
-  if (!path) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(path));
   path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
   path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
   path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
@@ -274,6 +290,7 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
   baum_i_free(path->points);
   baum_i_free(path->groups);
   baum_i_free(path->joints);
+  baum_i_free(path->omitted);
   baum_i_free(path->constant_force);
   baum_i_free(path);
 }
@@ -304,7 +321,7 @@ void baum_i_paths_destroy(const baum_i_paths *paths)
 
 /* ---- solve ---- */
 
-/* Without bending gamma is zero, not what it was, for that may be infinite. */
+/* Without bending gamma is set to zero, because old values may be infinite. */
 static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path, bool bending)
 {
   const baum_i_rows rows = {
@@ -339,19 +356,16 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Phi' = J v - nu (3) of rows that are left out, which no node sets. */
-static void set_dropped_rates(baum_workspace *w, const double *v)
+/* Phi' = J v - nu (3) of the omitted rows. */
+static void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path, const double *v)
 {
-  const baum_mechanism *m = w->mechanism;
-  for (int i = 0; v && w->rows.count > 0 && i < m->nc; i++) {
-    if (w->rows.omitted[i]) {
-      const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
-      const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
-      w->phi_rate[i] = -w->nu[i];
-      for (int c = 0; c < joint->span.nl; c++) {
-        w->phi_rate[i] += value[c] * v[joint->span.columns[c]];
-      }
+  for (int i = 0; v && i < path->omitted_count; i++) {
+    const baum_i_omitted_row *omitted = &path->omitted[i];
+    double rate = -w->nu[omitted->row];
+    for (int c = 0; c < omitted->count; c++) {
+      rate += w->jacobian[omitted->value + c] * v[omitted->columns[c]];
     }
+    w->phi_rate[omitted->row] = rate;
   }
 }
 
@@ -368,7 +382,7 @@ static void add_row_gain(const baum_workspace *w, baum_i_block *block,
   block->nodes[node].lambda[slot] += more; /* J a0 - r */
 }
 
-/* Nodes have been set with the same gains for all. */
+/* Change nodes that were set with the same gains for all rows. */
 static void add_row_gains(const baum_workspace *w, baum_i_block *block,
                           const baum_i_right_side *right)
 {
@@ -406,13 +420,13 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
                                   .phi_rate = w->phi_rate};
   path->pins_kernel->set(path->block, &pins);
   path->sides_kernel->set(path->block, &rows);
-  set_dropped_rates(w, v);
+  set_omitted_rates(w, path, v);
 }
 
-/* Pivots that are not bad let every refinement gain six digits at least. What weak ones lose a
- * residual at rounding level need not show: close to a singular configuration J a is right and the
- * multipliers are not. So weak pivots are refined in any case, good ones where the residual asks
- * for it. */
+/* Refine the solution. Unless pivots are bad, every refinement gains six digits at least. Close to
+ * a singular configuration J a may be right while the multipliers are wrong, and the residual does
+ * not show it. Therefore weak pivots are always refined, and good ones only if the residual is
+ * large. */
 static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
 {
   bool done = path->kernel->check(path->block) && pivots == BAUM_I_PIVOTS_GOOD;
@@ -426,7 +440,7 @@ static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Whether little is left of a0. */
+/* Whether a is small against a0. */
 static bool has_cancelled(const baum_i_block *block)
 {
   double before = 0.0;
@@ -448,7 +462,7 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* last: nobody corrects the result, so that its residual is looked at. */
+/* last: no later solution corrects this one, so its residual is checked. */
 static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 {
   const baum_i_block_kernel *kernel = path->kernel;
@@ -458,9 +472,9 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(block, w->lambda);
-  bool look = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
-              (path->uneven && has_cancelled(block));
-  if (!look) {
+  bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
+               (path->uneven && has_cancelled(block));
+  if (!check) {
     return BAUM_OK;
   }
   baum_status status = refine(path, pivots);
@@ -468,20 +482,13 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
   return status;
 }
 
-static void clear_omitted(baum_workspace *w)
-{
-  for (int i = 0; w->rows.count > 0 && i < w->mechanism->nc; i++) {
-    w->lambda[i] = w->rows.omitted[i] ? 0.0 : w->lambda[i];
-  }
-}
-
-/* All that the block wants to know of a state. */
-static baum_status set(baum_workspace *w, const baum_i_block_path *path, double t, const double *q,
-                       const double *v, const baum_i_right_side *right)
+/* Evaluate joints, masses and forces at a state, and set the block by them. */
+static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
+                             const double *q, const double *v, const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
-  w->jacobian_ready = false; /* half of it is overwritten where a function fails */
+  w->jacobian_ready = false; /* a failing function leaves it half overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
   BAUM_I_TRY(evaluate_masses(w, path));
   BAUM_I_TRY(evaluate_forces(w, path, right->force));
@@ -497,7 +504,7 @@ baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path,
                                      const double *q)
 {
   const baum_i_right_side nothing = {0};
-  BAUM_I_TRY(set(w, path, t, q, NULL, &nothing));
+  BAUM_I_TRY(set_state(w, path, t, q, NULL, &nothing));
   (void)factor(w, path);
   return BAUM_OK;
 }
@@ -507,10 +514,12 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
                                     const baum_i_right_side *right)
 {
   w->solved_by = path;
-  BAUM_I_TRY(set(w, path, t, q, v, right));
-  /* Positions are projected by several solutions, velocities by one. */
+  BAUM_I_TRY(set_state(w, path, t, q, v, right));
+  /* Projection of positions repeats the solution, that of velocities does not. */
   BAUM_I_TRY(solve(w, path, v && !right->force));
   bool finite = path->kernel->read_motion(path->block, w->a);
-  clear_omitted(w);
+  for (int i = 0; i < path->omitted_count; i++) {
+    w->lambda[path->omitted[i].row] = 0.0;
+  }
   return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
 }

@@ -9,7 +9,7 @@
  *   [ M   J^T ] [ a      ]   [ g         ]
  *   [ J   0   ] [ lambda ] = [ -rate Phi' ]
  *
- * Blocks first, what they cannot solve with confidence by the solver of the whole.
+ * Blocks come first; where they give up, the solver of the whole system takes over.
  */
 #include "dynamics/chord.h"
 

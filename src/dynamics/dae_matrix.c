@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements; q is
- * moved by displacements of velocity size, and the rows of q' - N v are N^+ times those of the
- * residual, so that it has nv rows and columns of q:
+/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements. The
+ * variables are displacements of velocity size instead of q, and the rows of q' - N v are N^+ times
+ * those of the residual. So the matrix has nv rows and columns of q:
  *
  *          q                                             v                       lambda
  *   q      c I - N^+ (N v)_q N                           -I
@@ -17,11 +17,11 @@
  *   q      c I - N^+ (N v)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
- * With gains alpha_i, beta_i of rows, (J w)_q is that of w = v' + 2 alpha v, and 2 (alpha_i -
- * alpha) (J v)_q by a second linearization.
+ * With gains alpha_i, beta_i of single rows, (J w)_q belongs to w = v' + 2 alpha v, and a second
+ * linearization adds 2 (alpha_i - alpha) (J v)_q.
  *
- * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
- * ones only add values to the slots found then. A omitted row reads 1 on its diagonal.
+ * A walk over all blocks emits entries in a fixed order. The first walk finds the pattern; later
+ * walks add values to the slots found then. An omitted row has 1 on its diagonal.
  */
 #include <string.h>
 
@@ -38,7 +38,7 @@ struct baum_i_residual_matrix {
   int32_t *rows;    /* (columns[size]) */
 };
 
-/* Where a walk sends its entries. */
+/* Destination of the entries of a walk. */
 typedef struct sink {
   baum_i_places *places; /* learning, else NULL */
   const int32_t *slot;   /* filling: of the next entry */
@@ -54,7 +54,7 @@ static void emit(sink *s, int row, int col, double value)
   }
 }
 
-/* What a walk multiplies the blocks with. */
+/* Factors of the blocks in a walk. */
 typedef struct factors {
   const baum_workspace *w;
   const baum_dae *dae;
@@ -146,7 +146,7 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
   }
 }
 
-/* One entry of each J that a row has: derivatives of Phi'' with gains, of Phi', of Phi. */
+/* Emit an entry of a row: derivatives of Phi'' with gains, of Phi', of Phi. */
 
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
@@ -176,7 +176,7 @@ static void emit_position(const factors *f, int row, int column, int at, double 
 
 typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
 
-/* Row r of a joint, in the rows that begin at `first`. */
+/* Emit row r of a joint; its rows begin at `first` + joint->row. */
 static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, emit_fn *entry,
                      sink *s)
 {
@@ -230,7 +230,7 @@ static void walk(const factors *f, sink *s)
 
 /* ---- the pattern ---- */
 
-/* Entries that one walk emits. */
+/* Count the entries of a walk. */
 static size_t count_entries(const baum_mechanism *m, baum_residual index)
 {
   size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1;      /* of multipliers */
@@ -253,7 +253,7 @@ static baum_status compress(baum_i_residual_matrix *matrix, const baum_i_places 
   return baum_i_compress(places, matrix->size, matrix->columns, matrix->rows, matrix->slot);
 }
 
-static baum_status learn(baum_i_residual_matrix *matrix, const factors *f)
+static baum_status find_pattern(baum_i_residual_matrix *matrix, const factors *f)
 {
   baum_i_places places;
   baum_status status = baum_i_places_create(count_entries(f->w->mechanism, matrix->index), &places);
@@ -271,15 +271,13 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
 {
   *out = NULL;
   baum_i_residual_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
-  if (!matrix) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(matrix));
   const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
   matrix->index = index;
   matrix->size = baum_i_residual_size(workspace->mechanism, index) - workspace->mechanism->nq +
                  workspace->mechanism->nv;
-  baum_status status = learn(matrix, &f);
+  baum_status status = find_pattern(matrix, &f);
   if (status != BAUM_OK) {
     baum_i_residual_matrix_destroy(matrix);
     return status;
@@ -320,7 +318,7 @@ const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix)
 
 /* ---- the values ---- */
 
-/* What J of the constraint rows is multiplied with. */
+/* Set the vector that J of the constraint rows is multiplied with. */
 static void choose_direction(const baum_dae *dae, int nv, const double *v, const double *dv,
                              double *direction)
 {
@@ -330,14 +328,14 @@ static void choose_direction(const baum_dae *dae, int nv, const double *v, const
   }
 }
 
-/* (J v)_q, and blocks that the linearization proper overwrites. */
+/* Set (J v)_q. The main linearization overwrites the other blocks. */
 static baum_status linearize_rates(baum_workspace *w, const double *v, const double *lambda)
 {
   const baum_i_joint_blocks blocks = {w->jv_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
   return baum_i_mechanism_linearize_joints(&w->point, v, lambda, &blocks);
 }
 
-/* The blocks with mu first, which those with lambda overwrite. */
+/* Linearize with mu first, because the blocks with lambda overwrite the others. */
 static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, const double *v,
                                     const double *dv)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The Jacobian dF/dy + c dF/dy' with dq itself, from the matrix T of dae_matrix.c, which has
- * displacements dx of velocity size. Where q is no vector dx = N^+ dq, and off the manifold nothing
- * changes but the rows of q themselves, so that
+/* The Jacobian dF/dy + c dF/dy' by q itself, from the matrix T of dae_matrix.c, whose variables are
+ * displacements dx of velocity size. Where q is no vector, dx = N^+ dq. Off the manifold only the
+ * rows of q change. So the Jacobian is
  *
  *   L T R + B,   L = diag(N, I),   R = diag(N^+, I),
  *   B = c I - (N u)_q - N (c I - N^+ (N v)_q N) N^+   in the rows and columns of q
@@ -15,17 +15,18 @@
 #include "dynamics/dynamics.h"
 #include "linear/compress.h"
 
-/* Of a body's q, in relevant changes. N is mostly linear in q: then the step does not matter. */
+/* Step of a body's q, in relevant changes. N is mostly linear in q; then the step does not
+ * matter. */
 static const double STEP = 1e-5;
 
-/* One matrix while it is made. */
+/* One matrix in the making. */
 typedef struct widening {
   baum_workspace *w;
   const double *q;
   const double *u; /* (nv) */
   double c;
   int widest;            /* nq of a body, at most */
-  double *memory;        /* behind all below */
+  double *memory;        /* of all arrays below */
   double *rate;          /* (nv x widest) N: row j is column j of its body's */
   double *inverse;       /* (nv x widest) N^+: row j is row j of its body's */
   double *bend;          /* (nq x widest) (N u)_q likewise, by rows */
@@ -58,7 +59,7 @@ static const baum_i_body *body_of_position(const baum_mechanism *m, int i)
   return m->bodies[k];
 }
 
-static void put_rates(const widening *x)
+static void set_rates(const widening *x)
 {
   const baum_mechanism *m = x->w->mechanism;
   for (int j = 0; j < m->nv; j++) {
@@ -71,7 +72,7 @@ static void put_rates(const widening *x)
   }
 }
 
-static void put_inverse(const widening *x)
+static void set_inverse(const widening *x)
 {
   const baum_mechanism *m = x->w->mechanism;
   for (int i = 0; i < m->nq; i++) {
@@ -85,7 +86,7 @@ static void put_inverse(const widening *x)
   }
 }
 
-static void put_bends(const widening *x)
+static void set_bends(const widening *x)
 {
   const baum_mechanism *m = x->w->mechanism;
   double *ahead = x->room;
@@ -107,7 +108,7 @@ static void put_bends(const widening *x)
 
 /* ---- the walk ---- */
 
-/* Rows, or columns, that a row or column of T comes to: the first, how many, and their factors. */
+/* The rows or columns that a row or column of T contributes to, and the factors. */
 typedef struct image {
   int first;
   int count;
@@ -139,7 +140,7 @@ static void walk_entry(widening *x, int i, int j, double value)
   }
 }
 
-/* Of B, at row r and column s of a body. */
+/* Entry of B at row r and column s of a body. */
 static double own_entry(const widening *x, const baum_i_body *body, int r, int s)
 {
   double value = (r == s ? x->c : 0.0) - x->bend[(body->q + r) * x->widest + s];
@@ -176,7 +177,7 @@ static void walk(widening *x, const baum_i_residual_matrix *narrow, const double
 
 /* ---- the whole ---- */
 
-static bool make(widening *x, const baum_dae *dae, const double *y)
+static bool prepare(widening *x, const baum_dae *dae, const double *y)
 {
   const baum_mechanism *m = x->w->mechanism;
   for (int k = 1; k <= m->body_count; k++) {
@@ -199,16 +200,16 @@ static bool make(widening *x, const baum_dae *dae, const double *y)
     x->u = baum_i_corrected_velocities(x->w, y + nq, y + nq + m->nv + m->nc);
   }
   if (!m->flat) {
-    put_rates(x);
-    put_inverse(x);
-    put_bends(x);
+    set_rates(x);
+    set_inverse(x);
+    set_bends(x);
   }
   return true;
 }
 
-/* The pattern of a walk's places, in arrays of the caller's. */
-static baum_status learn(widening *x, const baum_i_residual_matrix *narrow, const double *values,
-                         int n, baum_sparse *pattern, int32_t *slot)
+/* Find the pattern of a walk, into arrays of the caller. */
+static baum_status find_pattern(widening *x, const baum_i_residual_matrix *narrow,
+                                const double *values, int n, baum_sparse *pattern, int32_t *slot)
 {
   baum_i_places places;
   BAUM_I_TRY(baum_i_places_create(x->count, &places));
@@ -241,7 +242,7 @@ static baum_status widen(widening *x, const baum_i_residual_matrix *narrow, cons
   int32_t *slot = baum_i_alloc(x->count, sizeof *slot);
   baum_status status = BAUM_ERR_MEMORY;
   if (pattern.columns && pattern.rows && slot) {
-    status = learn(x, narrow, values, n, &pattern, slot);
+    status = find_pattern(x, narrow, values, n, &pattern, slot);
   }
   if (status == BAUM_OK) {
     give(&pattern, n, out);
@@ -263,7 +264,7 @@ static baum_status make_wide(baum_workspace *w, const baum_dae *dae, double c, c
                              baum_sparse *out)
 {
   widening x = {.w = w, .c = c};
-  baum_status status = make(&x, dae, y) ? BAUM_OK : baum_i_fail_memory();
+  baum_status status = prepare(&x, dae, y) ? BAUM_OK : baum_i_fail_memory();
   if (status == BAUM_OK) {
     status = widen(&x, narrow, values, baum_i_residual_size(w->mechanism, dae->index), out);
   }

@@ -14,8 +14,8 @@
  *   Phi'
  *   Phi
  *
- * A omitted row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and
- * beta are those of row i.
+ * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. Where rows have gains of their
+ * own, alpha and beta are those of row i.
  */
 #include <string.h>
 
@@ -34,7 +34,7 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }
 
-/* Of lambda. */
+/* Rows of lambda. */
 static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
                             double *out)
 {
@@ -59,7 +59,7 @@ const double *baum_i_corrected_velocities(baum_workspace *w, const double *v, co
   return out;
 }
 
-/* q' - N v, of positions. */
+/* Rows of positions: q' - N v. */
 static void position_rows(const baum_mechanism *m, const double *q, const double *v,
                           const double *dq, double *out)
 {

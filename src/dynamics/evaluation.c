@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of dynamics.h: arguments checked, then the stages,
- * then block values spread out dense. */
+/* The public functions of dynamics.h: check arguments, evaluate stages, write blocks to dense
+ * arrays. */
 #include <math.h>
 #include <string.h>
 
@@ -61,9 +61,9 @@ static void give(const double *values, double *out, int count)
 
 /* ---- life ---- */
 
-/* Which rows are redundant, from the design configuration at t = 0. Where that cannot be assembled
- * or evaluated all rows are taken for independent; evaluation will tell what is wrong. */
-static baum_status learn_redundancy(baum_workspace *w)
+/* Find the redundant rows at the design configuration and t = 0. If that cannot be assembled or
+ * evaluated, all rows count as independent, and evaluations report the error. */
+static baum_status find_redundancy(baum_workspace *w)
 {
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
@@ -80,7 +80,7 @@ baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspac
   *out = NULL;
   BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_workspace_create"));
   BAUM_I_TRY(baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out));
-  baum_status status = learn_redundancy(*out);
+  baum_status status = find_redundancy(*out);
   if (status != BAUM_OK) {
     baum_workspace_destroy(*out);
     *out = NULL;
@@ -235,7 +235,7 @@ static baum_status check_gains(const char *call, double alpha, double beta)
   return baum_i_check_finite(call, "beta", "1/s", beta);
 }
 
-/* After a solution: others than before, so that it is worth another one. */
+/* Choose other rows after a solution if the present ones are poor; true: repeat the solution. */
 static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
 {
   bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;
@@ -368,9 +368,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
                        (int)held_count);
   }
   bool *flags = baum_i_alloc((size_t)workspace->mechanism->nv, sizeof *flags);
-  if (!flags) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(flags));
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = mark_held(workspace->mechanism, held, held_count, flags);
@@ -410,9 +408,7 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   BAUM_I_TRY(check_state("baum_workspace_project", workspace, t, q, v, &t));
   const baum_mechanism *m = workspace->mechanism;
   double *copy = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *copy);
-  if (!copy) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(copy));
   baum_status status = project_and_check(workspace, t, q, v, copy);
   if (status == BAUM_OK) {
     give(copy, q, m->nq);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whose number is not finite: masses, forces and coordinates that are large enough overflow, though
- * each of them is a number that a definition may have. M itself is always finite: of definitions,
- * or of a function that is looked at.
+/* Finds and names numbers that are not finite. Large masses, forces and coordinates overflow in
+ * equations, although definitions may have each of them. M itself is always finite: definitions and
+ * user functions are checked.
  */
 #include <math.h>
 
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* -1: all are finite. */
+/* Find the first number that is not finite, or -1. */
 static int first_not_finite(const double *values, int count)
 {
   for (int i = 0; i < count; i++) {
@@ -28,8 +28,7 @@ static baum_status fail(const baum_workspace *w, const char *what, const char *l
 static baum_status fail_row(const baum_workspace *w, const char *what, int row, double value)
 {
   char label[BAUM_I_LABEL_SIZE];
-  const baum_mechanism *m = w->mechanism;
-  return fail(w, what, baum_i_joint_label(m, baum_i_row_joint(m, row), label), value);
+  return fail(w, what, baum_i_row_label(w->mechanism, row, label), value);
 }
 
 static baum_status fail_velocity(const baum_workspace *w, const char *what, int column,
@@ -72,10 +71,11 @@ baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const 
     if (!isfinite(values[i] / m->scale[i])) {
       char label[BAUM_I_LABEL_SIZE];
       const baum_i_body *body = baum_i_velocity_body(m, i);
-      return baum_i_fail(
-        BAUM_ERR_NOT_FINITE,
-        "t = %.9g s: the %s of %s is %g, too large for double precision beside its scale of %g",
-        w->point.t, what, baum_i_label(&body->element, label), values[i], m->scale[i]);
+      return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                         "t = %.9g s: the %s of %s is %g, too large for double precision relative "
+                         "to its scale of %g",
+                         w->point.t, what, baum_i_label(&body->element, label), values[i],
+                         m->scale[i]);
     }
   }
   return BAUM_OK;

@@ -15,7 +15,7 @@ static int root_of(int *parent, int body)
   return body;
 }
 
-/* The root of both is the first body. */
+/* Unite two sets; the first body becomes their root. */
 static void unite(int *parent, int a, int b)
 {
   int root_a = root_of(parent, a);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Islands: bodies that joints hold together, ground and fixed bodies left out. What happens in one
- * does not reach another but through forces: accelerations and multipliers are found one island at
- * a time. */
+/* Islands: sets of bodies that joints connect, without ground and fixed bodies. Islands interact
+ * only through forces, so accelerations and multipliers can be found island by island. */
 #ifndef BAUM_I_DYNAMICS_ISLANDS_H
 #define BAUM_I_DYNAMICS_ISLANDS_H
 
@@ -13,12 +12,12 @@ typedef struct baum_i_island {
   int rows;
 } baum_i_island;
 
-/* How many there are, and the first with most bodies (zeros: there is none). BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* Count the islands, and describe the first one with most bodies (zeros if there is none). BAUM_OK
+ * or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* How many joints each body has (body_count + 1), in memory for the caller to free. BAUM_OK or
+/* Count the joints of each body (body_count + 1), in an array that the caller frees. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
 

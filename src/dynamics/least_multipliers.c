@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Multipliers of least norm, where redundant rows leave them a choice.
+/* Multipliers of least norm, where redundant rows make them ambiguous.
  *
  * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k.
- * Every other one is lambda + N z, with one number z per omitted row, and null vectors
+ * All other solutions are lambda + N z, with one number z per omitted row, and null vectors
  *
  *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
@@ -12,12 +12,12 @@
  *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of characteristic lengths, so that
  *   uneven masses do not blur them.
  *
- * In rows of unit length, s_i = |row i of J M^-1/2|, the least |S (lambda + N z)| is found by
- * conjugate gradients on z (CGLS of A. Bjorck, preconditioned by S_d). Wherever they end, the
- * forces stay in balance.
+ * In rows of unit length, s_i = |row i of J M^-1/2|, conjugate gradients on z minimize
+ * |S (lambda + N z)| (CGLS of A. Bjorck, preconditioned by S_d). The forces stay balanced wherever
+ * the iteration ends.
  *
- * Where the constraints are violated, omitted rows need not depend on the others. Then only such a
- * share of N z is added as keeps the balance: mostly all of it or next to nothing.
+ * Where the constraints are violated, omitted rows need not depend on the others. Then only a share
+ * of N z is added that keeps the balance: mostly all of it, or almost none.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,25 +30,24 @@
 
 enum { MOST_ITERATIONS = 100 };
 
-/* Gradient at which z is found, of the first. */
+/* The iteration ends when the gradient falls to this share of the first one. */
 static const double FOUND = 1e-12;
-/* How far M a + J^T lambda = g may be off: times the terms of the row, of the largest row of the
- * body, of the largest row of all. The last is rounding. */
+/* Tolerances of M a + J^T lambda = g, relative to the terms of the row, of the largest row of the
+ * body and of the largest row of all. The last one allows for rounding. */
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
-/* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small
- * forces. */
+/* Like OF_ALL, for null vectors: the small forces on light bodies must stay balanced, too. */
 static const double OF_ALL_SHARED = 1e-24;
-/* Times the terms of the row, what counts as balanced. */
+/* Imbalance that counts as zero, relative to the terms of the row. */
 static const double ROUNDING = 1e-11;
-/* Share of these limits that N z may use up. */
+/* Share of these tolerances that N z may use. */
 static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
-/* shift (nc) or NULL: of the rows, so that nothing is singular. */
-static baum_status factor(baum_workspace *w, const double *shift)
+/* Factor the matrix above. shift (nc) or NULL regularizes the rows. */
+static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
 {
   const baum_i_sharing *r = &w->sharing;
   const baum_i_kkt_values values = {
@@ -63,8 +62,8 @@ static baum_status factor(baum_workspace *w, const double *shift)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z, where z is zero in kept rows. Where z is a null vector already, out is that vector
- * refined. */
+/* out = N z, for z that is zero in kept rows. If z is already a null vector, out is its
+ * refinement. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -107,7 +106,7 @@ typedef struct search {
   double *image;
 } search;
 
-static search begin(const baum_workspace *w)
+static search search_memory(const baum_workspace *w)
 {
   double *work = w->sharing.work;
   int nc = w->mechanism->nc;
@@ -115,7 +114,7 @@ static search begin(const baum_workspace *w)
     .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
 }
 
-/* Gradient at lambda + part, and its size. */
+/* Find the gradient at lambda + part, and its size. */
 static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -130,13 +129,13 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
   return BAUM_OK;
 }
 
-/* Minimizes along the new direction, to which `turned` of the last one belongs. */
-static baum_status step(baum_workspace *w, const search *s, double size, double turned)
+/* Minimize along the new direction, which contains `share` of the last one. */
+static baum_status minimize_along(baum_workspace *w, const search *s, double size, double share)
 {
   const baum_i_sharing *r = &w->sharing;
   int nc = w->mechanism->nc;
   for (int i = 0; i < nc; i++) {
-    s->direction[i] = turned * s->direction[i] - s->gradient[i] / r->mobility[i];
+    s->direction[i] = share * s->direction[i] - s->gradient[i] / r->mobility[i];
   }
   BAUM_I_TRY(apply(w, s->direction, s->image));
   double curvature = 0.0;
@@ -147,20 +146,20 @@ static baum_status step(baum_workspace *w, const search *s, double size, double 
   return BAUM_OK;
 }
 
-/* Takes away what rounding of large forces has left in rows that carry little. */
+/* Remove the rounding of large forces from rows with small ones. */
 static baum_status refine_part(baum_workspace *w)
 {
-  double *refined = begin(w).image;
+  double *refined = search_memory(w).image;
   BAUM_I_TRY(apply(w, w->sharing.part, refined));
   memcpy(w->sharing.part, refined, (size_t)w->mechanism->nc * sizeof *refined);
   return BAUM_OK;
 }
 
-/* N z into part. */
+/* Set part to N z. */
 static baum_status find_part(baum_workspace *w)
 {
   const baum_i_sharing *r = &w->sharing;
-  search s = begin(w);
+  search s = search_memory(w);
   size_t bytes = (size_t)w->mechanism->nc * sizeof *r->part;
   int most = w->rows.count == 1 ? 1 : 2 * w->rows.count;
   double size = 0.0;
@@ -171,7 +170,7 @@ static baum_status find_part(baum_workspace *w)
   for (int i = 0; i < w->mechanism->nc; i++) {
     r->mobility[i] = r->mobility[i] > 0.0 ? r->mobility[i] : 1.0;
   }
-  BAUM_I_TRY(factor(w, NULL));
+  BAUM_I_TRY(factor_null_matrix(w, NULL));
   for (int k = 0; k < most && k < MOST_ITERATIONS; k++) {
     double before = size;
     BAUM_I_TRY(find_gradient(w, &s, &size));
@@ -179,14 +178,14 @@ static baum_status find_part(baum_workspace *w)
     if (size <= FOUND * FOUND * first) {
       break;
     }
-    BAUM_I_TRY(step(w, &s, size, k == 0 ? 0.0 : size / before));
+    BAUM_I_TRY(minimize_along(w, &s, size, k == 0 ? 0.0 : size / before));
   }
   return refine_part(w);
 }
 
 /* ---- balance ---- */
 
-/* Numbers of the whole system, (nv + nc) each. */
+/* Vectors of the whole system, (nv + nc) each. */
 typedef struct balance {
   double *b;
   double *x;
@@ -194,9 +193,9 @@ typedef struct balance {
   double *size;
 } balance;
 
-/* g - M a - J^T lambda */
-static balance form(const baum_workspace *w, const double *force, const double *a,
-                    const double *lambda)
+/* Compute the residual g - M a - J^T lambda. */
+static balance compute_balance(const baum_workspace *w, const double *force, const double *a,
+                               const double *lambda)
 {
   int nv = w->mechanism->nv;
   int n = nv + w->mechanism->nc;
@@ -213,7 +212,7 @@ static balance form(const baum_workspace *w, const double *force, const double *
   return out;
 }
 
-/* Of some velocities. */
+/* Largest scaled term of some velocities. */
 static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
@@ -223,7 +222,7 @@ static double largest_scaled(const baum_workspace *w, const double *terms, int f
   return most;
 }
 
-/* How far each row may be off, into work_v. */
+/* Set the tolerance of each row, in work_v. */
 static void set_limits(const baum_workspace *w, const balance *at, double of_all)
 {
   const baum_mechanism *m = w->mechanism;
@@ -238,7 +237,7 @@ static void set_limits(const baum_workspace *w, const balance *at, double of_all
   }
 }
 
-/* The largest residual over its limit; *worst: its row. NaN counts as infinite. */
+/* The largest ratio of residual to tolerance; *worst is its row. NaN counts as infinite. */
 static double find_imbalance(const baum_workspace *w, const balance *at, int *worst)
 {
   double most = 0.0;
@@ -253,18 +252,18 @@ static double find_imbalance(const baum_workspace *w, const balance *at, int *wo
   return most;
 }
 
-/* Of the last solution. */
-static balance form_solution(const baum_workspace *w)
+/* Balance of the last solution. */
+static balance compute_solution_balance(const baum_workspace *w)
 {
   const baum_i_block_path *path = w->solved_by;
   const double *force = path && path->force_is_constant ? path->constant_force : w->force;
-  return form(w, force, w->a, w->lambda);
+  return compute_balance(w, force, w->a, w->lambda);
 }
 
 static double find_imbalance_of_solution(const baum_workspace *w)
 {
   int worst = 0;
-  balance at = form_solution(w);
+  balance at = compute_solution_balance(w);
   set_limits(w, &at, OF_ALL_SHARED);
   return find_imbalance(w, &at, &worst);
 }
@@ -272,7 +271,7 @@ static double find_imbalance_of_solution(const baum_workspace *w)
 static baum_status check_balance(const baum_workspace *w)
 {
   int worst = 0;
-  balance at = form_solution(w);
+  balance at = compute_solution_balance(w);
   set_limits(w, &at, OF_ALL);
   double imbalance = find_imbalance(w, &at, &worst);
   if (imbalance <= 1.0) {
@@ -282,37 +281,38 @@ static baum_status check_balance(const baum_workspace *w)
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, worst);
   (void)baum_i_label(&body->element, label);
   return baum_i_fail(BAUM_ERR_SINGULAR,
-                     "t = %.9g s: the multipliers balance the forces on %s to %.2g of them only, "
-                     "must be %g; masses are "
-                     "too uneven, or the configuration is close to a singular one",
+                     "t = %.9g s: the multipliers balance the forces on %s only to a relative "
+                     "error of %.2g, must be %g; the masses are too uneven, or the configuration "
+                     "is close to a singular one",
                      w->point.t, label, imbalance * OF_ROW, OF_ROW);
 }
 
-/* The share of part that keeps the forces within the limits. */
+/* The share of part that keeps the forces within the tolerances. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
-  balance at = form(w, NULL, NULL, w->sharing.part);
+  balance at = compute_balance(w, NULL, NULL, w->sharing.part);
   double imbalance = find_imbalance(w, &at, &worst);
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
-/* N z may take large forces off light bodies; their rounding would stay. */
+/* N z may remove large forces from light bodies; refinement removes the rounding that they
+ * leave. */
 static baum_status refine_multipliers(baum_workspace *w)
 {
   int nv = w->mechanism->nv;
-  double *change = begin(w).image;
-  balance at = form_solution(w);
+  double *change = search_memory(w).image;
+  balance at = compute_solution_balance(w);
   memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
   BAUM_I_TRY(baum_i_kkt_solve(w->sharing.kkt, at.residual, w->work_c, w->work_v + nv, change));
   baum_i_add_scaled(w->mechanism->nc, 1.0, change, w->lambda);
   return BAUM_OK;
 }
 
-/* Adds the share of part that keeps the balance, or nothing where rounding prevents that. */
-static void share_out(baum_workspace *w)
+/* Add the share of part that keeps the balance, or nothing where rounding prevents that. */
+static void add_share(baum_workspace *w)
 {
-  double *before = begin(w).direction;
+  double *before = search_memory(w).direction;
   size_t bytes = (size_t)w->mechanism->nc * sizeof *before;
   double imbalance_before = find_imbalance_of_solution(w);
   double share = find_share(w);
@@ -338,39 +338,39 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
   }
   baum_status status = found == BAUM_OK || found == BAUM_ERR_SINGULAR ? check_balance(w) : found;
   if (found == BAUM_OK && status == BAUM_OK) {
-    share_out(w);
+    add_share(w);
   }
   return status;
 }
 
-/* ---- whose they are ---- */
+/* ---- which multipliers are not unique ---- */
 
-/* Component of a null vector above which a multiplier is not unique; those of omitted rows are
- * about 1, rounding is far less. */
+/* Component of a null vector above which a multiplier is not unique. Those of omitted rows are
+ * about 1; rounding is far smaller. */
 static const double SHARED = 1e-6;
 
-/* Makes every matrix regular; refinement brings back what it costs. */
+/* Relative shift that makes every matrix regular. Refinement removes its error. */
 static const double SHIFT = 1e-12;
 
-/* A generic null vector, in rows scaled to displacements, into part; *least: components that count.
- * Where the constraints are violated it spreads to other rows by as much as it is out of
- * balance. */
-static baum_status find_reach(baum_workspace *w, double *least)
+/* Set part to a generic null vector, in rows scaled to displacements, and *least to the smallest
+ * component that counts. Where the constraints are violated, the vector spreads to other rows in
+ * proportion to its imbalance. */
+static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;
   int nc = w->mechanism->nc;
-  double *z = begin(w).direction;
-  double *size = begin(w).u;
+  double *z = search_memory(w).direction;
+  double *size = search_memory(w).u;
   baum_i_row_displacements(w, size);
   for (int i = 0; i < nc; i++) {
     z[i] = w->rows.omitted[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
     w->shift[i] = SHIFT * size[i] * size[i];
   }
-  BAUM_I_TRY(factor(w, w->shift));
+  BAUM_I_TRY(factor_null_matrix(w, w->shift));
   BAUM_I_TRY(apply(w, z, r->part));
   BAUM_I_TRY(refine_part(w));
   BAUM_I_TRY(refine_part(w));
-  balance at = form(w, NULL, NULL, r->part);
+  balance at = compute_balance(w, NULL, NULL, r->part);
   double off = largest_scaled(w, at.residual, 0, w->mechanism->nv) /
                largest_scaled(w, at.size, 0, w->mechanism->nv);
   *least = fmax(SHARED, 10.0 * off);
@@ -380,7 +380,7 @@ static baum_status find_reach(baum_workspace *w, double *least)
   return BAUM_OK;
 }
 
-/* Largest part of a joint's rows. */
+/* Largest component of part in a joint's rows. */
 static double part_of(const baum_workspace *w, const baum_i_joint *joint)
 {
   double part = 0.0;
@@ -405,7 +405,7 @@ baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 {
   text[0] = '\0';
   double least = 0.0;
-  BAUM_I_TRY(find_reach(w, &least));
+  BAUM_I_TRY(find_null_vector(w, &least));
   list_joints(w, least, text, size);
   return BAUM_OK;
 }
@@ -414,7 +414,7 @@ baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)
 {
   bool any_shared = w->rows.count > 0;
   double least = 0.0;
-  BAUM_I_TRY(any_shared ? find_reach(w, &least) : BAUM_OK);
+  BAUM_I_TRY(any_shared ? find_null_vector(w, &least) : BAUM_OK);
   for (int i = 0; i < w->mechanism->nc; i++) {
     unique[i] = !any_shared || fabs(w->sharing.part[i]) <= least;
   }

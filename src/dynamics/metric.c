@@ -3,13 +3,12 @@
  *
  *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
  *
- * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that
- * coordinates without mass have a share too; 1 where nothing has mass. It is as mass is, so that
- * neither units nor a mixture of lengths and angles make a difference: all M_kk s_k^2 are of one
- * unit.
+ * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that W is
+ * positive for coordinates without mass; E is 1 where nothing has mass. All M_kk s_k^2 have the
+ * same unit, so neither units nor a mixture of lengths and angles matter.
  *
- * Any W that is positive definite gives the same motion, for mu is zero in it; W says how an error
- * of a method is divided among the coordinates. Constant, it has no derivatives.
+ * Any positive definite W gives the same motion, because mu is zero. W only distributes the error
+ * of a method among the coordinates. A constant W has no derivatives.
  */
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a mechanism can do at its assembled start configuration:
- * degrees of freedom, redundant and conflicting rows, by name. */
+/* Mobility of a mechanism at its assembled initial configuration: degrees of freedom, and redundant
+ * and conflicting rows by name. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,8 +39,7 @@ static void find_worst(const baum_workspace *w, baum_mobility *report)
   }
 }
 
-/* Rows that keep a violation after the least-squares assembly failed:
- * those above a tenth of the worst. */
+/* Report the rows that keep a violation after assembly failed: those above a tenth of the worst. */
 static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
 {
   char reason[BAUM_I_MESSAGE_SIZE];
@@ -71,18 +70,18 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
     status = baum_i_redundancy_text(w, names, sizeof names);
     say(report, " %d redundant %s%s%s.", r->count, r->count == 1 ? "row" : "rows",
         names[0] ? " among " : "", names);
-    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* then without names */
+    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* the report is then without names */
   }
   if (report->near_singular) {
     say(
       report,
-      " The start configuration is singular, or all but singular: %d independent rows, %d nearby.",
+      " The initial configuration is singular or nearly singular: %d independent rows, %d nearby.",
       r->rank_at_start, r->rank);
   }
   return status;
 }
 
-static baum_status look(baum_workspace *w, double *q, void *whole)
+static baum_status report_mobility(baum_workspace *w, double *q, void *whole)
 {
   baum_mobility *report = whole;
   const baum_mechanism *m = w->mechanism;
@@ -104,5 +103,5 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
   baum_mobility report = {.struct_size = sizeof report};
   const baum_i_snapshot_out to = {"baum_mechanism_mobility", out, caller_size, &report,
                                   sizeof report};
-  return baum_i_snapshot(mechanism, look, &to);
+  return baum_i_snapshot(mechanism, report_mobility, &to);
 }

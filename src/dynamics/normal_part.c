@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the constraints have of a velocity-like x, by the factors that the last solution has left
+/* The part of a velocity-like x that the constraints remove, by the factors of the last solution
  *
  *   P x = M^-1 J^T (J M^-1 J^T)^-1 J x:   [ M  J^T ] [ P x    ]   [ 0   ]
  *                                         [ J   0  ] [ lambda ] = [ J x ]
  *
- * and with any right side r of rows in the place of J x the smallest velocity that has J y = r.
+ * and, with any right side r of the rows in place of J x, the smallest velocity y with J y = r.
  *
  * P P = P; x - P x is the nearest vector in the metric of M that fulfils J x = 0.
  */
@@ -13,7 +13,7 @@
 #include "dynamics/block_path.h"
 #include "linear/block_pull.h"
 
-/* out = factor times what corrects the block's right side. */
+/* out = factor times the solution for the block's right side. */
 static baum_status solve_by_blocks(const baum_i_block_path *path, double factor, double *out)
 {
   (void)path->kernel->correct(path->block);

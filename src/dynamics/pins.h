@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The geometry of all revolute joints in one pass, straight into the solver by blocks. */
+/* The geometry of all revolute joints in one pass, written directly to the block solver. */
 #ifndef BAUM_I_DYNAMICS_PINS_H
 #define BAUM_I_DYNAMICS_PINS_H
 
 #include "linear/block.h"
 #include "mechanism/mechanism.h"
 
-/* Where and how. */
+/* Input and output of the kernel. */
 typedef struct baum_i_pins {
   const double *points; /* (even pin_count x 4) on body a and on body b, in the order of
                           block->pins */
@@ -20,7 +20,7 @@ typedef struct baum_i_pins {
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Arms, right sides, pivots and lambda[] of the pins; a0 must be there. */
+  /* Set arms, right sides, pivots and lambda[] of the pins; a0 must be set before. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

@@ -7,23 +7,23 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * No J is formed. Arms and gamma are rounded as where J and gamma are reported: fused products
- * would give another J, by a last digit, which close to a singular configuration counts.
+ * No J is formed. Arms and gamma are rounded as in the reported J and gamma. Fused products would
+ * change the last digit of J, which matters close to a singular configuration.
  */
 #include "base/four.h"
 #include "dynamics/pins.h"
 
-/* Two pins are done at a time, one in either half of a vector. Of an odd number the last one is
- * alone: in both halves, of which one is stored. What belongs to them alone: */
+/* The kernel processes two pins at a time, one in each half of a vector. If the number is odd, the
+ * last pin is in both halves, and one half is stored. This struct describes the two: */
 typedef struct two_pins {
-  ptrdiff_t second; /* 1, or 0: the first is alone; known where this is compiled */
+  ptrdiff_t second; /* 1, or 0 for a single pin; a constant where this is inlined */
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;
   double *arm;
 } two_pins;
 
-/* A point of a body: k x p, place, velocity, and p w^2. */
+/* A point of a body: k x p, position, velocity, and p w^2. */
 typedef struct markers {
   baum_i_four turned;
   baum_i_four place;
@@ -31,7 +31,7 @@ typedef struct markers {
   baum_i_four bend;
 } markers;
 
-/* s: on the bodies. */
+/* s: the points in body axes. */
 BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, baum_i_four s)
 {
   baum_i_four along = baum_i_four_times(baum_i_four_spread(&f->c, &g->c), s);
@@ -48,7 +48,7 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
   return m;
 }
 
-/* Body 0 or 1 of both. */
+/* The markers on body 0 or 1 of both pins. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
   /* Body blocks of planar bodies have the numbers of the bodies. */
@@ -133,7 +133,7 @@ BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const bau
 
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
-  const baum_i_block to = *block; /* in registers: nothing that is stored can change it */
+  const baum_i_block to = *block; /* a copy, which stores cannot change, stays in registers */
   const baum_i_pins at = *pins;
   two_pins two = {1, to.pins, at.points, to.pin_weight, to.arm};
   for (int left = to.pin_count; left > 1; left -= 2) {

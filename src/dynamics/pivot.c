@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How close to singular the last solution was.
+/* A measure of how close to singular the last solution was.
  *
- * Blocks: the smallest det D of a node over what it was before the elimination: of a pin det S,
- * which does not depend on how its axes lie, of other pairs of rows, which may depend on each
- * other, the product of the diagonal of S = J M^-1 J^T. Of other solvers the reciprocal condition
- * of the scaled matrix. Either is free of units and falls with the square of the distance from a
- * singular configuration, for its multipliers' part is S. Sizes of the two differ: compare each
- * with what it usually is. A body that turns easily makes blocks hand over in some directions of
- * its arms only, where it is no nearer to singular than in others.
+ * For blocks it is the smallest ratio of det D of a node to its value before the elimination. That
+ * value is det S for a pin, which does not depend on the direction of axes. For other pairs of
+ * rows, which may depend on each other, it is the product of the diagonal of S = J M^-1 J^T. For
+ * other solvers the measure is the reciprocal condition number of the scaled matrix. Both are free
+ * of units and fall with the square of the distance from a singular configuration, because the
+ * matrix contains S. Their sizes differ, so each must be compared with its own usual value. If a
+ * body has a small inertia, blocks give up in some directions of its arms, where it is no closer to
+ * singular than in others.
  */
 #include <math.h>
 
 #include "dynamics/block_path.h"
 
-/* A light rotation lets the diagonal of S alone come and go with the direction of the arm. */
+/* det S: with a small inertia the diagonal of S alone would depend on the direction of the arm. */
 static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];
@@ -23,8 +24,9 @@ static double size_of_pin(const baum_i_block *block, int k)
   return node->size - off * off;
 }
 
-/* The pivot of a node, whose share of the matrix was of this size before the elimination; keeps the
- * smallest and its row. What is no number comes from a zero before. */
+/* Compare the pivot of a node, whose determinant had this size before the elimination, with the
+ * smallest so far, and keep the smaller one and its row. NaN stems from a zero before and counts as
+ * zero. */
 static void compare_pivot(const baum_i_node *node, double size, int first_row, double *smallest,
                           int *row)
 {
@@ -36,7 +38,7 @@ static void compare_pivot(const baum_i_node *node, double size, int first_row, d
   }
 }
 
-/* And its first row, -1: none below 1. */
+/* The smallest pivot and its first row; -1 if none is below 1. */
 static double smallest_of_blocks(const baum_i_block *block, int *row)
 {
   double smallest = 1.0;
@@ -52,8 +54,8 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   return smallest;
 }
 
-/* Blocks that have handed over are asked all the same, but where masses are so uneven that small
- * pivots are the rule, only as long as rounding leaves something of them. */
+/* Use the blocks even if they gave up. Where masses are so uneven that small pivots are common, use
+ * them only if the pivot is above rounding. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;
@@ -71,7 +73,7 @@ bool baum_i_blocks_tell(const baum_workspace *w)
   return find_pivot_of_blocks(w, &pivot, &row);
 }
 
-/* With other solvers the largest multiplier is all there is to name a joint by. */
+/* For other solvers only the largest multiplier can name a joint. */
 double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;

@@ -5,8 +5,8 @@
  *   [ M  J^T ] [ dq     ]   [  0   ]      [ M  J^T ] [ dv     ]   [ 0        ]
  *   [ J   0  ] [ lambda ] = [ -Phi ]      [ J   0  ] [ lambda ] = [ nu - J v ]
  *
- * Newton on the positions until a step is so small that the next, being of its square,
- * is below rounding.
+ * Newton's method on the positions ends when a step is so small that the next one, of the order of
+ * its square, is below rounding.
  */
 #include <float.h>
 #include <math.h>
@@ -16,16 +16,16 @@
 #include "dynamics/block_path.h"
 
 enum { ITERATIONS = 12 };
-/* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
- * curvature. */
+/* A Newton step of 1e-10 leaves an error of about 1e-20, times the ratio of the characteristic
+ * length to the radius of curvature. */
 static const double CONVERGED = 1e-10;
-/* Roundings of all rows may add up, as those of the joints do in a chain of 1e5 links: changes of
- * this for each row that no longer fall are rounding, where the violation is. */
+/* The rounding of all rows may add up, as in a chain of 1e5 links. Changes up to this size for each
+ * row that no longer decrease are rounding if the violation is. */
 static const double STALLED = 8.0 * DBL_EPSILON;
-/* Such a violation, as a displacement, of the largest coordinate. */
+/* Violation that counts as rounding, as a displacement relative to the largest coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
 
-/* Steps below it are rounding of the coordinates: far from the origin, or after many turns. */
+/* Steps below this are rounding of coordinates far from the origin or after many revolutions. */
 static double rounding_of(const baum_mechanism *m, const double *q)
 {
   return 8.0 * DBL_EPSILON * baum_i_position_size(m, q);
@@ -38,7 +38,7 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
   return baum_i_solve_motion(w, t, q, v, &right);
 }
 
-/* Is the violation that q has nothing but rounding? */
+/* Whether the violation at q is only rounding. */
 static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, bool *is)
 {
   const baum_mechanism *m = w->mechanism;
@@ -96,7 +96,7 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
   return workspace->mechanism->nc == 0 ? BAUM_OK : project_velocities(workspace, t, q, v);
 }
 
-static void keep_unprojected(const baum_workspace *workspace, const double *q, const double *v)
+static void save_unprojected(const baum_workspace *workspace, const double *q, const double *v)
 {
   size_t nq = (size_t)workspace->mechanism->nq;
   memcpy(workspace->unprojected, q, nq * sizeof *q);
@@ -107,7 +107,7 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 {
   baum_i_normalize(workspace->mechanism, q);
   if (workspace->unprojected) {
-    keep_unprojected(workspace, q, v);
+    save_unprojected(workspace, q, v);
   }
   if (workspace->mechanism->nc == 0) {
     return BAUM_OK;
@@ -117,22 +117,21 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
   return project_velocities(workspace, t, q, v);
 }
 
-/* ---- rows that are left out ---- */
+/* ---- omitted rows ---- */
 
-/* Violations, as displacements and of the velocities, that rows left out may be left with: more
- * than rounding makes of those that depend on the others, less than another branch does. */
+/* Allowed violations of omitted rows, as displacements and relative to velocities: more than the
+ * rounding of rows that depend on the others, less than on another branch. */
 static const double NEGLIGIBLE = 1e-6;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)
 {
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
-    "t = %.9g s: projection: a row of %s that was left out as redundant is violated by "
-    "%.3g, its rate by %.3g, where the others are met: constraints contradict each "
-    "other, or the configuration is on another branch",
-    w->point.t, label, w->phi[row], w->phi_rate[row]);
+    "t = %.9g s: projection: a redundant row of %s was omitted, but is violated by %.3g, and its "
+    "rate by %.3g, although the other rows are met: constraints contradict each other, or the "
+    "configuration is on another branch",
+    w->point.t, baum_i_row_label(w->mechanism, row, label), w->phi[row], w->phi_rate[row]);
 }
 
 baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,

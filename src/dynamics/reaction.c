@@ -15,8 +15,8 @@
 #include "mechanism/planar/planar.h"
 
 /* -J^T lambda over the joint's local columns. */
-static void generalized(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,
-                        double *out)
+static void find_generalized_force(const baum_workspace *w, const baum_i_joint *joint,
+                                   const double *lambda, double *out)
 {
   const double *block = w->jacobian + joint->jacobian;
   int nl = joint->span.nl;
@@ -29,8 +29,8 @@ static void generalized(const baum_workspace *w, const baum_i_joint *joint, cons
 }
 
 /* Force and moment about `at` of one side of a planar joint. */
-static void about_point(const baum_i_frame *frame, const double *side, int nv, const double at[2],
-                        double out[3])
+static void reduce_to_point(const baum_i_frame *frame, const double *side, int nv,
+                            const double at[2], double out[3])
 {
   out[0] = side[0];
   out[1] = side[1];
@@ -38,8 +38,8 @@ static void about_point(const baum_i_frame *frame, const double *side, int nv, c
   out[2] = moment - ((at[0] - frame->x) * side[1] - (at[1] - frame->y) * side[0]);
 }
 
-static void planar(const baum_workspace *w, const baum_i_joint *joint, const double *local,
-                   double out[3])
+static void find_planar_reaction(const baum_workspace *w, const baum_i_joint *joint,
+                                 const double *local, double out[3])
 {
   const baum_mechanism *m = w->mechanism;
   int a = joint->span.bodies[0];
@@ -48,18 +48,18 @@ static void planar(const baum_workspace *w, const baum_i_joint *joint, const dou
   joint->type->place(joint, &w->point, at);
   if (b != 0) {
     int offset = a != 0 ? m->bodies[a]->nv : 0;
-    about_point(&w->point.frames[b], local + offset, m->bodies[b]->nv, at, out);
+    reduce_to_point(&w->point.frames[b], local + offset, m->bodies[b]->nv, at, out);
     return;
   }
-  about_point(&w->point.frames[a], local, m->bodies[a]->nv, at, out);
+  reduce_to_point(&w->point.frames[a], local, m->bodies[a]->nv, at, out);
   for (int i = 0; i < 3; i++) {
     out[i] = -out[i];
   }
 }
 
 /* Force and moment about `at` of one side of a spatial joint. */
-static void about_point_in_space(const baum_i_spatial_frame *frame, const double side[6],
-                                 const double at[3], double sign, double out[6])
+static void move_to_point_in_space(const baum_i_spatial_frame *frame, const double side[6],
+                                   const double at[3], double sign, double out[6])
 {
   double arm[3];
   double shift[3];
@@ -74,22 +74,22 @@ static void about_point_in_space(const baum_i_spatial_frame *frame, const double
   }
 }
 
-static void spatial(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,
-                    double out[6])
+static void find_spatial_reaction(const baum_workspace *w, const baum_i_joint *joint,
+                                  const double *lambda, double out[6])
 {
   const int *bodies = joint->span.bodies;
   int side = bodies[1] != 0 ? 1 : 0;
   double at[3];
   double wide[BAUM_I_PAIR_COLUMNS];
   double local[BAUM_I_PAIR_COLUMNS];
-  generalized(w, joint, lambda, local);
+  find_generalized_force(w, joint, lambda, local);
   for (int i = 0; i < joint->span.nl; i++) {
     w->work_v[joint->span.columns[i]] = local[i];
   }
   baum_i_columns_gather(&w->point, &joint->span, BAUM_I_SPACE, w->work_v, wide);
   joint->type->place(joint, &w->point, at);
-  about_point_in_space(&w->point.spatial[bodies[side]], wide + (ptrdiff_t)BAUM_I_SPACE * side, at,
-                       side == 1 ? 1.0 : -1.0, out);
+  move_to_point_in_space(&w->point.spatial[bodies[side]], wide + (ptrdiff_t)BAUM_I_SPACE * side, at,
+                         side == 1 ? 1.0 : -1.0, out);
 }
 
 static int width_of(const baum_mechanism *m, const baum_i_joint *joint)
@@ -111,11 +111,11 @@ void baum_i_reaction(const baum_workspace *w, int joint, const double *lambda, d
   int width = width_of(w->mechanism, j);
   if (width == BAUM_I_PLANE) {
     double local[6];
-    generalized(w, j, lambda, local);
-    planar(w, j, local, out);
+    find_generalized_force(w, j, lambda, local);
+    find_planar_reaction(w, j, local, out);
   } else if (width == BAUM_I_SPACE) {
-    spatial(w, j, lambda, out);
+    find_spatial_reaction(w, j, lambda, out);
   } else {
-    generalized(w, j, lambda, out);
+    find_generalized_force(w, j, lambda, out);
   }
 }

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Permanent redundancy: rows that depend on others not just at the start configuration but around
- * it.
+/* Permanent redundancy: rows that depend on others at the initial configuration and around it.
  *
- * The rank of J M^-1/2, rows of unit length, is taken at the assembled start configuration and at
- * neighbours on the constraint manifold. The largest of them is the rank that the mechanism has;
- * the rows outside one largest independent set are redundant, and every solver leaves them out;
- * which, may change on the way (row_set.c). A start configuration of lower rank is a singular one.
+ * The rank of J M^-1/2, with rows of unit length, is determined at the assembled initial
+ * configuration and at neighbours on the constraint manifold. The largest rank is that of the
+ * mechanism. The rows outside one largest independent set are redundant, and every solver omits
+ * them. The choice of rows may change during a run (row_set.c). An initial configuration of lower
+ * rank is singular.
  *
- * Next to a singular configuration a row that is all but dependent, by its distance d from there,
- * blows up the rounding of those behind it to 1e-16 / d, and what is redundant may pass for
- * independent. Such a configuration is not clear, and the first such row is all that is sure of it:
- * clear neighbours that have as many rows decide, and it counts as a singular one. Where none is
- * clear, rows are all but dependent everywhere, as those of two pins next to each other, and are
- * taken as they are. So they are around an exactly singular configuration that is clear itself,
- * where long members turn rows only little.
+ * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
+ * later rows to 1e-16 / d, so redundant rows may pass for independent ones. The rank of such a
+ * configuration is ambiguous beyond the first nearly dependent row. Then neighbours with a clear
+ * rank that is no smaller decide, and the configuration counts as singular. If no neighbour is
+ * clear, rows are nearly dependent everywhere, as those of two pins close to each other, and the
+ * rank is taken as it is. The same holds around an exactly singular configuration with a clear
+ * rank, if long members turn rows only little.
  *
- * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it,
- * and assembled there.
+ * A neighbour lies along x, a solution of J x = nu that contains all degrees of freedom, and is
+ * assembled there.
  */
 #include <math.h>
 #include <string.h>
@@ -27,32 +27,32 @@
 #include "dynamics/dynamics.h"
 
 enum { NEIGHBOURS = 4 };
-/* Dependent rows at an assembled configuration deviate by rounding and assembly, 1e-12 at most;
- * rows that only come near dependence at a generic pose are told apart down to this. */
+/* Dependent rows at an assembled configuration deviate by 1e-12 at most, by rounding and assembly.
+ * Rows that deviate by more than this are independent. */
 static const double RANK_TOLERANCE = 1e-10;
-/* Above this rows are independent without doubt, and do not blow up rounding to that tolerance. */
+/* Rows above this are clearly independent, and do not amplify rounding to that tolerance. */
 static const double CLEAR = 1e-5;
-/* Rows that are farther apart are kept before others: what dependent rows disagree by, 1e-14 as
- * assembled, comes into the motion over this. */
+/* Rows above this are preferred. The disagreement of dependent rows, 1e-14 as assembled, enters the
+ * motion divided by this. */
 static const double FIRST = 1e-3;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
 
-/* Of a configuration; it is clear where both are the same. */
-typedef struct pose_rank {
+/* Rank at a configuration; it is clear if both numbers are equal. */
+typedef struct rank_found {
   int all;
-  int clear; /* without rows that are all but dependent */
-} pose_rank;
+  int clear; /* without nearly dependent rows */
+} rank_found;
 
 typedef struct search {
   baum_workspace *w;
-  double *start; /* (nq) the configuration to look at */
+  double *start; /* (nq) assembled configuration */
   double *q;     /* (nq) neighbour */
   double *x;     /* (nv) direction */
-  pose_rank kept;
+  rank_found kept;
 } search;
 
-/* Rank at a configuration; leaves J, M and nu there in the workspace. */
-static baum_status rank_at(const search *s, double t, const double *q, pose_rank *rank)
+/* Find the rank at a configuration; leaves J, M and nu in the workspace. */
+static baum_status find_rank(const search *s, double t, const double *q, rank_found *rank)
 {
   static const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
   baum_workspace *w = s->w;
@@ -67,14 +67,14 @@ static baum_status rank_at(const search *s, double t, const double *q, pose_rank
   return BAUM_OK;
 }
 
-/* What is sure: the first row that is all but dependent has no rounding blown up yet. */
-static int least_rank(const pose_rank *rank)
+/* The certain rank: rounding is not yet amplified in the first nearly dependent row. */
+static int least_rank(const rank_found *rank)
 {
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Whether a configuration tells more of the mechanism than the other. */
-static bool is_better(const pose_rank *rank, const pose_rank *other)
+/* Whether a rank says more about the mechanism than another. */
+static bool is_better(const rank_found *rank, const rank_found *other)
 {
   int more = least_rank(rank) - least_rank(other);
   more = more == 0 ? rank->clear - other->clear : more;
@@ -82,7 +82,7 @@ static bool is_better(const pose_rank *rank, const pose_rank *other)
   return more > 0;
 }
 
-static void keep_set(search *s, const pose_rank *rank)
+static void set_omitted(search *s, const rank_found *rank)
 {
   baum_i_row_set *r = &s->w->rows;
   int nc = s->w->mechanism->nc;
@@ -96,8 +96,7 @@ static void keep_set(search *s, const pose_rank *rank)
 
 /* ---- neighbours ---- */
 
-/* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S,
- * so that dependent rows do not matter. */
+/* Solve [M J^T; J -S] [x; .] = [M p; r]. The small S permits dependent rows. */
 static baum_status solve_direction(const search *s, const double *p, const double *r)
 {
   baum_workspace *w = s->w;
@@ -115,8 +114,8 @@ static void small_shift(baum_workspace *w)
   }
 }
 
-/* A direction of motion at the configuration in the workspace, in s->x;
- * its scaled size in *size, 0 when nothing moves. */
+/* Set s->x to a direction of motion at the configuration in the workspace, and *size to its scaled
+ * size, 0 if nothing moves. */
 static baum_status find_direction(const search *s, double *size)
 {
   baum_workspace *w = s->w;
@@ -137,24 +136,24 @@ static baum_status find_direction(const search *s, double *size)
   return BAUM_OK;
 }
 
-/* One neighbour; a configuration that cannot be assembled is passed over. */
-static baum_status look_at_neighbour(search *s, double t, const double *q, double step)
+/* Try one neighbour; skip it if it cannot be assembled. */
+static baum_status try_neighbour(search *s, double t, const double *q, double step)
 {
   baum_workspace *w = s->w;
   baum_i_move_from(w->mechanism, q, step, s->x, s->q);
   baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL);
-  pose_rank rank = {0, 0};
+  rank_found rank = {0, 0};
   if (status == BAUM_OK) {
-    status = rank_at(s, t + step, s->q, &rank);
+    status = find_rank(s, t + step, s->q, &rank);
   }
   if (status == BAUM_OK && is_better(&rank, &s->kept)) {
-    keep_set(s, &rank);
+    set_omitted(s, &rank);
   }
   return status == BAUM_ERR_MEMORY || (status == BAUM_ERR_CALLBACK && !w->point.retry) ? status
                                                                                        : BAUM_OK;
 }
 
-static baum_status look_around(search *s, double t, const double *q)
+static baum_status try_neighbours(search *s, double t, const double *q)
 {
   double size = 0.0;
   baum_status status = find_direction(s, &size);
@@ -165,12 +164,12 @@ static baum_status look_around(search *s, double t, const double *q)
     return BAUM_OK;
   }
   for (int k = 0; k < NEIGHBOURS; k++) {
-    BAUM_I_TRY(look_at_neighbour(s, t, q, DISTANCE[k] / size));
+    BAUM_I_TRY(try_neighbour(s, t, q, DISTANCE[k] / size));
   }
   return BAUM_OK;
 }
 
-/* Constraints that contradict each other have no redundant rows: leaving one out would hide the
+/* Omit no row. Contradicting constraints have no redundant rows: omitting one would hide the
  * contradiction. */
 static void keep_all(baum_i_row_set *r, int nc)
 {
@@ -178,18 +177,17 @@ static void keep_all(baum_i_row_set *r, int nc)
   memset(r->omitted, 0, (size_t)nc);
 }
 
-/* The configuration to look at is assembled: off the constraints no row depends on others
- * exactly. */
-static baum_status find(search *s, double t, const double *q)
+/* Assemble the configuration first: off the constraints no row depends on others exactly. */
+static baum_status find_rows(search *s, double t, const double *q)
 {
   baum_i_row_set *r = &s->w->rows;
   int nc = s->w->mechanism->nc;
-  pose_rank rank = {0, 0};
+  rank_found rank = {0, 0};
   memcpy(s->start, q, (size_t)s->w->mechanism->nq * sizeof *q);
   baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
   bool fits = status == BAUM_OK;
-  BAUM_I_TRY(status == BAUM_ERR_MEMORY ? status : rank_at(s, t, s->start, &rank));
-  keep_set(s, &rank);
+  BAUM_I_TRY(status == BAUM_ERR_MEMORY ? status : find_rank(s, t, s->start, &rank));
+  set_omitted(s, &rank);
   r->rank_at_start = rank.all;
   if (rank.clear == nc) {
     return BAUM_OK; /* independent here means independent nearby */
@@ -198,7 +196,7 @@ static baum_status find(search *s, double t, const double *q)
     keep_all(r, nc);
     return BAUM_OK;
   }
-  status = look_around(s, t, s->start);
+  status = try_neighbours(s, t, s->start);
   r->rank_at_start = is_better(&s->kept, &rank) ? rank.clear : rank.all;
   if (status != BAUM_OK || r->count == 0) {
     return status;
@@ -218,11 +216,9 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
     return BAUM_OK;
   }
   double *memory = baum_i_alloc(2 * nq + nv, sizeof *memory);
-  if (!memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(memory));
   search s = {.w = workspace, .x = memory, .start = memory + nv, .q = memory + nv + nq};
-  baum_status status = find(&s, t, q);
+  baum_status status = find_rows(&s, t, q);
   if (status != BAUM_OK) {
     keep_all(&workspace->rows, workspace->mechanism->nc);
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an evaluation of a mechanism costs and which work it skips, in numbers and in words. */
+/* Report of the cost of an evaluation and of the work it skips, in numbers and in words. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -9,7 +9,7 @@
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
-/* Append to the report's text; what does not fit is cut. */
+/* Append to the report's text, and cut what does not fit. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static const char *plural(int count)
@@ -62,7 +62,7 @@ static baum_status report_islands(const baum_mechanism *m, baum_report *report)
 
 /* ---- the solver ---- */
 
-/* Of the bodies that are not fixed. */
+/* Find the body with most joints, among those that are not fixed. */
 static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
 {
   const baum_mechanism *m = w->mechanism;
@@ -121,7 +121,7 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
 
 /* ---- skipped work ---- */
 
-/* What begins the line, and what parts one thing from the next. */
+/* The beginning of the line, or the separator of its items. */
 static const char *next_skipped(int *count)
 {
   return (*count)++ > 0 ? "; " : "skipped       ";
@@ -159,8 +159,8 @@ static void report_skipped(const baum_mechanism *m, baum_report *report)
 
 /* ---- the whole ---- */
 
-/* A configuration to look at: assembled, or as designed where that fails; at rest. */
-static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
+/* Assemble the design configuration; if that fails, use it as it is. */
+static baum_status find_configuration(baum_workspace *w, double *q, bool *assembled)
 {
   memcpy(q, w->mechanism->design_q, (size_t)w->mechanism->nq * sizeof *q);
   baum_status status = baum_i_assemble(w, 0.0, q, NULL, w->mechanism->held);
@@ -168,11 +168,11 @@ static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
   return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
 }
 
-static baum_status look(baum_workspace *w, double *q, void *whole)
+static baum_status report_all(baum_workspace *w, double *q, void *whole)
 {
   baum_report *report = whole;
   bool assembled = false;
-  BAUM_I_TRY(find_pose(w, q, &assembled));
+  BAUM_I_TRY(find_configuration(w, q, &assembled));
   report_sizes(w, assembled, report);
   BAUM_I_TRY(report_islands(w->mechanism, report));
   BAUM_I_TRY(report_solver(w, report));
@@ -186,5 +186,5 @@ baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *
   baum_report report = {.struct_size = sizeof report};
   const baum_i_snapshot_out to = {"baum_mechanism_report", out, caller_size, &report,
                                   sizeof report};
-  return baum_i_snapshot(mechanism, look, &to);
+  return baum_i_snapshot(mechanism, report_all, &to);
 }

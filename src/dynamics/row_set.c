@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Another set of independent rows where those that are kept come close to dependent.
+/* Choice of another set of independent rows when the kept rows become nearly dependent.
  *
- * Three parallel cranks out of line turn freely, but whichever row is omitted, what stays is a
- * parallelogram of two with a third crank that hangs on one row, and has singular configurations of
- * its own. So before these are reached other rows are omitted, as coordinates are partitioned again
- * (Wehage and Haug 1982). Accelerations do not depend on the choice, multipliers do.
+ * Three parallel cranks out of line turn freely. But whichever row is omitted, the rest is a
+ * parallelogram of two cranks with a third crank on one row, which has singular configurations of
+ * its own. Before the motion reaches these, other rows are omitted, like a repartition of
+ * coordinates (Wehage and Haug 1982). Accelerations do not depend on the choice, but multipliers
+ * do.
  */
 #include "dynamics/row_set.h"
 
@@ -13,19 +14,19 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Distances of rows from those before, of their length, that are tried: with the first at which
- * there are as many as the rank they are well apart, and better than those kept if these are not so
- * far apart by FACTOR. */
+/* Distances of a row from the rows before, relative to its length, from MOST to LEAST by STEP. The
+ * largest distance at which there are enough rows for the rank gives a well-separated set. It
+ * replaces the kept rows if these do not reach that distance divided by FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double STEP = 0.5;
 static const double FACTOR = 1.25;
 
-/* Below it others are looked for, each time when it has changed by RETRY since. */
+/* Below this pivot other rows are searched, again each time it has changed by a factor of RETRY. */
 static const double POOR = 0.2;
 static const double RETRY = 3.0;
 
-/* ---- rows that are well apart ---- */
+/* ---- well-separated rows ---- */
 
 static void invert(const unsigned char *flags, int count, unsigned char *out)
 {
@@ -52,7 +53,7 @@ baum_status baum_i_select_rows(baum_workspace *w, double distance, int *rank)
   return BAUM_OK;
 }
 
-/* As many independent rows as there are at this distance; those that are kept now come first. */
+/* Select independent rows at this distance, the kept ones first; *found: there are enough. */
 static baum_status select_at(baum_workspace *w, double distance, bool *found)
 {
   int rank = 0;
@@ -62,7 +63,7 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
   return status;
 }
 
-/* Those that are kept now, unless others are better. */
+/* Select well-separated rows, preferably those that are kept now. */
 static baum_status select_apart(baum_workspace *w, double t, const double *q, bool *found)
 {
   *found = false;
@@ -76,7 +77,7 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, bo
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* In the scales, where no mass is light. */
+/* Likewise in scales instead of masses. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {
@@ -113,7 +114,7 @@ bool baum_i_rows_are_apart(baum_workspace *w, double t, const double *q)
 
 /* ---- omitted ---- */
 
-static void go_on_counting(const baum_i_block_path *before, baum_i_block_path *path)
+static void copy_counters(const baum_i_block_path *before, baum_i_block_path *path)
 {
   if (before) {
     path->factorizations = before->factorizations;
@@ -121,7 +122,7 @@ static void go_on_counting(const baum_i_block_path *before, baum_i_block_path *p
   }
 }
 
-/* For the rows of the workspace, where there were such before. */
+/* Create the paths again for the rows of the workspace, if it has paths. */
 static baum_status replace_paths(baum_workspace *w)
 {
   baum_i_block_verdict verdict;
@@ -130,10 +131,10 @@ static baum_status replace_paths(baum_workspace *w)
   BAUM_I_TRY(w->motion ? baum_i_paths_create(w, &verdict, &made) : BAUM_OK);
   if ((w->path && !made.all) || (w->motion && !made.motion)) {
     baum_i_paths_destroy(&made);
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED, "other rows cannot be solved for by blocks");
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED, "blocks cannot solve for the other rows");
   }
-  go_on_counting(before.all, made.all);
-  go_on_counting(before.motion, made.motion);
+  copy_counters(before.all, made.all);
+  copy_counters(before.motion, made.motion);
   w->path = made.all;
   w->motion = made.motion;
   w->solved_by = NULL;
@@ -152,7 +153,7 @@ static void swap_sets(baum_i_row_set *rows)
   rows->selected = omitted;
 }
 
-/* The rows that are marked there. */
+/* Omit the rows marked in `selected`. */
 static baum_status omit_selected(baum_workspace *w)
 {
   swap_sets(&w->rows);
@@ -193,9 +194,9 @@ void baum_i_clear_omitted_rows(const baum_workspace *w, double *jacobian)
   }
 }
 
-/* ---- chosen on the way ---- */
+/* ---- choice during a run ---- */
 
-/* True: they have changed. */
+/* Choose other rows; true if they have changed. */
 static bool exchange_rows(baum_workspace *w, double t, const double *q)
 {
   int nc = w->mechanism->nc;
@@ -208,7 +209,7 @@ static bool exchange_rows(baum_workspace *w, double t, const double *q)
   return memcmp(selected, w->rows.omitted, (size_t)nc) != 0 && omit_selected(w) == BAUM_OK;
 }
 
-/* What fails here leaves the rows as they are, which are no worse than before. */
+/* A failure leaves the rows unchanged. */
 bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double pivot)
 {
   baum_i_row_set *rows = &w->rows;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which rows of J are kept, and which are omitted because they depend on these in every
- * configuration. How many is found once (redundancy.c), at the assembled initial configuration and
- * its neighbours; which may change on the way (row_set.c). */
+/* The rows of J that are kept, and the rows that are omitted because they depend on these in every
+ * configuration. Their number is found once (redundancy.c), at the assembled initial configuration
+ * and its neighbours. The choice of rows may change during a run (row_set.c). */
 #ifndef BAUM_I_DYNAMICS_ROW_SET_H
 #define BAUM_I_DYNAMICS_ROW_SET_H
 
@@ -11,40 +11,40 @@
 
 typedef struct baum_i_row_set {
   int rank;                /* of J at the neighbours */
-  int rank_at_start;       /* at the initial configuration; less: it is singular, or next to that */
+  int rank_at_start;       /* at the initial configuration; if less, this is (nearly) singular */
   int count;               /* omitted rows */
   unsigned char *omitted;  /* (nc) 1 where a row is omitted; zeros where none is */
   unsigned char *selected; /* (nc) scratch: 1 where a row is in another set */
-  double pivot_at_last_selection; /* relative; 0: as good as never */
+  double pivot_at_last_selection; /* relative; 0: never */
 } baum_i_row_set;
 
 /* Find rank and rows at the assembled configuration (t, q). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q);
 
-/* The rank of J in the workspace with columns scaled by work_v (nv) (0 for fixed bodies), and one
- * largest set of independent rows into `selected`, those that are marked there first. The rows of
- * the welds that fix bodies are in it. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
+/* Find the rank of J in the workspace, with columns scaled by work_v (nv) (0 for fixed bodies), and
+ * mark one largest set of independent rows in `selected`. Rows that are marked before come first.
+ * The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* Keep as many rows that are well apart in this configuration, if there are such; before paths are
- * made. */
+/* Keep as many rows that are well separated in this configuration, if possible. Call it before
+ * paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Are there rows of the whole rank that are well apart in this configuration, whichever are
- * omitted? */
+/* Whether this configuration has well-separated rows of the whole rank, whichever are omitted
+ * now. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Omit these rows (nc) from now on in place of those before, as many and of the same rank.
- * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED where blocks do not suit the others, statuses of functions
- * of the user; then all stays as it is. */
+/* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same.
+ * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED where blocks do not suit the other rows, or statuses of
+ * user functions; then nothing changes. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
-/* Where the pivot, of the usual one, has become poor, for rows that were well apart need not be so
- * everywhere: omit others if these are. true: they have changed, and what was solved for is gone.
- * Allocates, but hardly ever. */
+/* Omit other rows if the pivot, relative to its usual value, is poor and others are better.
+ * Returns true if the rows have changed; then the last solution is lost. It allocates memory,
+ * but rarely. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot);
 
-/* The same rows in a workspace of the same mechanism, before its paths are made. */
+/* Copy the rows to a workspace of the same mechanism, before its paths are created. */
 void baum_i_copy_rows(baum_workspace *to, const baum_workspace *from);
 
 /* Zero the omitted rows of block values of J. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on a mechanism, or a frozen copy of it, at a configuration of their own finding, outside
- * any run. */
+/* Reports on a mechanism outside any run, at a configuration that the report finds. If the
+ * mechanism is not frozen, a frozen copy is used. */
 #ifndef BAUM_I_DYNAMICS_SNAPSHOT_H
 #define BAUM_I_DYNAMICS_SNAPSHOT_H
 
 #include "dynamics/dynamics.h"
 
-/* Where a report goes: the caller's struct, and a whole one to fill first. */
+/* Destination of a report: the caller's struct, and a whole struct to fill first. */
 typedef struct baum_i_snapshot_out {
   const char *call; /* name of the public function, for messages */
   void *out;
@@ -18,7 +18,7 @@ typedef struct baum_i_snapshot_out {
 /* Fills `whole`; q (nq + nv) is memory, zeroed. */
 typedef baum_status baum_i_look(baum_workspace *w, double *q, void *whole);
 
-/* Look at the mechanism, and give the report if that went well; else nothing is written. */
+/* Fill the report, and copy it to the caller. Writes nothing on failure. */
 baum_status baum_i_snapshot(const baum_mechanism *mechanism, baum_i_look *look,
                             const baum_i_snapshot_out *to);
 

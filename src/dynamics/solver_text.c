@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How accelerations are solved for, in words. */
+/* Descriptions of the solver of accelerations. */
 #include <stdio.h>
 
 #include "dynamics/block_path.h"
@@ -22,13 +22,13 @@ static void blocks_text(const baum_workspace *w, const baum_i_block_path *path, 
   const baum_i_block *block = path->block;
   char fixed[64] = "";
   if (path->fixed_count > 0) {
-    (void)snprintf(fixed, sizeof fixed, "; %d fixed %s left out", path->fixed_count,
+    (void)snprintf(fixed, sizeof fixed, "; %d fixed %s omitted", path->fixed_count,
                    path->fixed_count == 1 ? "body" : "bodies");
   }
   (void)snprintf(text, size, "blocks, %d %s, %d %s%s%s", block->node_count,
                  block->node_count == 1 ? "node" : "nodes", block->off_count,
                  block->off_count == 1 ? "coupling" : "couplings", fixed,
-                 w->blocks_only ? "; and nothing else" : "; klu and qr where pivots are bad");
+                 w->blocks_only ? ", no other solver" : "; klu and qr where pivots are bad");
 }
 
 void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
@@ -46,7 +46,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
                    count_joints(m, body));
     break;
   case BAUM_I_BLOCKS_FILLED:
-    (void)snprintf(text, size, "the joints are so much of a net that blocks would fill");
+    (void)snprintf(text, size, "the joints form a dense net, so blocks would fill");
     break;
   case BAUM_I_BLOCKS_MASSLESS:
     (void)snprintf(text, size, "the mass matrix of %.150s is not positive definite", label);
@@ -56,7 +56,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
     break;
   case BAUM_I_BLOCKS_SUIT:
   case BAUM_I_BLOCKS_UNWANTED:
-  default: (void)snprintf(text, size, "another solver is asked for"); break;
+  default: (void)snprintf(text, size, "another solver was chosen"); break;
   }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stages of an evaluation: what depends on (t, q), then what depends on v as well. */
+/* The stages of an evaluation: first what depends on (t, q), then what also depends on v. */
 #include <string.h>
 
 #include "dynamics/dynamics.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step from that of the residual (dae_matrix.c) with y = (q, v, lambda), filled
- * with c = by_a / by_v: its columns of v, which hold c M - g_v, times by_v go to those of q, and
- * the rows of q' - v are not needed. Which number goes where is found once.
+/* The matrix of a step, from that of the residual (dae_matrix.c) with y = (q, v, lambda) and c =
+ * by_a / by_v. The columns of v, which hold c M - g_v, are multiplied by by_v and added to those of
+ * q. The rows of q' - v are not needed. The destination of every number is found once.
  */
 #include "dynamics/step_matrix.h"
 
@@ -11,10 +11,10 @@
 #include "base/message.h"
 #include "linear/compress.h"
 
-/* What a number of the full matrix is multiplied with. */
+/* Factors of the numbers of the full matrix. */
 enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
 
-/* A number of the full matrix on its way. */
+/* Destination of a number of the full matrix. */
 typedef struct route {
   int32_t to;     /* in values[]; unused where the factor is 0 */
   int32_t factor; /* one of the above */
@@ -41,7 +41,7 @@ static int32_t factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Routes but for where they lead, and their places. */
+/* Set the factors of routes, and list their places. */
 static void list_places(const baum_i_step_matrix *matrix, int nv, baum_i_places *places)
 {
   const int32_t *columns = baum_i_residual_matrix_columns(matrix->form);
@@ -90,7 +90,7 @@ static baum_status compress(baum_i_step_matrix *matrix, const baum_i_places *pla
   return status;
 }
 
-static baum_status make(const baum_workspace *w, baum_i_step_matrix *matrix)
+static baum_status fill(const baum_workspace *w, baum_i_step_matrix *matrix)
 {
   BAUM_I_TRY(baum_i_residual_matrix_create(w, BAUM_RESIDUAL_INDEX3, &matrix->form));
   size_t full = (size_t)baum_i_residual_matrix_nonzeros(matrix->form);
@@ -113,7 +113,7 @@ baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_st
 {
   *out = NULL;
   baum_i_step_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
-  baum_status status = matrix ? make(workspace, matrix) : baum_i_fail_memory();
+  baum_status status = matrix ? fill(workspace, matrix) : baum_i_fail_memory();
   if (status != BAUM_OK) {
     baum_i_step_matrix_destroy(matrix);
     return status;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's matrix of a step at index 3 by a method of Newmark's kind, whose changes of velocities
- * and accelerations are multiples of that of positions:
+/* Newton's matrix of a step at index 3 by a method of Newmark type, in which changes of velocities
+ * and accelerations are multiples of those of positions:
  *
  *   dv = by_v dq,  dv' = by_a dq,  dlambda = x / scale
  *
@@ -8,8 +8,8 @@
  *   + J^T lambda - g) ] [ J                                                              0  ] [ x
  *   ] = - [ Phi                           ]
  *
- * With scale by_a of the size of 1 no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A.
- * Cardona, 2007; M. Arnold, O. Bruels, 2007). Of a omitted row i, lambda_i = 0 stays.
+ * If scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A.
+ * Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H

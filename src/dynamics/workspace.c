@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory for evaluating one mechanism: made once, then nothing is allocated. */
+/* Memory for evaluating a mechanism. It is allocated once; evaluations allocate nothing. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* One array of the workspace; the list below is the one place that knows them. */
+/* An array of the workspace; the list below is their only inventory. */
 typedef struct array {
   double **place;
   int count;
@@ -100,8 +100,8 @@ static baum_status make_structure(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* The initial values. */
-static void hold_inputs(baum_workspace *w)
+/* Set the inputs to their initial values. */
+static void set_inputs(baum_workspace *w)
 {
   const double *initial = baum_i_initial_inputs(w->mechanism);
   if (initial) {
@@ -115,7 +115,7 @@ static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
   w->choice = choice;
   BAUM_I_TRY(baum_i_point_create(w->mechanism, &w->point));
   BAUM_I_TRY(make_arrays(w));
-  hold_inputs(w);
+  set_inputs(w);
   BAUM_I_TRY(make_structure(w));
   return baum_i_kkt_create(&w->structure, choice, &w->kkt);
 }
@@ -125,9 +125,7 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
 {
   *out = NULL;
   baum_workspace *w = baum_i_alloc(1, sizeof *w);
-  if (!w) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(w));
   w->mechanism = baum_i_mechanism_share(mechanism);
   baum_status status = fill(w, choice);
   if (status != BAUM_OK) {
@@ -138,8 +136,8 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
   return BAUM_OK;
 }
 
-/* Where nothing but blocks is allowed. */
-static baum_status refuse(const baum_workspace *w)
+/* Fail where only blocks are allowed. */
+static baum_status refuse_other_solvers(const baum_workspace *w)
 {
   char text[BAUM_I_SOLVER_TEXT_SIZE];
   baum_i_blocks_reason(w, text);
@@ -167,7 +165,8 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   if (status != BAUM_OK) {
     w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNKNOWN};
   }
-  return w->blocks_only && !w->path ? refuse(w) : baum_i_message_settle(BAUM_OK, &kept);
+  return w->blocks_only && !w->path ? refuse_other_solvers(w)
+                                    : baum_i_message_settle(BAUM_OK, &kept);
 }
 
 void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace)
@@ -205,9 +204,8 @@ void baum_i_workspace_forget(baum_workspace *w)
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what)
 {
   return w->point.asking
-           ? baum_i_fail(BAUM_ERR_STATE,
-                         "%s: %s is calling a function of the user, which must not use it", call,
-                         what)
+           ? baum_i_fail(BAUM_ERR_STATE, "%s: %s is calling a user function, which must not use it",
+                         call, what)
            : BAUM_OK;
 }
 

@@ -4,18 +4,17 @@
  *
  *   q(t + theta h) = q + h sum_{j<k} w_j(theta) (N v)(t - j h)    (nq)   then normalized
  *   v(t + theta h) = v + h sum_{j<k} w_j(theta) a(t - j h)        (nv)
- *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, .. from 0 to
- *   theta
+ *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, ..
+ *                    from 0 to theta
  *
- * theta = 1 is a step of the grid. Any other is answered from the same past with the same local
- * error, O(h^(k+1)); when such a step is kept, the grid is left and the past is of no use any more.
+ * theta = 1 is a step of the grid. Any other step uses the same history with the same local error,
+ * O(h^(k+1)). If such a step is kept, the run leaves the grid and the history is discarded.
  *
- * Without enough of a past, at the start and after it has been given up, the classical Runge-Kutta
- * method takes the steps: its local error is O(h^5), so that the order k stays for all k <= 4.
+ * Without enough history, at the start and after a restart, the classical Runge-Kutta method takes
+ * the steps: its local error is O(h^5), so the order k stays for all k <= 4.
  *
- * A step may be a trial that is thrown away: it leaves v and a of its start in the slot ahead of
- * the past, which is part of the past only once the step is accepted.
- */
+ * A step may be a trial that is discarded. It stores v and a of its start in the slot ahead of the
+ * history, which joins the history only when the step is accepted. */
 #include "integrate/adams_bashforth.h"
 
 #include <string.h>

@@ -20,8 +20,8 @@ typedef struct baum_i_adams {
   void *starter; /* of the Runge-Kutta method */
   int nq;
   int nv;
-  int ahead;     /* slot of the present step's start; those before it, round the ring, are past */
-  int past;      /* points known, at most steps - 1 */
+  int ahead;     /* slot of the present step's start; the history lies before it in the ring */
+  int past;      /* points of the history, at most steps - 1 */
   bool on_grid;  /* the last trial was a step of the grid */
   double *slots; /* (steps x (nq + nv)) N v and a of a point */
 } baum_i_adams;

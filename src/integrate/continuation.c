@@ -36,22 +36,22 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* Newton's first correction, of the scales, and the second one over it. A guess further off is not
- * one of this pose. */
+/* Newton's first correction relative to the scales, and the second one relative to it. A guess
+ * further off does not belong to this configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
-/* Later corrections; below it rounding may have been reached. */
+/* Ratio of later corrections; above it they have stopped falling, perhaps because of rounding. */
 static const double STAGNATION = 0.5;
-/* Of |D|; 1 would do if it were known exactly, and on the whole of the step. */
+/* Limit of |D|; 1 would suffice if |D| were known exactly, and on the whole step. */
 static const double TURNING = 0.7;
-/* Violation as a displacement: that of coordinates of the size of the scales, and of larger ones
- * for each scale. */
+/* Violation as a displacement: for coordinates of the size of the scales, and for larger ones per
+ * scale. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
-/* Likewise of rows that were left out: above it they do not depend on the others here. */
+/* The same for omitted rows: above it they do not depend on the others here. */
 static const double NEGLIGIBLE = 1e-6;
-/* A probe is over when it has decayed to this share; weight of the direction in which the last one
- * did. */
+/* A probe ends when it has decayed to this share; weight of the direction in which the last one
+ * ended. */
 static const double DECAYED = 0.01;
 static const double KEPT = 3.0;
 
@@ -112,7 +112,7 @@ static bool accept_solution(baum_status status, baum_i_verdict *verdict)
   }
 }
 
-/* J at the present point; its values must stay in place. */
+/* Factor J at the present point; its values must stay in place. */
 static baum_status factor(baum_workspace *w)
 {
   const baum_i_kkt_values values = {
@@ -130,7 +130,8 @@ static baum_status solve(const baum_i_continuation *path, const double *rows, do
 
 /* ---- Newton ---- */
 
-/* Largest violation as a displacement, of the rows that are kept or of the others; its row. */
+/* Find the largest violation as a displacement, of the active or of the omitted rows, and its
+ * row. */
 static double violation(const baum_i_continuation *path, bool kept, int *row)
 {
   const baum_workspace *w = path->workspace;
@@ -145,8 +146,9 @@ static double violation(const baum_i_continuation *path, bool kept, int *row)
   return worst;
 }
 
-/* The position stage, and its violation. */
-static baum_status look(const baum_i_continuation *path, const baum_i_pose *pose, double *worst)
+/* Evaluate the position stage and its violation. */
+static baum_status evaluate_violation(const baum_i_continuation *path, const baum_i_pose *pose,
+                                      double *worst)
 {
   baum_workspace *w = path->workspace;
   int row = 0;
@@ -156,7 +158,7 @@ static baum_status look(const baum_i_continuation *path, const baum_i_pose *pose
   return BAUM_OK;
 }
 
-/* dq into path->image. */
+/* Find the correction dq, in path->image. */
 static baum_status correct(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;
@@ -167,20 +169,20 @@ static baum_status correct(const baum_i_continuation *path)
   return solve(path, w->rhs, path->image);
 }
 
-/* Is a correction of this size on its way to zero? */
+/* Does a correction of this size converge to zero? */
 static bool converges(int k, double size, double last)
 {
   return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
 }
 
-/* To the configuration, at which the workspace is then left with its position stage. */
+/* Find the configuration; the workspace then has its position stage. */
 static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i_verdict *verdict)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   double last = 0.0;
   for (int k = 0; k < ITERATIONS; k++) {
     double worst = 0.0;
-    if (!accept_evaluation(path->workspace, look(path, pose, &worst), verdict)) {
+    if (!accept_evaluation(path->workspace, evaluate_violation(path, pose, &worst), verdict)) {
       return false;
     }
     if (worst <= ROUNDING) {
@@ -206,14 +208,14 @@ static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i
 
 /* ---- guards ---- */
 
-/* Rows that were left out must follow from the others. */
+/* Omitted rows must follow from the others. */
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
   return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE ||
          refuse(verdict, BAUM_I_REFUSAL_LEFT_OUT, BAUM_OK);
 }
 
-/* Of size 1/2 to 1 and either sign. */
+/* A number of size 1/2 to 1 and either sign. */
 static double scatter(int k)
 {
   double x = baum_i_golden(k + 1);
@@ -233,8 +235,8 @@ static baum_status apply_turning(const baum_i_continuation *path, const double *
   return status;
 }
 
-/* One part of every scale in every coordinate, and the direction that the last probe ended in,
- * where branches have come near each other. */
+/* Start a probe: some of every scale in every coordinate, and the direction in which the last probe
+ * ended, where branches have come close to each other. */
 static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from)
 {
   const baum_mechanism *m = path->workspace->mechanism;
@@ -268,7 +270,7 @@ static bool keeps_turning(const baum_i_continuation *path, const baum_i_pose *fr
 
 /* ---- velocities and accelerations ---- */
 
-/* At the configuration in the workspace, whose J is factored. */
+/* Find v and a at the configuration in the workspace, whose J is factored. */
 static bool differentiate(const baum_i_continuation *path, baum_i_pose *pose,
                           baum_i_verdict *verdict)
 {
@@ -312,7 +314,7 @@ bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *fro
 
 /* ---- impasse ---- */
 
-/* u_i d_i <= 1: a force in the rows that hardly anything resists, and its rows. */
+/* Normalize u_i d_i <= 1 for a force in the rows that meets hardly any resistance, and its rows. */
 static void normalize_left(const baum_i_continuation *path)
 {
   double largest = 0.0;
@@ -343,8 +345,8 @@ static baum_status iterate(const baum_i_continuation *path)
   return solve(path, w->rhs, path->probe);
 }
 
-/* Left singular vector of the smallest singular value into path->left, rows as displacements,
- * coordinates in scales. */
+/* Find the left singular vector of the smallest singular value, in path->left, with rows as
+ * displacements and coordinates in scales. */
 static baum_status find_critical(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;
@@ -383,7 +385,7 @@ baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_
 {
   double worst = 0.0;
   *impasse = (baum_i_impasse){.gain = (double)INFINITY, .driver = -1, .resister = -1};
-  BAUM_I_TRY(look(path, pose, &worst));
+  BAUM_I_TRY(evaluate_violation(path, pose, &worst));
   BAUM_I_TRY(factor(path->workspace));
   BAUM_I_TRY(find_critical(path));
   impasse->gain = baum_i_scaled_size(path->workspace->mechanism, path->probe);

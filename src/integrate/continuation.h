@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Configurations on the path q(t) of Phi(q, t) = 0 where no freedom is left, and one guarded step
- * from one to the next. */
+/* Configurations on the path q(t) of Phi(q, t) = 0 of mechanisms without degrees of freedom, and
+ * one guarded step from one to the next. */
 #ifndef BAUM_I_INTEGRATE_CONTINUATION_H
 #define BAUM_I_INTEGRATE_CONTINUATION_H
 
 #include "dynamics/dynamics.h"
 
-/* A configuration that fulfils the constraints, and what follows from it. */
+/* A configuration that satisfies the constraints, and what follows from it. */
 typedef struct baum_i_pose {
   double t;
   double *q; /* (nq) */
@@ -17,13 +17,13 @@ typedef struct baum_i_pose {
   double *jacobian; /* (jacobian_size) */
 } baum_i_pose;
 
-/* Why a configuration was not taken. */
+/* Why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
   BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the next hardly smaller */
   BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
   BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
-  BAUM_I_REFUSAL_LEFT_OUT, /* a row that was left out as redundant is violated */
+  BAUM_I_REFUSAL_LEFT_OUT, /* a row that was omitted as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
   BAUM_I_REFUSAL_STOP,       /* what a function that stops the run answered, or BAUM_ERR_MEMORY */
 } baum_i_refusal;
@@ -38,7 +38,7 @@ typedef struct baum_i_verdict {
   int row;            /* of BAUM_I_REFUSAL_LEFT_OUT */
 } baum_i_verdict;
 
-/* What is used on the way. */
+/* Memory of the steps. */
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
@@ -49,7 +49,7 @@ typedef struct baum_i_continuation {
   double *left;     /* (nc) */
 } baum_i_continuation;
 
-/* Where a singular configuration is singular. */
+/* What makes a configuration singular. */
 typedef struct baum_i_impasse {
   double gain;  /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot
                   be factored */
@@ -62,17 +62,17 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* J at configuration->q and pose->t, which need not fulfil the constraints, so that it can serve as
- * `from` below. */
+/* Find J at pose->q and pose->t, which need not satisfy the constraints, so that the pose can serve
+ * as `from` below. */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
 
-/* From the guess pose->q at configuration->t to the configuration: Newton, then v and a, guarded
- * against the configuration `from`, of which J and turn are used. true: the configuration is good;
- * else verdict->refusal says why not. */
+/* Lead the guess pose->q at pose->t to a configuration: Newton, then v and a, guarded against the
+ * configuration `from`, of which J and turn are used. true: the configuration is good; else
+ * verdict->refusal says why not. */
 bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
                                baum_i_pose *pose, baum_i_verdict *verdict);
 
-/* Look at a good configuration next to which none was found. */
+/* Analyse a good configuration next to which no other was found. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
                                         baum_i_impasse *impasse);
 

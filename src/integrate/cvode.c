@@ -53,7 +53,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* The system of Newton's iteration, always again: its derivatives cost about an evaluation.
+/* Build the system of Newton's iteration afresh each time: its derivatives cost about an evaluation.
  * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
@@ -76,21 +76,20 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
 /* ---- projection ---- */
 
 /* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): after Newton's
- * iteration q and v are moved onto the constraints, by the least change in the metric of M. The
- * estimated error of q loses what points away from them, since the projection takes that off the
- * true error too:
+ * iteration q and v are moved onto the constraints by the least change in the metric of M. The
+ * estimated error of q loses its part across the constraints, because the projection removes that
+ * from the true error too:
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
  *
- * That of v stays as it is. Its part across the constraints is not only what the projection takes
- * off: J e_v = -(J v)_q e_q is left by the error along them, and with P e_v taken away too errors
- * are twice as large at the same tolerance and the same cost (pendulum, slider-crank, four-bar,
+ * The estimate for v stays as it is. Its part across the constraints is not only what the
+ * projection removes: the error along them leaves J e_v = -(J v)_q e_q. Without P e_v errors are
+ * twice as large at the same tolerance and the same cost (pendulum, slider-crank, four-bar,
  * Andrews, rtol 1e-4 to 1e-10).
  *
- * The history of the method is corrected by the same step, so that the next prediction begins
- * there. Adams' predictor and corrector work with f alone, whose past cannot be moved; CVODE
- * projects with BDF only.
- */
+ * The history of the method is corrected by the same step, so that the next prediction starts
+ * there. Adams' predictor and corrector work with f alone, whose history cannot be moved, so CVODE
+ * projects with BDF only. */
 
 static void subtract(int n, const double *what, double *from)
 {
@@ -99,7 +98,7 @@ static void subtract(int n, const double *what, double *from)
   }
 }
 
-/* What does not converge may do so closer to the last step. */
+/* A projection that does not converge may do so closer to the last step. */
 static int answer_projection(baum_i_sundials *sundials, baum_status status)
 {
   int answered = baum_i_sundials_answer(sundials, status);

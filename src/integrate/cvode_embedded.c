@@ -12,8 +12,8 @@
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2
  *
- * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors that the
- * evaluation before has left. Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i
+ * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors of the
+ * previous evaluation. Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i
  * gamma)^2 is one of each row, and with Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, likewise
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
@@ -36,7 +36,7 @@
 
 #include "integrate/sundials_klu.h"
 
-/* What a substitution cannot solve, a smaller step may. */
+/* A smaller step may help if a substitution fails. */
 static int answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {

@@ -11,21 +11,20 @@
  *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
  *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
  *
- * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as the constraints have:
- * a disturbance of the multipliers falls to a tenth in ten steps. Oscillations that are resolved
- * are hardly damped.
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of the
+ * constraints: a disturbance of the multipliers falls to a tenth in ten steps. Resolved
+ * oscillations are hardly damped.
  *
- * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and
- * begins so, else the multipliers would be of first order for some steps. For a step of another
- * length the difference is scaled.
+ * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h. It starts
+ * with that value; otherwise the multipliers would be of first order for some steps. For a step of
+ * another length the difference is scaled.
  *
- * The first step after every beginning starts from the state projected onto the constraints: a
- * violation would become velocities of its size over h, which no equation takes back at once.
+ * The first step after every start begins at the state projected onto the constraints: a violation
+ * would become velocities of its size over h, which no equation removes at once.
  *
  * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled
  * multipliers: step_matrix.h. (Where q is no vector it is exact but for terms of h times the
- * angular velocity: x is added at q, not at q_1.)
- */
+ * angular velocity: x is added at q, not at q_1.) */
 #include "integrate/generalized_alpha.h"
 
 #include <float.h>
@@ -44,29 +43,29 @@ static const double BETA = 25.0 / 81.0;
 
 enum { ITERATIONS = 20 };
 
-/* A change of the positions by this share of what the accelerations do in a step is the last:
- * multipliers and accelerations are then right to that share. It is not asked for less than some
- * roundings of the positions, or of their scale where they are small beside it, as those of a body
- * at the origin. */
+/* A change of the positions by this share of what the accelerations do in a step is the last one:
+ * multipliers and accelerations are then accurate to that share. It need not fall below some
+ * roundings of the positions, or of their scale if they are small beside it, as for a body at the
+ * origin. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped falling, and are no more than so many of these roundings, are rounding,
- * too. */
+/* Changes that have stopped falling are rounding up to this many of these roundings. */
 static const double STALLED = 64.0;
-/* Changes up to this that have stopped falling are compared with what rounding makes of the
- * equations: that of a large coordinate is much in the scale of a small one that is tied to it. */
+/* Changes up to this size that have stopped falling are compared with the effect of rounding on the
+ * equations: rounding of a large coordinate is much in the scale of a small one that is tied to
+ * it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* Of a step, for the derivative of the acceleration by a difference: truncation is this share of
- * terms of second order, rounding its inverse of one unit. */
+/* Share of a step over which the acceleration is differentiated: truncation is this share of terms
+ * of second order, rounding its inverse of one unit. */
 static const double SHIFT = 1e-3;
 
 /* Steps that differ by less than this share need no other a. */
 static const double SAME_STEP = 1e-6;
 
-/* What a step leaves to the next. */
+/* What the next step needs of one. */
 typedef struct alpha_past {
   double *rate;   /* (nv) v' */
   double *a;      /* (nv) */
@@ -92,12 +91,13 @@ typedef struct alpha_run {
   double *dy;       /* (nq + nv + nc) zeros, v', unused */
   double *residual; /* (nq + nv + nc) */
   double *x;        /* (nv + nc) */
+  double *nudged;   /* (2 (nq + nv + nc)) y and dy in other last digits */
 } alpha_run;
 
 /* ---- begin ---- */
 
-/* v' and lambda of (5); a by a difference along the motion, for steps of the grid whatever the
- * first one is. */
+/* Find v' and lambda by (5), and a by a difference along the motion, for steps of the grid whatever
+ * the first one is. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;
@@ -124,15 +124,6 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   return BAUM_OK;
 }
 
-/* So that every trial from a state begins alike: the first steps project, whether they are kept or
- * not. */
-static baum_status prepare(alpha_run *run, const baum_i_problem *problem, baum_i_state *state)
-{
-  bool begins = !run->known || run->first;
-  BAUM_I_TRY(begins ? baum_i_project(problem->workspace, state->t, state->q, state->v) : BAUM_OK);
-  return run->known ? BAUM_OK : begin(run, problem, state);
-}
-
 /* ---- one step ---- */
 
 /* (1 - alpha_m) a_1 = (1 - alpha_f) v'_1 + alpha_f v' - alpha_m a */
@@ -155,7 +146,7 @@ static void move_end(alpha_run *run, const baum_mechanism *m, const baum_i_state
   baum_i_move_from(m, state->q, 1.0, run->moved, run->y);
 }
 
-/* With v' and lambda as they are. */
+/* Predict the end of the step with v' and lambda unchanged. */
 static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state *state, double h)
 {
   double *v = run->y + run->nq;
@@ -171,7 +162,7 @@ static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state 
   memcpy(v + run->nv, run->now.lambda, (size_t)run->nc * sizeof *run->y);
 }
 
-/* A change x of all unknowns. */
+/* Apply a change x of all unknowns. */
 static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *state,
                   const baum_i_step_ratios *ratios)
 {
@@ -187,7 +178,7 @@ static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *s
   }
 }
 
-/* One iteration of Newton's; the size of its change of the positions. */
+/* Take one Newton iteration and find the size of its change of the positions. */
 static baum_status improve(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
                            double t, const baum_i_step_ratios *ratios, double *size)
 {
@@ -211,83 +202,33 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   return BAUM_OK;
 }
 
-/* All unknowns up by some roundings; they are kept in `next`, which the end of the step fills. */
-static void nudge(alpha_run *run)
-{
-  double *rate = run->dy + run->nq;
-  double *lambda = run->y + run->nq + run->nv;
-  memcpy(run->next.rate, rate, (size_t)run->nv * sizeof *rate);
-  memcpy(run->next.lambda, lambda, (size_t)run->nc * sizeof *lambda);
-  for (int i = 0; i < run->nq; i++) {
-    run->y[i] *= 1.0 + NUDGE;
-  }
-  for (int i = 0; i < run->nv; i++) {
-    rate[i] *= 1.0 + NUDGE;
-  }
-  for (int i = 0; i < run->nc; i++) {
-    lambda[i] *= 1.0 + NUDGE;
-  }
-}
-
-static void take_back(alpha_run *run, const baum_mechanism *m, const baum_i_state *state)
-{
-  move_end(run, m, state);
-  memcpy(run->dy + run->nq, run->next.rate, (size_t)run->nv * sizeof *run->dy);
-  memcpy(run->y + run->nq + run->nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
-}
-
-/* Size of the change of the positions that rounding asks for: what the equations change by when all
- * unknowns do so in their last digits, with signs of its own in each row, for rows are rounded each
+/* Find the change of the positions that rounding asks for: the change of the equations if all
+ * unknowns change in their last digits, with its own sign in each row, because each row is rounded
  * by itself. */
-static baum_status find_noise(alpha_run *run, const baum_i_problem *problem,
-                              const baum_i_state *state, double t, const baum_i_step_ratios *ratios,
-                              double *noise)
+static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
+                              const baum_i_step_ratios *ratios, double *noise)
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
+  int whole = run->nq + run->nv + run->nc;
   const double *rest = run->residual + run->nq;
+  double *y = run->nudged;
+  double *dy = y + whole;
+  for (int i = 0; i < whole; i++) {
+    y[i] = run->y[i] * (1.0 + NUDGE);
+    dy[i] = run->dy[i] * (1.0 + NUDGE);
+  }
+  memcpy(y + run->nq, run->y + run->nq,
+         (size_t)run->nv * sizeof *y); /* v follows from the others */
   BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
-  nudge(run);
-  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
-  take_back(run, w->mechanism, state);
-  BAUM_I_TRY(status);
+  BAUM_I_TRY(baum_i_residual(w, &dae, t, y, dy, run->residual));
   for (int i = 0; i < run->nv + run->nc; i++) {
     run->x[i] = (i < run->nv ? ratios->scale : 1.0) * fabs(rest[i] - run->x[i]);
   }
   baum_i_step_matrix_solve(run->matrix, run->x);
   *noise = baum_i_scaled_size(w->mechanism, run->x);
   return BAUM_OK;
-}
-
-/* Changes of positions that need no further one. */
-typedef struct limits {
-  double enough;
-  double stalled; /* when they have stopped falling */
-} limits;
-
-static limits find_limits(const alpha_run *run, const baum_i_problem *problem,
-                          const baum_i_state *state, double h)
-{
-  const baum_mechanism *m = problem->workspace->mechanism;
-  double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
-  double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
-  return (limits){fmax(CONVERGED * BETA * h * h * acceleration, rounding), STALLED * rounding};
-}
-
-static bool is_last(const limits *last, double size, double before)
-{
-  return size <= last->enough || (size > 0.5 * before && size <= last->stalled);
-}
-
-static baum_status fail(double t, double size)
-{
-  return baum_i_fail(
-    BAUM_ERR_CONVERGENCE,
-    "t = %.9g s: generalized_alpha: the equations of the next step do not converge "
-    "(last change %.3g of the scale): the step is too large or the configuration is near a "
-    "singular one",
-    t, size);
 }
 
 static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
@@ -298,15 +239,19 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     .by_a = (1.0 - ALPHA_M) / ((1.0 - ALPHA_F) * BETA * h * h),
     .scale = BETA * h * h,
   };
-  limits last = find_limits(run, problem, state, h);
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
+  double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
+  double enough = fmax(CONVERGED * BETA * h * h * acceleration, rounding);
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     double before = size;
     BAUM_I_TRY(improve(run, problem, state, state->t + h, &ratios, &size));
-    bool done = is_last(&last, size, before);
-    if (!done && k > 1 && size > 0.5 * before && size <= LARGEST_NOISE) {
+    bool stalls = size > 0.5 * before;
+    bool done = size <= enough || (stalls && size <= STALLED * rounding);
+    if (!done && k > 1 && stalls && size <= LARGEST_NOISE) {
       double noise = 0.0;
-      BAUM_I_TRY(find_noise(run, problem, state, state->t + h, &ratios, &noise));
+      BAUM_I_TRY(find_noise(run, problem, state->t + h, &ratios, &noise));
       done = size <= NOISES * noise;
     }
     if (done) {
@@ -317,7 +262,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
       break;
     }
   }
-  return fail(state->t, size);
+  return baum_i_fail_iteration("generalized_alpha", "the equations", state->t, size);
 }
 
 static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
@@ -326,7 +271,12 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  BAUM_I_TRY(prepare(run, problem, state));
+  /* Every trial from a state must start alike, so the first steps project whether they are kept or
+   * not. */
+  if (!run->known || run->first) {
+    BAUM_I_TRY(baum_i_project(problem->workspace, state->t, state->q, state->v));
+  }
+  BAUM_I_TRY(run->known ? BAUM_OK : begin(run, problem, state));
   predict(run, problem->workspace->mechanism, state, h);
   BAUM_I_TRY(iterate(run, problem, state, h));
   run->trial = h;
@@ -341,7 +291,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-/* The past of a step off the grid is given up, as every method does it. */
+/* A step off the grid ends the history, as in every method. */
 static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   alpha_run *run = self;
@@ -390,7 +340,7 @@ static baum_status make_memory(alpha_run *run)
   int nv = run->nv;
   int nc = run->nc;
   int whole = run->nq + nv + nc;
-  size_t count = 3 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
+  size_t count = 5 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
   run->memory = baum_i_alloc(count, sizeof *run->memory);
   BAUM_I_TRY(baum_i_check_memory(run->memory));
   double *next = run->memory;
@@ -405,6 +355,7 @@ static baum_status make_memory(alpha_run *run)
   run->dy = take(&next, whole);
   run->residual = take(&next, whole);
   run->x = take(&next, nv + nc);
+  run->nudged = take(&next, 2 * whole);
   return BAUM_OK;
 }
 

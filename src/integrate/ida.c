@@ -10,10 +10,10 @@
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
  * What it takes to make this work, all measured:
- * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities
- *   too; at index 1 lambda is put in by tolerance_lambda, elsewhere its estimate does not fall with
- *   the step as it should. Newton's iteration is judged by sizes of its own (ida_newton.c): left
- *   out there too, multipliers run away.
+ * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
+ *   velocities. At index 1 tolerance_lambda includes lambda; elsewhere its estimate does not fall
+ *   with the step as it should. Newton's iteration has a test of its own that includes multipliers
+ *   (ida_newton.c); otherwise they diverge.
  * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the
  *   equations but not small; v' and lambda come from one solution of (5) or (7). IDA's own search
  *   for a consistent start can succeed with wrong accelerations.
@@ -46,7 +46,7 @@ typedef struct ida_run {
   baum_dae dae;
 } ida_run;
 
-/* At a start, of the tolerance. */
+/* Largest violation at a start, relative to the tolerance. */
 static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
@@ -83,7 +83,7 @@ static int linearize(sunrealtype tau, sunrealtype c, N_Vector y, N_Vector dy, N_
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Weights must be > 0, also of multipliers that are not tested. */
+/* Set the error weights, which must be > 0 also for multipliers that are not tested. */
 static int weigh(N_Vector y, N_Vector weights, void *user)
 {
   ida_run *run = user;
@@ -136,7 +136,7 @@ static int size_of(const baum_i_problem *problem)
   return baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
 }
 
-/* rtol with the smaller of the factors of what is tested. */
+/* rtol times the smaller factor of what is tested. */
 static double tightest(const ida_run *run, const baum_i_problem *problem)
 {
   bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
@@ -144,7 +144,7 @@ static double tightest(const ida_run *run, const baum_i_problem *problem)
   return problem->rtol * factor;
 }
 
-/* Largest violation as a displacement, over the scale; of velocities, times 1/T. */
+/* Largest violation as a displacement relative to the scale; that of velocities times 1/T. */
 static double violation_of(const ida_run *run, const baum_i_problem *problem)
 {
   int row = -1;
@@ -154,9 +154,9 @@ static double violation_of(const ida_run *run, const baum_i_problem *problem)
   return fmax(phi, rate / problem->rate);
 }
 
-/* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first
- * step, and its error estimate with it, at any length of the step. So it jumps here; Phi of index 2
- * stays. */
+/* Make the start consistent. A violation of Phi = 0 or Phi' = 0, where these are among the
+ * equations, would jump in the first step, and its error estimate with it, whatever the length of
+ * the step. So it is removed here; Phi of index 2 stays. */
 static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
                                    double *v)
 {
@@ -173,7 +173,7 @@ static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, 
                                                 : baum_i_project(w, t, q, v);
 }
 
-/* y and y' that fulfil F = 0; mu and all derivatives of multipliers are 0. */
+/* Find y and y' that satisfy F = 0; mu and all derivatives of multipliers are 0. */
 static baum_status complete_start(baum_i_sundials *sundials, double t)
 {
   ida_run *run = (ida_run *)sundials;
@@ -197,9 +197,10 @@ static baum_status complete_start(baum_i_sundials *sundials, double t)
   return BAUM_OK;
 }
 
-/* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. All but
- * index 3 test velocities too, whose derivatives are larger: a fifth of that h passes. At index 3 a
- * smaller step would drown the velocities, differences of q over h, in rounding. */
+/* Set the first step. It is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale.
+ * All forms but index 3 test velocities too, whose derivatives are larger: a fifth of that h
+ * passes. At index 3 a smaller step would drown the velocities, differences of q over h, in
+ * rounding. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;

@@ -18,20 +18,20 @@
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
  * with the energy that inertia has at 1/T, so that multipliers may vanish; row i may err by that
- * over n_i. And where that is tighter than q and v are held, so is the iteration of q and v: what
- * it leaves of them is noise in lambda, which no shorter step makes less (40 times the steps
- * without).
+ * over n_i. If that is tighter than the tolerances of q and v, the iteration of q and v is
+ * tightened too: what it leaves of them is noise in lambda, which no shorter step reduces (40 times
+ * the steps without).
  *
  * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
  * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
  * or with a later one after which the rate of this step promises an error below it.
  *
- * IDA's own test is no good here. No fixed tolerance suits multipliers, which may vanish and whose
- * rounding grows with c; and left out of it, as they are of the error test, they run away: order 5
- * extrapolates an error 63-fold, and an iteration with an older matrix leaves up to a quarter.
- * Measured: forces 1e14 times too large, which then move q and v by their rounding, and no step
- * converges any more. Also, IDA trusts a rate from an earlier step while the matrix grows old; what
- * it takes for converged costs a third of the length of steps.
+ * IDA's own test does not work here. No fixed tolerance suits multipliers, which may vanish and
+ * whose rounding grows with c. Without any test, as in the error test, they diverge: order 5
+ * extrapolates an error 63-fold, and an iteration with an older matrix leaves up to a quarter. In
+ * measurements forces became 1e14 times too large; their rounding then moved q and v, and no step
+ * converged any more. IDA also trusts a rate from an earlier step while the matrix ages, which
+ * shortens steps by a third.
  *
  * Older matrices. With r = c / c0, a matrix made for c0 solves the present system but for terms
  * that are smaller by h:
@@ -39,8 +39,8 @@
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
  * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a
- * compromise for stiff equations; of the multipliers it leaves (1 - r) / (1 + r) in each iteration.
- */
+ * compromise for stiff equations; of the multipliers it leaves (1 - r) / (1 + r) in each
+ * iteration. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -53,12 +53,12 @@
 #include <ida/ida.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-/* Their errors do not add up: what matters is that they do not run away. From 1e-1 to 1e-4 the
- * iterations are as many. */
+/* Errors of multipliers do not accumulate; they must only not diverge. From 1e-1 to 1e-4 the number
+ * of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
-/* 50 times rounding at rtol 1e-13; errors are as with 0.01, steps fewer than with 1. */
+/* 50 times rounding at rtol 1e-13; errors are as with 0.01, and steps fewer than with 1. */
 static const double INDEX3_VELOCITY_TOLERANCE = 0.1;
-/* As IDA has it: above, it takes another matrix or a smaller step. */
+/* As in IDA: above it IDA takes another matrix or a smaller step. */
 static const double WORST_RATE = 0.9;
 
 static const baum_workspace *workspace_of(const baum_i_ida_newton *newton)
@@ -186,7 +186,7 @@ static double size_of_mu(const baum_i_ida_newton *newton, double c, const double
 
 /* ---- the test ---- */
 
-/* NaN is not converged. */
+/* Test of convergence; NaN has not converged. */
 static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, sunrealtype tolerance,
                 N_Vector weights, void *user)
 {
@@ -246,15 +246,11 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
   double *b = N_VGetArrayPointer(right);
   double *rows = b + mechanism->nq + mechanism->nv;
   scale(b, mechanism->nq, ratio);
-  switch (newton->index) {
-  case BAUM_RESIDUAL_INDEX2: scale(rows, mechanism->nc, ratio); break;
-  case BAUM_RESIDUAL_INDEX3: scale(rows, mechanism->nc, ratio * ratio); break;
-  case BAUM_RESIDUAL_GGL:
-    scale(rows, mechanism->nc, ratio);
+  if (newton->index != BAUM_RESIDUAL_INDEX1) {
+    scale(rows, mechanism->nc, is_index3(newton) ? ratio * ratio : ratio);
+  }
+  if (newton->index == BAUM_RESIDUAL_GGL) {
     scale(rows + mechanism->nc, mechanism->nc, ratio * ratio);
-    break;
-  case BAUM_RESIDUAL_INDEX1:
-  default: break;
   }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of IDA: when it has converged, and what a solution with an older matrix is
- * worth. Only ida.c includes it, and only when the build has SUNDIALS. */
+/* Newton's iteration of IDA: its test of convergence, and the scaling of solutions with an older
+ * matrix. Only ida.c includes it, and only when the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_IDA_NEWTON_H
 #define BAUM_I_INTEGRATE_IDA_NEWTON_H
 
@@ -24,22 +24,23 @@ typedef struct baum_i_ida_newton {
   double first;          /* size of the first correction of the step */
 } baum_i_ida_newton;
 
-/* Make IDA judge as said here. Beforehand set sundials, index, displacement and inertia; `newton`
- * lives as long as IDA and is closed after it. Returns a flag of IDA. */
+/* Make IDA use this test. Set sundials, index, displacement and inertia beforehand; `newton` lives
+ * as long as IDA and is closed after it. Returns a flag of IDA. */
 int baum_i_ida_newton_attach(baum_i_ida_newton *newton);
 void baum_i_ida_newton_close(baum_i_ida_newton *newton);
 
-/* Sizes of rows and bodies at the point of the workspace, with M and J there: at a start and with
+/* Measure rows and bodies at the point of the workspace, with M and J there: at a start and with
  * each matrix. */
 void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
-/* Sizes of the multipliers (lambda, for GGL mu behind them) at the start of a step; weights (nq +
- * nv), 1 / tolerance, are read, and where lambda is tested those of lambda (nc) written behind
- * them. */
+/* Measure the multipliers (lambda, for GGL mu behind them) at the start of a step. Reads the
+ * weights (nq + nv), 1 / tolerance, and writes those of lambda (nc) behind them if lambda is
+ * tested. */
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 
-/* With the matrix made for c0, and ratio = c / c0: its right side before, its solution after. */
+/* Scale the right side before, and the solution after, for a matrix made for c0, with ratio = c /
+ * c0. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution);

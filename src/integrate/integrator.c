@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What all integrators share: facts about one, the accelerations and tolerances it works with.
- * Names no integrator, so that a program links only those it calls.
+/* What all integrators share: facts about one, its memory, and the accelerations and tolerances it
+ * works with. Names no integrator, so that a program links only those it calls.
  *
  * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate
  * w = 1/T and present size |v|:
+ *
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
- * so that neither the number of turns of a crank nor the choice of units makes a difference.
  *
- * Error tests of BDF are given a portion of rtol and atol, so that runs at one rtol are about as
- * exact whatever the method:
- * - A step of order q from an exact past is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), alpha_0 = 1 +
- * 1/2 + ... + 1/q. It adds
- *   alpha_0 times that to the error of the motion, for the past is off too (E. Hairer, S. Norsett,
- *   G. Wanner, Solving Ordinary Differential Equations I, 1993, III.2: the error constant). CVODE
- *   tests the former, IDA the latter; at order 5, where they are nearly always, alpha_0 is 137/60.
- * - Orders end at 5, and what up to three times the steps of Adams' methods add is more. Measured:
- * given a third, both are
- *   about as far off as Adams' methods at the same rtol, or less, in energies, times of events and
- *   positions, where it was up to six times as much; IDA for 1.2 times the steps, CVODE for 1.33
- *   times (docs/theory/energy.md).
- * Where rounding counts, below LEAST_RTOL, steps would only become many.
- */
+ * so that neither the number of revolutions of a crank nor the choice of units matters.
+ *
+ * Error tests of BDF get a portion of rtol and atol, so that runs at one rtol have about the same
+ * error whatever the method:
+ *
+ * - A step of order q from an exact history is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), with
+ *   alpha_0 = 1 + 1/2 + ... + 1/q. It adds alpha_0 times that to the error of the motion, because
+ *   the history is off too (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential
+ *   Equations I, 1993, III.2: the error constant). CVODE tests the former, IDA the latter; at order
+ *   5, where they are nearly always, alpha_0 is 137/60.
+ * - Orders end at 5, and BDF takes up to three times the steps of Adams methods, which adds error.
+ *   With a third of the tolerance both have about the error of Adams methods at the same rtol, or
+ *   less, in energies, times of events and positions, where it was up to six times as much. IDA
+ *   takes 1.2 times the steps for it, CVODE 1.33 times (docs/theory/energy.md).
+ *
+ * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
+ * steps. */
 #include "integrate/integrator.h"
 
 #include <float.h>
@@ -31,8 +34,8 @@
 #include "base/alloc.h"
 #include "base/text.h"
 
-/* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
- * of one step's error, and it is far above the rounding of times. */
+/* Steps that differ by less than this share are equal: shifting a node by it changes 1e-6 of one
+ * step's error, and it is far above the rounding of times. */
 static const double SAME_STEP = 1e-6;
 
 static const double BDF_PORTION = 1.0 / 3.0;
@@ -154,7 +157,7 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
   return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
 }
 
-/* With fixed steps only who accepts them keeps something of them. */
+/* With fixed steps only methods with `accept` have a history. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem)
 {
   return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));
@@ -169,6 +172,14 @@ baum_status baum_i_fail_in_step(baum_status status, const char *message, const c
   }
   return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", message, integrator, t,
                      length);
+}
+
+baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size)
+{
+  return baum_i_fail(BAUM_ERR_CONVERGENCE,
+                     "t = %.9g s: %s: %s of the next step do not converge (last change %.3g of the "
+                     "scale): the step is too large or the configuration is near a singular one",
+                     t, integrator, what, size);
 }
 
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol)

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrators behind one ops table. Each lives in a file of its own, so that a program links only
- * those it calls.
+/* Integrators behind one ops table. Each has a file of its own, so that a program links only those
+ * it calls.
  *
- * A fixed-step method moves a state by h; grid, projection, monitors and output are the caller's. A
+ * A fixed-step method moves a state by h; the caller owns grid, projection, monitors and output. A
  * variable-step method takes one step of its own length and interpolates inside its last one.
- * Integrators reach the equations only through a problem, whose functions carry the formulation and
- * the gains.
- */
+ * Integrators reach the equations only through a problem, whose functions apply the formulation and
+ * the gains. */
 #ifndef BAUM_I_INTEGRATE_INTEGRATOR_H
 #define BAUM_I_INTEGRATE_INTEGRATOR_H
 
@@ -15,10 +14,10 @@
 #include "dynamics/dynamics.h"
 #include "stabilization/amplification.h"
 
-/* What is integrated, and how exactly. Constant but for direction and stop. */
+/* What is integrated, and how accurately. Constant except for direction and stop. */
 typedef struct baum_i_problem {
-  /* Saved with a run, up to `workspace`: of another processor these may differ in the last
-   * digits. */
+  /* Saved with a run, up to `workspace`, because these may differ in the last digits on another
+   * processor. */
   double alpha;     /* [1/s] >= 0 */
   double beta;      /* [1/s] >= 0 */
   double direction; /* +1 forward, -1 backward in time: alpha carries it */
@@ -45,7 +44,7 @@ typedef struct baum_i_state {
   double *v; /* (nv) */
 } baum_i_state;
 
-/* What a variable-step method has done, since it was created. */
+/* What a variable-step method has done since it was created. */
 typedef struct baum_i_statistics {
   int64_t rejected;
   int64_t factorizations;      /* of its own matrix */
@@ -56,16 +55,16 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* what open() takes; of a method of a family */
+  const void *table;                /* for open(): which method of a family */
   int order;                        /* 0: variable */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;             /* what BAUM_GAINS_DEFAULT means */
+  baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
   baum_i_method method;             /* amplification */
   baum_i_method_family family;      /* of methods without one */
   double seen; /* BDF: share of what a step adds to the error of a motion, that is tested */
   bool predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h
                               |gamma| */
-  bool solves_residuals;   /* of the whole system; else it goes by accelerations or poses */
+  bool solves_residuals;   /* of the whole system; else it uses accelerations or configurations */
   bool without_freedom;    /* for mechanisms without freedom alone; takes no formulation, step or
                            rtol */
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
@@ -79,54 +78,53 @@ struct baum_integrator {
                       const baum_i_state *start);
   void (*close)(void *self);
 
-  /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step
-   * (nv), evaluated by the caller through baum_i_problem_motion(). state->t is set by the caller.
-   * NULL where there is only variable step. A method that has this and `advance` takes the one that
-   * problem->step asks for; one that has neither needs SUNDIALS, which the build does not have. */
+  /* Fixed step: move state from t by h (signed). a is the acceleration at the start of the step
+   * (nv), which the caller has evaluated through baum_i_problem_motion(); the caller also sets
+   * state->t. NULL for methods with variable steps only. A method that has this and `advance` uses
+   * the one that problem->step asks for; one that has neither needs SUNDIALS, which the build does
+   * not have. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Fixed step, methods with a memory: the last step is kept; before, it may have been a trial that
-   * is not. NULL for one-step methods. */
+  /* Fixed step, methods with a history: the last step is kept, which until now may have been a
+   * trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
-  /* Variable step; NULL where there is only fixed step. */
-  /* One step of its own length in problem->direction; state receives its end. On failure the state
-   * is that of the last good step, from which the next call restarts. */
+  /* Variable step; NULL for methods with fixed steps only. */
+  /* Take one step of its own length in problem->direction; state receives its end. On failure the
+   * state is that of the last good step, from which the next call restarts. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
-  /* Positions and velocities inside the last step. */
+  /* Interpolate positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* restart from a state, in problem->direction. Allocates nothing. NULL where nothing is
-   * remembered; also not called where baum_i_integrator_remembers() says no. */
+  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods without
+   * history; not called if baum_i_integrator_remembers() is false. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
-  /* restart at the next step, from the state which that is given, and with pivots chosen again, so
-   * that nothing depends on the steps before. Neither evaluates nor allocates. Where there is
-   * `restart`. */
+  /* Restart at the next step, from the state that it is given and with new pivots, so that nothing
+   * depends on the steps before. Neither evaluates nor allocates. Comes with `restart`. */
   void (*forget)(void *self);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
 
-/* alpha with the sign of the direction, and beta [1/s]: 0 where the formulation has no gains. */
+/* alpha with the sign of the direction, and beta [1/s]; 0 if the formulation has no gains. */
 void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *beta);
 
-/* a and lambda at a state as the formulation says, into workspace->a, ->lambda. */
+/* Find a and lambda at a state as the formulation says, in workspace->a and ->lambda. */
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v);
 
-/* Likewise a alone, as a method needs it that asks for nothing else: what cannot move may be left
- * out. */
+/* Find a alone, for methods that use nothing else; fixed bodies may be skipped. */
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v);
 
-/* Of fixed step? Else variable, or kinematics. */
+/* Are the steps fixed? Otherwise they are variable, or the method is kinematics. */
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
-/* Is h from t a step of the fixed grid, up to the rounding of times? What is remembered of steps
- * holds for these. */
+/* Is h from t a step of the fixed grid, up to the rounding of times? The history of multistep
+ * methods is valid for these. */
 bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
 
-/* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
+/* Tolerances of all coordinates for variable-step methods: positions rtol scale + atol, velocities
  * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times
  * their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
@@ -136,27 +134,31 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
  * the workspace, where J is; the largest of them, and its row or -1. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
-/* Portion of rtol and atol that the error test of a method is given, <= 1. */
+/* Portion of rtol and atol that the error test of a method gets, <= 1. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
-/* Does a run remember steps, so that it has to be told when it restarts? */
+/* Does a run have a history, so that it needs restarts? */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
-/* The message of an evaluation that failed, with the step from t in which that was; h: 0 where none
- * had begun. */
+/* Complete the message of an evaluation that failed with the step from t in which it did; h: 0 if
+ * none had begun. */
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 
-/* Make the memory of a run; *out = NULL for a method without memory, and on failure. */
+/* Fail with BAUM_ERR_CONVERGENCE in a step from t: what does not converge, and the size of its last
+ * change relative to the scale. */
+baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size);
+
+/* Create the memory of a run; *out = NULL for a method without memory, and on failure. */
 baum_status baum_i_integrator_create(const baum_integrator *integrator,
                                      const baum_i_problem *problem, const baum_i_state *start,
                                      void **out);
 void baum_i_integrator_destroy(const baum_integrator *integrator, void *self); /* NULL is fine */
 
-/* Formulation offered? */
+/* Does the integrator offer this formulation? */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
 
-/* Such as "6.4.1"; "none" in a build without. */
+/* Version such as "6.4.1"; "none" in a build without SUNDIALS. */
 const char *baum_i_sundials_version(void);
 
 #endif

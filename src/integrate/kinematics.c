@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: mechanisms without degrees of freedom, whose every coordinate follows from Phi(q, t)
- * = 0. Continuation in time:
+/* Kinematics: mechanisms without degrees of freedom, whose coordinates all follow from Phi(q, t) =
+ * 0. Continuation in time:
  *
  *   guess at t + h        q moved by h v + h^2 a / 2
  *   then                  the configuration there, its v and a (continuation.c)
  *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements
- *   from one of them
+ *                         from one of them
  *
  * The step follows what the last one has shown: the contraction of Newton's iteration grows with
  * the error of the guess, as h^3, the turning of J as h. Nothing is integrated and no error
- * accumulates: a configuration asked for is solved to rounding, at whatever steps. Steps are for
- * the branch alone, so that the run never jumps: a step that may have passed a singular
- * configuration is refused and shortened, and where no step is short enough the run has come to an
- * end, at a lock-up (a fold of the path: no pose beyond) or where branches cross.
- */
+ * accumulates: a requested configuration is solved to rounding, whatever the steps. Steps only keep
+ * the branch: one that may have passed a singular configuration is refused and shortened. If no
+ * step is short enough, the run ends, at a lock-up (a fold of the path, with no configuration
+ * beyond) or where branches cross. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -23,24 +22,24 @@
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
-/* What the next step aims at, below what would be refused. */
+/* Values that the next step aims at, below what would be refused. */
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
 static const double SHRINKAGE = 0.5; /* at least, after a refusal */
 static const double COLLAPSE = 0.1;  /* at most */
-/* A first step turns nothing by much more than this [rad]. */
+/* [rad] A first step turns nothing by much more than this. */
 static const double FIRST_TURN = 0.1;
-/* The shortest step in turns of the rate of the motion, and in roundings of the time. */
+/* The shortest step, relative to 1/rate of the motion, and in roundings of the time. */
 static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
-/* The longest step, likewise, while nothing moves. */
+/* The longest step, relative to 1/rate, while nothing moves. */
 static const double LONGEST = 1e6;
-/* |J^-1| from which on a configuration counts as singular; at a fold it is about 1e5 when steps
+/* |J^-1| above which a configuration counts as singular; at a fold it is about 1e5 when steps
  * end. */
 static const double SINGULAR_GAIN = 1e3;
-/* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 /
- * gain. */
+/* Share of drivers in the critical forces above which it is a fold; where branches cross it is
+ * about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
 enum { POSES = 4, MOST_PIECES = 10000 /* of a step that is walked through */ };
@@ -61,7 +60,7 @@ typedef struct kinematics_run {
 
 /* ---- poses ---- */
 
-/* Numbers of a pose, which stand one behind the other from q on. */
+/* Count of the numbers of a pose, which are contiguous from q on. */
 static size_t pose_size(const baum_mechanism *m)
 {
   return (size_t)m->nq + 3 * (size_t)m->nv + (size_t)m->jacobian_size;
@@ -91,7 +90,7 @@ static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double
   baum_i_move_from(m, from->q, h, work, q);
 }
 
-/* Hermite's polynomial through both ends. */
+/* The Hermite polynomial through both ends. */
 static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m, double t,
                               double *q)
 {
@@ -115,7 +114,7 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
 
 /* ---- steps ---- */
 
-/* A guess in configuration becomes a configuration; counted. */
+/* Turn a guess into a configuration, and count the iterations. */
 static bool solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
                   baum_i_verdict *verdict)
 {
@@ -127,7 +126,7 @@ static bool solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pos
   return found;
 }
 
-/* What a function answers knows nothing of time. */
+/* Add the time to the message of a callback, which does not know it. */
 static baum_status say_when(const baum_i_pose *from, baum_status status)
 {
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
@@ -137,7 +136,7 @@ static baum_status say_when(const baum_i_pose *from, baum_status status)
                      baum_message());
 }
 
-/* By how much the step that gave this verdict may change. */
+/* Factor by which the step that gave this verdict may change. */
 static double change(const baum_i_verdict *verdict)
 {
   bool refused = verdict->refusal != BAUM_I_REFUSAL_NONE;
@@ -168,20 +167,19 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
-      "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than "
-      "the other constraints allow, the first of them %s; beyond this time no pose "
-      "fulfils them all",
+      "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than the other "
+      "constraints allow, above all %s; beyond this time no configuration satisfies them all",
       t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
-    "t = %.9g s: kinematics: the configuration is singular here and the motion may go on in "
-    "more than one way, which shows most in %s; what is driven does not tell which",
+    "t = %.9g s: kinematics: the configuration is singular here and the motion may continue in "
+    "more than one way, most visibly in %s; the drivers do not determine which",
     t, label_of(m, at->resister, resister));
 }
 
-/* Fail where no step from a configuration was short enough, or none began there (h = 0), unless the
- * reason is a fault of the configuration's surroundings: then BAUM_OK, and *at tells of them. */
+/* Fail for a cause outside of the configuration: a callback, an evaluation, memory. Otherwise
+ * BAUM_OK, and *at analyses the configuration. */
 static baum_status fail_for_cause(kinematics_run *run, const baum_i_pose *pose,
                                   const baum_i_verdict *verdict, const char *when,
                                   baum_i_impasse *at)
@@ -197,7 +195,7 @@ static baum_status fail_for_cause(kinematics_run *run, const baum_i_pose *pose,
   return status == BAUM_ERR_SINGULAR ? BAUM_OK : say_when(pose, status);
 }
 
-/* No step was short enough. */
+/* Fail because no step was short enough. */
 static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
                         const baum_i_verdict *verdict, double h)
 {
@@ -212,20 +210,21 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
     return fail_singular(m, t, &at);
   }
   if (verdict->refusal == BAUM_I_REFUSAL_LEFT_OUT) {
-    return baum_i_fail(
-      BAUM_ERR_CONVERGENCE,
-      "t = %.9g s: kinematics: a row of %s that was left out as redundant does not "
-      "follow from the others any longer",
-      t, baum_i_row_label(m, verdict->row, label));
+    return baum_i_fail(BAUM_ERR_CONVERGENCE,
+                       "t = %.9g s: kinematics: a row of %s that was omitted as redundant no "
+                       "longer follows from the "
+                       "others",
+                       t, baum_i_row_label(m, verdict->row, label));
   }
-  return baum_i_fail(BAUM_ERR_CONVERGENCE,
-                     "t = %.9g s: kinematics: no pose is found close by, however small the step "
-                     "(%.3g s); the law of %s may jump here",
-                     t, h, label_of(m, at.driver, label));
+  return baum_i_fail(
+    BAUM_ERR_CONVERGENCE,
+    "t = %.9g s: kinematics: no configuration is found nearby, however small the step "
+    "(%.3g s); the law of %s may jump here",
+    t, h, label_of(m, at.driver, label));
 }
 
-/* From *from towards t by one step, shortened as often as it is refused, into *to; h is what is
- * tried, and then what the next may try. */
+/* Take one step from *from towards t_end, shortened as often as it is refused, into *to. *h is the
+ * length to try, and then the one that the next step may try. */
 static baum_status step(kinematics_run *run, const baum_i_problem *problem, const baum_i_pose *from,
                         baum_i_pose *to, double t_end, double *h)
 {
@@ -257,8 +256,8 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
 
 /* ---- inside the last step ---- */
 
-/* By short steps from the left end, where the guess inside was no good. A step that the time rounds
- * away would not lead on. */
+/* Reach t by short steps from the left end, if the guess inside the step was refused. Steps below
+ * the rounding of the time would not advance. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
   copy_pose(problem->workspace->mechanism, run->left, run->trial);
@@ -318,19 +317,19 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
   if (!(at.gain < SINGULAR_GAIN)) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
-      "t = %.9g s: kinematics: the start configuration is singular, and the motion may go "
-      "on from it in more than one way; start at another time or pose",
+      "t = %.9g s: kinematics: the start configuration is singular, and the motion may continue "
+      "from it in more than one way; start at another time or configuration",
       t);
   }
-  return baum_i_fail(
-    BAUM_ERR_INCONSISTENT,
-    "t = %.9g s: kinematics: no pose that fulfils the constraints is found close to "
-    "the given state; lead drivers on from where they are, and let a start be "
-    "assembled",
-    t);
+  return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                     "t = %.9g s: kinematics: no configuration that satisfies the constraints is "
+                     "found near the given "
+                     "state; let drivers continue from where they are, and assemble the start",
+                     t);
 }
 
-/* The configuration next to a state and on its branch, which then is both ends of the last step. */
+/* Find the configuration next to a state and on its branch; it becomes both ends of the last
+ * step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;
@@ -420,9 +419,9 @@ static baum_status check_freedom(const baum_workspace *w)
   }
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
-    "kinematics: %d %s left, so that the motion does not follow from Phi(q, t) = 0 "
-    "alone; add a driver for each, or name an integrator of the equations of "
-    "motion, such as baum_rk4 or baum_cvode_adams",
+    "kinematics: %d %s left, so the motion does not follow from Phi(q, t) = 0 alone; add a driver "
+    "for each, or choose an integrator of the equations of motion, such as baum_rk4 or "
+    "baum_cvode_adams",
     degrees_of_freedom,
     degrees_of_freedom == 1 ? "degree of freedom is" : "degrees of freedom are");
 }

@@ -3,14 +3,14 @@
 
 #include <string.h>
 
-/* [rad] between states: what a cubic cuts off is of their fourth power, while rounding there is
- * 1e-16 over the square. */
+/* [rad] Distance between states: the truncation of a cubic is of its fourth power, while rounding
+ * there is 1e-16 over its square. */
 static const double APART = 0.003;
-/* Of the rate that gravity makes: slower ones have no way on to look at. */
+/* Share of the rate that gravity causes; slower motions have no clear direction. */
 static const double SLOW = 0.1;
 
-static baum_status look_behind(const baum_i_problem *problem, const baum_i_state *state, double dt,
-                               double *room)
+static baum_status evaluate_behind(const baum_i_problem *problem, const baum_i_state *state,
+                                   double dt, double *room)
 {
   const baum_mechanism *m = problem->workspace->mechanism;
   double *v = room + m->nq;
@@ -31,7 +31,7 @@ bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state
   memset(limit, 0, (size_t)nv * sizeof *limit);
   for (int k = 0; k < 4 && found; k++) {
     double dt = problem->direction * (k + 1) * APART / rate;
-    found = look_behind(problem, state, dt, room) == BAUM_OK;
+    found = evaluate_behind(problem, state, dt, room) == BAUM_OK;
     for (int i = 0; i < nv; i++) {
       limit[i] += WEIGHT[k] * w->a[i];
     }

@@ -8,13 +8,13 @@
  *   v(t + h) = v' + (h/2) M^-1 (g - J^T mu)  at q(t + h),  J v = nu        gives mu
  *
  * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of
- * width O(h^2). With constraints and forces of time it is so in the phase space that has time and
- * its momentum, too.
+ * width O(h^2). With constraints and forces that depend on time this holds in the phase space that
+ * includes time and its momentum.
  *
  * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form
  * M^-1 (g - J^T lambda), so that Newton's method begins with v' = v + (h/2) a, and its matrix J(q)
- * M^-1 J(q)^T may be held: what it gives are changes dq along M^-1 J(q)^T, of v' by dq / h. The end
- * is moved by h v' from q each time, so that the rounding of q does not come into v divided by h.
+ * M^-1 J(q)^T may be kept: it gives changes dq along M^-1 J(q)^T, and of v' by dq / h. The end
+ * is moved by h v' from q each time, so that the rounding of q is not divided by h into v.
  */
 #include <float.h>
 #include <math.h>
@@ -27,10 +27,10 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes below so many roundings of the coordinates, or of their scale where they are small beside
- * it, as those of a body at the origin, are rounding. */
+/* Changes below this many roundings of the coordinates are rounding; of their scale if they are
+ * small beside it, as for a body at the origin. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that have stopped falling, and are no more than so many of these, too. */
+/* Changes that have stopped falling are rounding up to this many of them. */
 static const double STALLED = 256.0;
 
 /* Memory of a run. */
@@ -44,8 +44,8 @@ typedef struct rattle_run {
 
 /* ---- positions ---- */
 
-/* Whether another change would be rounding: changes fall in proportion. Of the first, nothing is
- * before. */
+/* Would another change only be rounding? Changes fall in proportion. The first has none before
+ * it. */
 static bool is_last(double size, double before, double rounding)
 {
   if (size <= rounding || isinf(before)) {
@@ -53,16 +53,6 @@ static bool is_last(double size, double before, double rounding)
   }
   bool falls = size < 0.5 * before;
   return falls ? size * (size / before) <= 0.01 * rounding : size <= STALLED * rounding;
-}
-
-static baum_status fail(double t, double size)
-{
-  return baum_i_fail(
-    BAUM_ERR_CONVERGENCE,
-    "t = %.9g s: rattle: the positions of the next step do not converge (last "
-    "change %.3g of the scale): the step is too large or the configuration is near a "
-    "singular one",
-    t, size);
 }
 
 static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,
@@ -94,7 +84,7 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
       break;
     }
   }
-  return fail(state->t, size);
+  return baum_i_fail_iteration("rattle", "the positions", state->t, size);
 }
 
 /* ---- one step ---- */
@@ -130,9 +120,9 @@ static baum_status fail_velocities(const baum_i_element *element)
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
-    "simulation options: rattle is for forces of time and position, but that of %s depends on "
-    "velocities, or does not say depends_on_velocity = false; take rk4 or rk8, or "
-    "generalized_alpha where it is stiff",
+    "simulation options: rattle needs forces of time and position, but that of %s depends on "
+    "velocities, or does not set depends_on_velocity = false; take rk4 or rk8, or "
+    "generalized_alpha if it is stiff",
     baum_i_label(element, label));
 }
 
@@ -142,15 +132,15 @@ static baum_status check_body(const baum_i_body *body)
   char label[BAUM_I_LABEL_SIZE];
   if (body->type->constant_mass && !body->type->constant_mass(def)) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "simulation options: rattle is for masses that are constant, but %s does "
-                       "not say constant_mass = true",
+                       "simulation options: rattle needs constant masses, but %s does not set "
+                       "constant_mass = true",
                        baum_i_label(&body->element, label));
   }
   bool depends = body->type->depends_on_velocity && body->type->depends_on_velocity(def);
   return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
-/* The method is not for masses that vary and forces that depend on velocities. */
+/* Refuse masses that vary and forces that depend on velocities. */
 static baum_status check_mechanism(const baum_mechanism *m)
 {
   for (int i = 1; i <= m->body_count; i++) {

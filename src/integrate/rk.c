@@ -22,9 +22,9 @@ double *baum_i_rk_rate(const baum_i_rk *rk, int stage)
   return rk->rates + (size_t)stage * (size_t)rk->size;
 }
 
-/* K_stage at (q, v). */
-static void keep(const baum_i_rk *rk, const baum_mechanism *m, int stage, const double *q,
-                 const double *v, const double *a)
+/* Store K_stage at (q, v). */
+static void store_rate(const baum_i_rk *rk, const baum_mechanism *m, int stage, const double *q,
+                       const double *v, const double *a)
 {
   double *rate = baum_i_rk_rate(rk, stage);
   baum_i_rate(m, q, v, rate);
@@ -35,7 +35,7 @@ baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *proble
                                const double *y, int stage)
 {
   BAUM_I_TRY(baum_i_problem_motion(problem, t, y, y + rk->nq));
-  keep(rk, problem->workspace->mechanism, stage, y, y + rk->nq, problem->workspace->a);
+  store_rate(rk, problem->workspace->mechanism, stage, y, y + rk->nq, problem->workspace->a);
   return BAUM_OK;
 }
 
@@ -63,7 +63,7 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
   const baum_mechanism *m = problem->workspace->mechanism;
   memcpy(rk->start, state->q, (size_t)rk->nq * sizeof *a);
   memcpy(rk->start + rk->nq, state->v, (size_t)rk->nv * sizeof *a);
-  keep(rk, m, 0, state->q, state->v, a);
+  store_rate(rk, m, 0, state->q, state->v, a);
   BAUM_I_TRY(baum_i_rk_stages(rk, problem, state->t, h));
   baum_i_rk_combine(rk, rk->table->stages, rk->table->b, h, rk->point);
   baum_i_normalize(m, rk->point);

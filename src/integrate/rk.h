@@ -15,7 +15,7 @@ typedef struct baum_i_rk_table {
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size`
+/* Memory of a run; first member of the memory of derived methods. Arrays over (q, v) have `size`
  * entries: nq positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
@@ -53,14 +53,14 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
 /* ---- for methods that have more to remember ---- */
 
 /* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over
- * (q, v). All of it is one piece of memory, rk->rates. */
+ * (q, v). All of it is one allocation, rk->rates. */
 baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more);
 
 double *baum_i_rk_rate(const baum_i_rk *rk, int stage);
 
-/* K_stage at (t, y), y of (q, v). */
+/* Evaluate K_stage at (t, y), y = (q, v). */
 baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *problem, double t,
                                const double *y, int stage);
 
@@ -68,7 +68,7 @@ baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *proble
 void baum_i_rk_combine(const baum_i_rk *rk, int count, const double *weights, double h,
                        double *out);
 
-/* All stages but the first, whose rate is there, of a step by h from `start` at t. */
+/* Evaluate all stages of a step by h from `start` at t except the first, whose rate is known. */
 baum_status baum_i_rk_stages(const baum_i_rk *rk, const baum_i_problem *problem, double t,
                              double h);
 

@@ -10,16 +10,16 @@
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
  *
- * whatever F_4 ... are, it takes the values and rates of both ends. Norm and tolerances are those
- * of CVODE here, so that one rtol means the same everywhere. Extra rates of the interpolant are
- * evaluated when a time inside the step is asked for; nothing of that comes back into the motion.
+ * Whatever F_4 ... are, the interpolant has the values and rates of both ends. Norm and tolerances
+ * are those of CVODE here, so that one rtol means the same everywhere. Extra rates of the
+ * interpolant are evaluated only for a time inside the step, and never affect the motion.
  *
  * Projection: the end of a step is projected before its rate is taken, so that interpolant and next
  * step begin at the projected state. Where the estimate needs that rate, it is therefore made after
- * the projection, which is of its order or smaller, and one evaluation is saved in each step.
+ * the projection, which is of its order or smaller; that saves one evaluation in each step.
  *
- * The end of a step is t + h as rounded, and h is what lies between: time and motion never part.
- */
+ * The end of a step is t + h as rounded, and h is the rounded difference, so that time and motion
+ * agree. */
 #include "integrate/rk_adaptive.h"
 
 #include <float.h>
@@ -29,14 +29,14 @@
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
-/* By which the projection may move positions where it is distrusted, in units of the tolerance. */
+/* Largest motion by the projection, in units of the tolerance, where it is distrusted. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times
- * of their own. */
+/* Shortest step, relative to the time or to T, whichever is larger: its stages still have different
+ * times. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
-/* Tries of one step. Each is at most 0.9 of the one before, and half of them suffice from T to the
+/* Tries of one step. Each is at most 0.9 of the one before; half of them lead from T to the
  * shortest step. */
 enum { MOST_TRIES = 1000 };
 
@@ -48,7 +48,7 @@ static baum_status fail_with_evaluation(const baum_i_rk_adaptive *run, double h)
   return baum_i_fail_in_step(run->failure, run->message.text, run->pair->name, run->t, h);
 }
 
-static void remember(baum_i_rk_adaptive *run, baum_status status)
+static void keep_failure(baum_i_rk_adaptive *run, baum_status status)
 {
   run->failure = status;
   run->failure_t = run->t;
@@ -65,8 +65,8 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
          status == BAUM_ERR_CONVERGENCE;
 }
 
-/* Steps that shrink towards a place where evaluations fail end with one in which none does: what
- * failed nearly no time ago is still the reason. */
+/* Fail because the step is too short. Steps that shrink towards a place where evaluations fail end
+ * with one without failure; a failure almost no time ago is still the reason. */
 static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double h)
 {
@@ -130,8 +130,8 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* With an error constant of one, local errors of the size of the tolerance; less is put right by
- * the first step. */
+/* Assume an error constant of one and local errors of the size of the tolerance; the first step
+ * corrects the rest. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -154,7 +154,7 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
   memcpy(run->rk.start + run->rk.nq, state->v, (size_t)run->rk.nv * sizeof *state->v);
   baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
   if (status != BAUM_OK) {
-    remember(run, status);
+    keep_failure(run, status);
     return fail_with_evaluation(run, 0.0);
   }
   baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
@@ -169,7 +169,7 @@ void baum_i_rk_adaptive_forget(void *self)
   run->unfinished = true;
 }
 
-/* The end of the last step is the start of the next. */
+/* Make the end of the last step the start of the next. */
 static void go_on(baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -195,7 +195,7 @@ static baum_status begin(baum_i_rk_adaptive *run, const baum_i_problem *problem,
 
 /* ---- one step ---- */
 
-/* Project the end. *moved: by how much, in units of the tolerance of positions. */
+/* Project the end of a step. *moved: by how much, in units of the tolerance of positions. */
 static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                                double *moved)
 {
@@ -212,8 +212,8 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
   return status;
 }
 
-/* Projection and rate of the end. A driver whose velocity jumps has accelerations that say nothing
- * of it: only the projection does. */
+/* Project the end and evaluate its rate. If the velocity of a driver jumps, only the projection
+ * shows it, not the accelerations. */
 static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double *error)
 {
@@ -231,8 +231,8 @@ static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_proble
   return baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
 }
 
-/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at
- * most `most`. */
+/* Try a step from t to t_end: find its end, the rate there, and its error; the two only if the
+ * error is at most `most`. */
 static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *problem, double most,
                             double *error)
 {
@@ -254,8 +254,8 @@ static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *probl
   return BAUM_OK;
 }
 
-/* The one place where a step is accepted. One cut to `length` for a configuration ahead says
- * nothing against what was wanted, which the next needs to get over it. */
+/* Accept a step. One that was cut to `length` for a configuration ahead does not reduce the wanted
+ * length, which the next step needs to pass it. */
 static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
@@ -270,7 +270,7 @@ static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_
   memcpy(state->v, run->end + run->rk.nq, (size_t)run->rk.nv * sizeof *state->v);
 }
 
-/* From where the step begins by about this length. */
+/* Choose the end of a step of about this length. */
 static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *problem, double length)
 {
   length = fmin(length, problem->max_step);
@@ -305,7 +305,7 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
       return BAUM_OK;
     }
     if (status != BAUM_OK) {
-      remember(run, status);
+      keep_failure(run, status);
       if (!may_shorten(problem, status)) {
         return fail_with_evaluation(run, run->h);
       }
@@ -384,7 +384,7 @@ static baum_status prepare_dense(baum_i_rk_adaptive *run, const baum_i_problem *
   return BAUM_OK;
 }
 
-/* Nested form of the head of this file, at coordinate i of (q, v). */
+/* The nested form of the head of this file, at coordinate i of (q, v). */
 static double value_at(const baum_i_rk_adaptive *run, double x, int i)
 {
   int n = run->rk.size;

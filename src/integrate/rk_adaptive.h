@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta pairs, which estimate their error and choose their step: one driver, a table
- * for each pair. baum_i_rk_step() of rk.h takes their steps of fixed length. */
+/* Explicit Runge-Kutta pairs, which estimate their error and choose their step: one driver, and a
+ * table for each pair. baum_i_rk_step() of rk.h takes their fixed steps. */
 #ifndef BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 #define BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 

@@ -6,32 +6,31 @@
 
 #include "integrate/limit.h"
 
-/* [rad] by which a mechanism moves at least in a step near a singular configuration, and in one
- * over it. */
+/* [rad] Least motion in a step near a singular configuration, and in one over it. */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
-/* Error of such a step, of the scales, above which it is refused all the same. */
+/* Error of such a step, relative to the scales, above which it is refused all the same. */
 static const double LARGEST_FORCED = 0.01;
-/* Error of a step over a configuration, of the scales, times p at its start: what rounding makes of
- * it, and gains that bring violations back. With 40 windows it was up to 2e-10; what is refused
- * then is worse from nearer by. */
+/* Error of a step over a configuration, relative to the scales, times p at its start: the effect of
+ * rounding, and of gains that correct violations. With 40 windows it was up to 2e-10; a refused
+ * step would be less accurate from nearer by. */
 static const double ROUNDING = 1e-9;
 
-/* Pivots, of the usual one: below the first a singular configuration ahead is looked for, and from
- * above it no step ends below the second, where rounding over p is large. */
+/* Pivots relative to the usual one. Below the first a singular configuration ahead is searched; a
+ * step from above it never ends below the second, where rounding over p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
-/* [rad] over which pivots are compared to find the pose. */
+/* [rad] Distance over which pivots are compared to find the configuration. */
 static const double LOOK = 1e-4;
 
-/* Below this pivot a start may be singular; what is usual is then seen so many radians further
+/* Below this pivot a start may be singular; the usual pivot is then found this many radians further
  * on. */
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a configuration so many steps in a row that are followed by one of less than so many
- * radians, or tries that are as short, are the last. Steps that are free to grow do so sixfold; of
- * these 1e8 would make a radian. */
+/* Near a configuration the method is stuck after this many steps in a row that are followed by one
+ * of less than this many radians, or tries that are as short. Steps that are free to grow do so
+ * sixfold; 1e8 steps of this length would make a radian. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
@@ -42,7 +41,7 @@ static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
   return fmax(rate, problem->rate);
 }
 
-/* Of the last evaluation. */
+/* Pivot of the last evaluation, relative to the usual one, which it may raise. */
 static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
@@ -50,7 +49,7 @@ static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *prob
   return pivot / crossing->usual;
 }
 
-/* Stages are in no order. */
+/* Find the widest gap between stages, which are in no order. */
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table)
 {
   double width = 0.0;
@@ -66,8 +65,8 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
   }
 }
 
-/* A start in a singular configuration has no pivots to compare with but those ahead. A
- * configuration that is not quite on the way does for that. */
+/* A start in a singular configuration can only compare its pivots with those ahead. A configuration
+ * that is not exactly on the path serves. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -84,7 +83,7 @@ static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* The first rate of a start in a pose. */
+/* Replace the first rate of a singular start by its limit. */
 static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, double t)
 {
   const baum_i_state start = {.t = t, .q = rk->start, .v = rk->start + rk->nq};
@@ -109,7 +108,7 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* Where the root of the pivot, which falls in a straight line, would be zero. */
+/* [s] Extrapolate the root of the pivot, which falls in a straight line, to zero. */
 static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -138,9 +137,9 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* The configuration is passed between two stages, from as far as the length allows. Not before a
- * step so short that the next one could not grow to the length, nor from so close that stages are
- * no further away than it is. */
+/* A step passes the configuration between two stages, from as far away as its length allows. It is
+ * not reached by a step so short that the next one could not grow to the length, nor from so close
+ * that stages are no further away than it is. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced)
@@ -148,7 +147,7 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
   double over = crossing->ahead / crossing->gap;
   double before = crossing->ahead - crossing->gap * length;
   if (length < crossing->least && baum_i_rows_are_apart(problem->workspace, t, rk->start)) {
-    crossing->least = 0.0; /* a light body turns, for which steps have to be short */
+    crossing->least = 0.0; /* a light body turns, which needs short steps */
   }
   *forced = length < crossing->least;
   if (*forced) {
@@ -168,7 +167,7 @@ double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bo
   return fabs(h) > crossing->ahead ? fmin(ROUNDING / crossing->pivot, LARGEST_FORCED) : 0.0;
 }
 
-/* One that began where no pose was looked for must not. */
+/* A step that began where no configuration was searched must not end near one. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   crossing->pivot_end = see_pivot(crossing, problem);

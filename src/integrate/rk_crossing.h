@@ -2,11 +2,10 @@
 /* Singular configurations in the way of a Runge-Kutta method that chooses its steps
  * (docs/theory/singular.md).
  *
- * sqrt(p), with p the smallest pivot of what is usual, falls in a straight line towards such a
- * pose. Accelerations next to it are poor, and errors there grow however small a step is. So the
- * configuration is passed between two stages, and where no step of a sensible length is good
- * enough, one goes over it.
- */
+ * sqrt(p), with p the smallest pivot relative to the usual one, falls in a straight line towards
+ * such a configuration. Accelerations next to it are inaccurate, and errors grow there however
+ * small a step is. So a step passes the configuration between two stages; if no step of a sensible
+ * length is accurate enough, a step of fixed length passes over it. */
 #ifndef BAUM_I_INTEGRATE_RK_CROSSING_H
 #define BAUM_I_INTEGRATE_RK_CROSSING_H
 
@@ -26,34 +25,36 @@ typedef struct baum_i_rk_crossing {
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
-/* At t, where the first rate has just been evaluated. */
+/* Start at t, where the first rate has just been evaluated. */
 void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double t);
 
-/* Before a step from t: ahead and least. */
+/* Prepare a step from t: find `ahead` and `least`. */
 void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                              const baum_i_problem *problem, double t);
 
-/* [s] What becomes of a step of this length from t. forced: that step is below least. */
+/* [s] Adjust the length of a step from t. *forced: the length was below `least`, so the step passes
+ * over the configuration. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced);
 
-/* Error of the scales that a step by h may have, whatever the tolerance. */
+/* Error, relative to the scales, that a step by h may have whatever the tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* At the end of a step, evaluated just now. false: it ends in a configuration and must not. */
+/* Check the end of a step, which has just been evaluated. false: it must not end in this
+ * configuration. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
 
-/* After a step was accepted: its end is the start of the next, of length `next`. */
+/* Continue after an accepted step: its end is the start of the next, of length `next`. */
 void baum_i_rk_crossing_go_on(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double next);
 
-/* A try by h was refused. */
+/* Note that a try by h was refused. */
 void baum_i_rk_crossing_refuse(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                const baum_i_problem *problem, double h);
 
-/* Is there no way on? */
+/* Is the method stuck? */
 bool baum_i_rk_crossing_is_held(const baum_i_rk_crossing *crossing);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public questions about stability: checks, then src/stabilization with the method that an
- * integrator says it is. */
+/* Public functions about stability: they check arguments and call src/stabilization with the method
+ * of the integrator. */
 #include "integrate/integrator.h"
 
 #include "base/message.h"
@@ -17,7 +17,7 @@ static baum_status check_integrator(const baum_integrator *integrator)
                          "stability: integrator is NULL, must be one such as baum_euler()");
 }
 
-/* Has it a region? */
+/* Check that the integrator has a region of stability. */
 static baum_status check_fixed_step(const baum_integrator *integrator)
 {
   BAUM_I_TRY(check_integrator(integrator));
@@ -52,7 +52,7 @@ static baum_status check_pair(const void *first, const char *first_name, const v
   return check_out(second, second_name);
 }
 
-/* Two arrays of `capacity` and their count. */
+/* Check two arrays of `capacity` and their count. */
 static baum_status check_arrays(int32_t capacity, const void *first, const char *first_name,
                                 const void *second, const char *second_name, const int32_t *count)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Length of the next step from the error of the last ones. Lengths are > 0; directions are the
- * caller's. */
+/* Length of the next step from the errors of the last ones. Lengths are > 0; the caller owns
+ * directions. */
 #ifndef BAUM_I_INTEGRATE_STEP_CONTROL_H
 #define BAUM_I_INTEGRATE_STEP_CONTROL_H
 
@@ -14,13 +14,13 @@ typedef struct baum_i_step_control {
   bool refused;      /* a try from here has been refused */
 } baum_i_step_control;
 
-/* Begin with a first step. */
+/* Start with a first step. */
 void baum_i_step_control_begin(baum_i_step_control *control, int order, double step);
 
-/* A step of length `taken` with an error <= 1, in units of the tolerance, is accepted. */
+/* Accept a step of length `taken` with an error <= 1, in units of the tolerance. */
 void baum_i_step_control_accept(baum_i_step_control *control, double taken, double error);
 
-/* It is refused for an error > 1, or one that is no number. */
+/* Refuse it for an error > 1, or NaN. */
 void baum_i_step_control_refuse(baum_i_step_control *control, double taken, double error);
 
 #endif

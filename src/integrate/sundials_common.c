@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every part of a run of CVODE or IDA knows: context, vectors, failing evaluations, unknowns.
- * */
+/* Common parts of CVODE and IDA: context, vectors, failing evaluations, unknowns. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -53,10 +52,10 @@ static int create_context(baum_i_sundials *sundials)
 
 /* ---- vectors ----
  *
- * SUNDIALS 6.4 clones vectors without looking whether there was memory, and after a failure at
- * start frees those it has twice. So all are made beforehand, where a failure is a status; cloning
- * takes the next, destroying does nothing, closing frees them. Each one's numbers are preceded by a
- * pointer to its stock. */
+ * SUNDIALS 6.4 clones vectors without checking for memory, and after a failure at the start it
+ * frees those it has twice. So all vectors are made beforehand, where a failure is a status:
+ * cloning takes the next one, destroying does nothing, closing frees them. The numbers of each are
+ * preceded by a pointer to its stock. */
 
 enum { PREFIX = 1 };
 
@@ -76,7 +75,7 @@ static N_Vector clone(N_Vector like)
   return vector;
 }
 
-static void keep(N_Vector vector)
+static void keep_vector(N_Vector vector)
 {
   (void)vector;
 }
@@ -94,7 +93,7 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
       return baum_i_fail_memory();
     }
     vector->ops->nvclone = clone;
-    vector->ops->nvdestroy = keep;
+    vector->ops->nvdestroy = keep_vector;
     sundials->vectors[k] = vector;
   }
   return BAUM_OK;
@@ -136,7 +135,7 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
-  /* The flag `retry` says something after these two failures only. */
+  /* The flag `retry` is only valid after these two failures. */
   bool may_retry = status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
   sundials->stopped = !(may_retry && sundials->problem->workspace->point.retry);
   return sundials->stopped ? -1 : 1;
@@ -167,7 +166,7 @@ void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y,
 
 /* ---- displacements ---- */
 
-/* Of workspace->work_q: that of baum_i_tangent() comes first. */
+/* The part of workspace->work_q after that of baum_i_tangent(). */
 static double *normal_of(const baum_i_sundials *sundials)
 {
   const baum_workspace *w = sundials->problem->workspace;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every part of a run of CVODE or IDA knows: its vectors, its equations, the order of its
+/* What every part of a run of CVODE or IDA uses: its vectors, its equations, the order of its
  * unknowns. Only files of CVODE and IDA include it, and only when the build has SUNDIALS.
  *
- * SUNDIALS never prints: each run has a context of its own, and its complaints are kept here.
- */
+ * SUNDIALS never prints: each run has its own context, and its error texts are kept here. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
 #define BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
 
@@ -43,19 +42,19 @@ typedef struct baum_i_sundials {
   baum_i_statistics before;                       /* up to the last restart */
 } baum_i_sundials;
 
-/* Context with a silent error handler and vectors of length n; close it after everything made with
- * it. Closing accepts zeroes. */
+/* Create a context with a silent error handler and vectors of length n. Close it after everything
+ * made with it; closing accepts zeroes. */
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* One of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for our
- * own few. */
+/* Take one of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for
+ * the few of this library. */
 N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
-/* Keeps what SUNDIALS complains of. */
+/* Keep an error text of SUNDIALS. */
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
-/* What a callback answers: 0, +1 where a smaller step may help, else -1. Remembers a failure. */
+/* The answer of a callback: 0, +1 if a smaller step may help, else -1. Keeps a failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
 /* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */
@@ -64,7 +63,7 @@ void baum_i_sundials_pack(const baum_mechanism *mechanism, const double *q, cons
                           double *y);
 void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, double *q, double *v);
 
-/* y' at y, of which workspace->a is the acceleration. */
+/* y' at y, whose acceleration is workspace->a. */
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
 /* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q

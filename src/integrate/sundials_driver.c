@@ -18,7 +18,7 @@
 
 /* ---- messages ---- */
 
-/* Flags by package, 0 where it has none; what they mean, and advice. */
+/* Flags by package, 0 if it has none, with their meaning and advice. */
 static const struct {
   int flag[2];
   baum_status status;
@@ -34,14 +34,14 @@ static const struct {
   {{CV_CONV_FAILURE, 0},
    BAUM_ERR_CONVERGENCE,
    "the iteration does not converge however small the step; forces may be stiff, which only "
-   "cvode_bdf and ida are for, or the position near singular, where projection helps"},
+   "cvode_bdf and ida are for, or the configuration near a singular one, where projection helps"},
   {{0, IDA_CONV_FAIL},
    BAUM_ERR_CONVERGENCE,
    "the iteration does not converge however small the step; the position may be near singular, "
    "or rtol is too small, for index 3 above all"},
   {{CV_TOO_CLOSE, 0},
    BAUM_ERR_STEP,
-   "no first step can be found; the scales of time differ too much"},
+   "no first step can be found, because the time scales differ too much"},
   {{CV_LSETUP_FAIL, 0},
    BAUM_ERR_SINGULAR,
    "the matrix of Newton's iteration cannot be factored; take a fixed-point method such as "
@@ -70,7 +70,7 @@ static baum_status fail_with_evaluation(const baum_i_sundials *run, double step)
   return baum_i_fail_in_step(run->evaluation, run->message, run->method->name, run->t, step);
 }
 
-/* A remembered evaluation comes first. */
+/* Fail with a flag; an evaluation that failed comes first. */
 static baum_status fail(const baum_i_sundials *run, int flag, double step)
 {
   if (run->evaluation != BAUM_OK) {
@@ -159,8 +159,8 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out)
 
 /* ---- one step ---- */
 
-/* Steps that shrink towards a place where evaluations fail end with one in which none does: what
- * failed nearly no time ago is still the reason. */
+/* Begin a step. Steps that shrink towards a place where evaluations fail end with one without
+ * failure; a failure almost no time ago is still the reason. */
 static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
 {
   bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;
@@ -169,7 +169,7 @@ static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, doub
   run->evaluation = evaluation;
 }
 
-/* SUNDIALS 6.4 cannot take a stop back, only put it off. */
+/* Pass the stop time on. SUNDIALS 6.4 cannot cancel a stop, only postpone it. */
 static void give_stop(baum_i_sundials *run)
 {
   const baum_i_problem *problem = run->problem;
@@ -181,11 +181,11 @@ static void give_stop(baum_i_sundials *run)
   }
 }
 
-/* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
+/* Check a step between two times of SUNDIALS: BAUM_ERR_STEP if it did not advance. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  /* First steps may be lost in the rounding of a late t as long as that is fine beside the
-   * motion. */
+  /* A first step may be smaller than the rounding of a late t as long as that rounding is small
+   * beside the motion. */
   double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
   if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;
@@ -199,8 +199,8 @@ static baum_status check_progress(const baum_i_sundials *run, double before, dou
                      run->t, run->method->name, fabs(after - before), run->problem->rtol);
 }
 
-/* SUNDIALS takes the direction from the target, and its distance, 10 T, bounds the first step to a
- * tenth of it. */
+/* SUNDIALS takes the direction from the target; a tenth of its distance, 10 T, limits the first
+ * step. */
 baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_sundials *run = self;
@@ -227,8 +227,8 @@ baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, b
 
 /* ---- inside the last step ---- */
 
-/* The time of SUNDIALS that is t, put into the last step where it is off by the rounding of t; NaN
- * where it is outside, where IDA would extrapolate. */
+/* Convert t into the time of SUNDIALS, moved into the last step if it is outside by rounding; NaN
+ * if it is further outside, where IDA would extrapolate. */
 static double find_inside(const baum_i_sundials *run, double t)
 {
   double end = 0.0;

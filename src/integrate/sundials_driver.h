@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of CVODE and IDA: one driver for both. cvode.c and ida.c hold what differs, as a table. Only
- * they and the driver include it, and tests; only when the build has SUNDIALS.
- */
+/* Runs of CVODE and IDA: one driver for both. cvode.c and ida.c contain the differences, as a
+ * table. Only they, the driver and tests include it, and only when the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 #define BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 
@@ -19,7 +18,7 @@ typedef void baum_i_sundials_complain_fn(int flag, const char *module, const cha
 typedef struct baum_i_sundials_package {
   baum_i_sundials_kind kind;
 
-  /* What differs between the two in the name alone: BAUM_I_SUNDIALS_CALLS. */
+  /* Calls that differ between the two only by name: BAUM_I_SUNDIALS_CALLS. */
   int (*set_complain)(void *memory, baum_i_sundials_complain_fn *function, void *user);
   int (*set_user)(void *memory, void *user);
   int (*set_weigh)(void *memory, int (*weigh)(N_Vector y, N_Vector weights, void *user));
@@ -36,15 +35,15 @@ typedef struct baum_i_sundials_package {
   void (*destroy)(void **memory); /* NULL is fine */
 
   int (*size)(const baum_i_problem *problem); /* n, length of y */
-  /* Completes the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
+  /* Complete the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
   void *(*create)(int multistep, SUNContext context); /* run->memory; NULL: out of memory */
   int (*init)(baum_i_sundials *run);
   int (*weigh)(N_Vector y, N_Vector weights, void *run);
   int (*restart)(baum_i_sundials *run);
-  /* One step towards target, into run->y; tau is its end. */
+  /* Take one step towards target, into run->y; tau is its end. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
-  /* Frees what the method's `open` and `attach` made, or zeroes; run->memory is freed before. */
+  /* Free what `open` and `attach` of the method made, or zeroes; run->memory is freed before. */
   void (*close)(baum_i_sundials *run);
 } baum_i_sundials_package;
 
@@ -57,7 +56,7 @@ typedef struct baum_i_sundials_method {
   int (*attach)(baum_i_sundials *run);       /* solvers and other settings, after all else */
 } baum_i_sundials_method;
 
-/* From 7 on the handler of the context serves all, before each package has its own. */
+/* From version 7 on the handler of the context serves all; before, each package has its own. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 #define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) NULL
 #else

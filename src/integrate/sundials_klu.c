@@ -65,7 +65,7 @@ void baum_i_sundials_klu_close(baum_i_sundials_klu *klu)
 
 /* ---- the matrix ---- */
 
-/* SUNDIALS may wipe the pattern before each evaluation. */
+/* Restore the pattern, which SUNDIALS may erase before each evaluation. */
 static void copy_pattern(const baum_i_residual_matrix *form, SUNMatrix matrix)
 {
   const int32_t *columns = baum_i_residual_matrix_columns(form);
@@ -122,7 +122,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 
 /* ---- solve ---- */
 
-/* Residual and sizes of a solution x, which is not b. */
+/* Find the residual and the sizes of a solution x, which is not b. */
 static void form_residual(const baum_i_sundials_klu *klu, const double *x, const double *b)
 {
   const sunindextype *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
@@ -144,8 +144,8 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   }
 }
 
-/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for
- * Newton's iteration. NaN is not accurate. */
+/* Is a solution accurate enough for Newton? The residual of rows scaled by their largest entry must
+ * be within six digits of their terms. NaN is not accurate. */
 static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
 {
   sunindextype n = SUNSparseMatrix_Columns(klu->matrix);

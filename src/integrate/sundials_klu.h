@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix dF/dy + c dF/dy' of a residual form, factored by KLU: what Newton's iterations of
- * IDA and CVODE BDF solve with. Only their files include it, and only when the build has SUNDIALS.
+/* The matrix dF/dy + c dF/dy' of a residual form, factored by KLU, with which the Newton iterations
+ * of IDA and CVODE BDF solve. Only their files include it, and only when the build has SUNDIALS.
  *
- * KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition,
- * is always poor here, as c = O(1/h) and 1 stand side by side, and would choose pivots again, and
- * allocate, in every step.
- */
+ * KLU keeps its pivots as long as solutions are accurate. SUNDIALS would choose new pivots, and
+ * allocate, in every step: its criterion, the condition number, is always bad here because c =
+ * O(1/h) and 1 stand side by side. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_KLU_H
 #define BAUM_I_INTEGRATE_SUNDIALS_KLU_H
 

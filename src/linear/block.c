@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A solver by blocks: its memory, masses and forces. Structure is block_structure.c, arithmetic
- * block_hot.c. */
+/* Block solver: memory, masses and forces. block_structure.c finds the structure, block_hot.c
+ * computes. */
 #include "linear/block.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include "base/alloc.h"
 #include "linear/block_builder.h"
 
-/* det D against the product of the diagonal that S had. The multipliers lose about the unit
- * rounding over this, and several small pivots multiply: below the first the result is refined. In
- * long ladders healthy pivots fall with the number of nodes, and all of them share what one of few
- * would cost. */
+/* Result is refined where det D falls below this share of the product of the diagonal that S had.
+ * The multipliers lose about the unit rounding over this share, and several small pivots multiply.
+ * In long ladders the pivots fall with the number of nodes although they are healthy, so the limit
+ * falls with it. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -54,8 +54,8 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
   memcpy(list, all, sizeof all);
 }
 
-/* One arena. Every array begins on a cache line, but none a whole number of pages after another,
- * lest all of them fall on the same sets of the cache. */
+/* All arrays share one arena. Each begins on a cache line, but never a whole number of pages after
+ * another, because all of them would then compete for the same sets of the cache. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };
@@ -84,7 +84,7 @@ static baum_status make_arrays(baum_i_block *b)
   return BAUM_OK;
 }
 
-/* Over y = L^T a masses and weights are one. */
+/* In terms of y = L^T a, masses and weights are one. */
 static void set_dense_weights(baum_i_block *b)
 {
   for (int t = 1 + b->structure->mass_block_count; t < b->body_block_count; t++) {
@@ -154,7 +154,7 @@ void baum_i_block_destroy(baum_i_block *block)
 
 /* ---- masses ---- */
 
-/* What this gives dense bodies no side refers to. */
+/* The values written for dense bodies are never read. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
 {
   bool positive = true;
@@ -188,7 +188,7 @@ static bool factor_one(const double *m, int n, double *l)
         sum -= l[i * n + k] * l[j * n + k];
       }
       if (i == j) {
-        /* What is left of the diagonal after much cancellation is noise. */
+        /* After much cancellation the rest of the diagonal is noise. */
         positive = positive && sum > 1e-14 * m[i * n + i];
         l[i * n + i] = sqrt(sum);
       } else {

@@ -1,36 +1,37 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The saddle-point system by its Schur complement in blocks of two by two:
+/* The saddle-point system, solved by its Schur complement in blocks of two by two:
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot.
- * Columns go in *body blocks*: a planar body is one, W diagonal; user coordinates with M = L L^T
- * take as many as they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W =
- * 0. Numbers of body blocks stand in the order of v, then ground, then y; a particle's third is
- * that of its neighbour, which it leaves alone, its W being 0. A body block that a node touches is
- * a *side*, a block of 2 x 3 of J. Those of a pin are
+ * The rows of J are paired into *nodes*; a missing second row stands for 0 lambda = 0 with a unit
+ * pivot. Columns are grouped into *body blocks*. A planar body is one body block with diagonal W.
+ * User coordinates with M = L L^T take as many as they need, in terms of y = L^T a, where W is the
+ * identity. Body block 0 is the ground: W = 0. The numbers of body blocks are stored in the order
+ * of v, then ground, then y. The third number of a particle is its neighbour's; it is left
+ * unchanged, because its W is 0. A body block that a node touches is a *side*, a 2 x 3 block of J.
+ * The sides of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
- * so that only c, its *arm*, is stored. Two nodes that share a body block are coupled; S is sparse,
- * and its order of elimination, fill and every index are fixed when the solver is made.
+ * so only c, its *arm*, is stored. Two nodes that share a body block are coupled. S is sparse; its
+ * order of elimination, its fill and every index are fixed when the solver is created.
  *
- * Structure here; the arithmetic is block_sides_hot.c and block_hot.c.
- */
+ * The arithmetic is in block_sides_hot.c and block_hot.c. */
 #ifndef BAUM_I_LINEAR_BLOCK_H
 #define BAUM_I_LINEAR_BLOCK_H
 
 #include "linear/elimination.h"
 #include "linear/kkt.h"
 
-/* Two row, the first of them here, that say: a point of one body is a point of another one. */
+/* Whether two rows, beginning with this one, are those of a pin: a point of one body coincides with
+ * a point of another. */
 typedef struct baum_i_block_pin {
   bool is_pin;
   int body_a; /* mass block, -1: ground */
   int body_b;
 } baum_i_block_pin;
 
-/* What is to be solved. The structure must outlive the solver. */
+/* The system. The structure must outlive the solver. */
 typedef struct baum_i_block_layout {
   const baum_i_kkt_structure *structure;
   const baum_i_block_pin *pins;  /* (row_block_count) */
@@ -40,8 +41,8 @@ typedef struct baum_i_block_layout {
                                     ground; diagonal ones only */
 } baum_i_block_layout;
 
-/* A node with two sides of the shape of a pin. They are set two at a time: of an odd number the
- * last one stands twice in arrays that are said to have an even one. */
+/* A node with the two sides of a pin. Pins are processed two at a time: where their number is odd,
+ * the last one is repeated in the arrays described as even. */
 typedef struct baum_i_pin_node {
   int32_t node;
   int32_t row;           /* first of its two */
@@ -54,35 +55,36 @@ static inline size_t baum_i_even(size_t count)
   return count + count % 2;
 }
 
-/* A node of any other shape. */
+/* A general node: any other shape. */
 typedef struct baum_i_full_node {
   int32_t node;
   int32_t row[2];     /* -1: a missing or omitted one */
-  int32_t first_side; /* of all full sides */
+  int32_t first_side; /* first of its general sides */
   int32_t side_count;
 } baum_i_full_node;
 
-/* One column of J in a full side that is not taken from there as a whole. */
+/* One column of J in a general side that is not copied from J as a whole. */
 typedef struct baum_i_side_entry {
   int32_t to;      /* in side[] */
   int32_t from[2]; /* in the values of J; the second -1: the node has one row */
 } baum_i_side_entry;
 
-/* A coupling of two pins by one body. */
+/* A coupling of two pins through one body. */
 typedef struct baum_i_pin_pair {
   int32_t off;
   int32_t arm[2]; /* of the later and of the earlier node */
   int32_t body_block;
 } baum_i_pin_pair;
 
-/* A coupling by one body block of which one side at least is full; ~arm stands for a pin's side. */
+/* A coupling through one body block of which at least one side is general; ~arm denotes a side of a
+ * pin. */
 typedef struct baum_i_full_pair {
   int32_t off;
   int32_t side[2]; /* of the later and of the earlier node */
   int32_t body_block;
 } baum_i_full_pair;
 
-/* A body whose M is not diagonal, or not constant. */
+/* A body whose M is not diagonal or not constant. */
 typedef struct baum_i_dense_body {
   int mass_block;
   int32_t body_block; /* first of its own */
@@ -90,7 +92,7 @@ typedef struct baum_i_dense_body {
   int factor;         /* start of L in factor[] */
 } baum_i_dense_body;
 
-/* Where a node touches a dense body: sides of all its body blocks, one after the other. */
+/* The sides of a node on a dense body: those of all its body blocks, in order. */
 typedef struct baum_i_dense_side {
   int32_t body; /* in dense[] */
   int32_t side; /* first */
@@ -125,8 +127,8 @@ typedef struct baum_i_block {
   int factor_size;   /* numbers in factor[] */
   int motion_size;   /* v, ground, and y of dense bodies */
   double weak_pivot; /* det D over the product of the diagonal that S had: refined below */
-  bool leaves_v;     /* a body block has numbers outside of v: dense bodies, particles */
-  int hub;           /* mass block that more rows touch than blocks are good for; -1: none */
+  bool leaves_v;     /* some body block has numbers outside of v: dense bodies, particles */
+  int hub;           /* mass block with too many rows for blocks; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) W = 0 */
 
@@ -146,7 +148,7 @@ typedef struct baum_i_block {
   baum_i_dense_body *dense;       /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
 
-  double *numbers;    /* behind all arrays below */
+  double *numbers;    /* memory of all arrays below */
   baum_i_node *nodes; /* (node_count) */
   double *weight;     /* (body_block_count x 2) W of the first two columns, and of the third */
   double *free;       /* (motion_size) a0 = W f */
@@ -160,47 +162,47 @@ typedef struct baum_i_block {
   double *factor;     /* L of the dense bodies */
 
   /* For refinement. */
-  double *mass;     /* (motion_size) M, since W is rounded */
+  double *mass;     /* (motion_size) M, because W is rounded */
   double *force;    /* (motion_size) f */
   double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
-  double *pull_low; /* (motion_size) what pull[] lacks while it is made */
+  double *pull_low; /* (motion_size) low part of pull[] while it is summed */
   double *rest;     /* (node_count x 2) r - J a, then lambda while it is corrected */
   double *rest_low; /* (node_count x 2) as pull_low */
 
   double *nothing;    /* (motion_size) zeros */
-  const double *from; /* a0 of the present right side: free, or nothing */
+  const double *from; /* a0 of the present right-hand side: free, or nothing */
   const double *load; /* f of it: force, or nothing */
 } baum_i_block;
 
-/* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
- * many joints, or so much fill, that blocks would be slow. Which body is told in *hub, a mass
- * block, or -1; NULL is fine. */
+/* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver is better: a body with too
+ * many joints, or too much fill for blocks to be fast. *hub receives that body as a mass block, or
+ * -1; hub may be NULL. */
 baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out);
 void baum_i_block_destroy(baum_i_block *block); /* NULL is fine */
 
-/* The weights of the diagonal bodies. False where M is not positive. */
+/* Sets the weights of the diagonal bodies. Returns false where M is not positive. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
-/* Factors of the dense bodies; their M may change. False likewise. */
+/* Factors the dense bodies, whose M may change. Returns false where M is not positive. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
-/* Whether right sides are (f, r) from now on, as at first, or (0, r). */
+/* Selects the right-hand sides (f, r), as at first, or (0, r). */
 void baum_i_block_use_force(baum_i_block *block, bool use);
 
-/* pull[] and rest[], in twice the precision. */
+/* Computes pull[] and rest[] in twice the working precision. */
 void baum_i_block_find_residual(baum_i_block *block);
 
-/* block_pull.c. Before a correction with the factors at hand: motion, pull and multipliers are 0,
- * rest is r (nc), so that the correction gives a motion with J a = r. */
+/* Prepares a correction with the present factors (block_pull.c): motion, pull and multipliers
+ * become 0, rest becomes r (nc), so that the correction gives a motion with J a = r. */
 void baum_i_block_set_rest(baum_i_block *block, const double *r);
 
-/* How good the pivots of a factorization were. */
+/* Quality of the pivots of a factorization. */
 typedef enum baum_i_pivots {
   BAUM_I_PIVOTS_GOOD,
   BAUM_I_PIVOTS_WEAK,
   BAUM_I_PIVOTS_BAD
 } baum_i_pivots;
 
-/* Rows of the joints that are not pins: all rows of the mechanism, as their joints give them. */
+/* Rows of all joints; those of general nodes are read. */
 typedef struct baum_i_block_rows {
   const double *jacobian; /* values of J */
   const double *v;        /* (nv) NULL: at rest */
@@ -213,35 +215,35 @@ typedef struct baum_i_block_rows {
   double *phi_rate; /* (nc) rows of nodes are set */
 } baum_i_block_rows;
 
-/* The hot part: right sides, and nodes that are not pins, */
+/* Hot functions for right-hand sides and general nodes. */
 typedef struct baum_i_block_sides_kernel {
-  /* f, and a0 = W f. */
+  /* Sets f and a0 = W f. */
   void (*set_force)(baum_i_block *block, const double *force);
-  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the general nodes; pins are set by the
-   * caller. */
+  /* Sets sides, Phi' = J v - nu, r, pivots and J a0 - r of the general nodes; the caller sets pins.
+   */
   void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
 } baum_i_block_sides_kernel;
 
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_plain;
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_wide;
 
-/* and the solution. */
+/* Hot functions for the solution. */
 typedef struct baum_i_block_kernel {
-  /* Off-diagonal blocks. */
+  /* Sets the off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
-  /* L D L^T, and the right side forward; the motion is a0. */
+  /* Factors L D L^T and substitutes forward; the motion becomes a0. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
-  /* The right side backward, which gives lambda, also into its rows (nc) but for omitted ones;
-   * and the motion. */
+  /* Substitutes backward, which gives lambda and the motion. lambda (nc) receives all rows but
+   * omitted ones. */
   void (*substitute)(baum_i_block *block, double *lambda);
-  /* Whether every row of r - J a is rounding. */
+  /* Tells whether every row of r - J a is rounding. */
   bool (*check)(const baum_i_block *block);
-  /* One correction of a and lambda by the residual in pull[] and rest[]. Returns the largest change
-   * of a multiplier against the largest multiplier. */
+  /* Corrects a and lambda once by the residual in pull[] and rest[]. Returns the largest change of
+   * a multiplier over the largest multiplier. */
   double (*correct)(baum_i_block *block);
-  /* a (nv); whether all of it is finite. */
+  /* Copies a (nv); tells whether all of it is finite. */
   bool (*read_motion)(const baum_i_block *block, double *a);
-  /* lambda once more, after corrections. */
+  /* Copies lambda again, after corrections. */
   void (*read_lambda)(const baum_i_block *block, double *lambda);
 } baum_i_block_kernel;
 

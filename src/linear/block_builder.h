@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What block_structure.c and block_couplings.c share while a structure is made. */
+/* What block_structure.c and block_couplings.c share while they find a structure. */
 #ifndef BAUM_I_LINEAR_BLOCK_BUILDER_H
 #define BAUM_I_LINEAR_BLOCK_BUILDER_H
 
 #include "linear/block.h"
 #include "linear/vector.h"
 
-/* A node before it has its place. */
+/* A node before it is placed. */
 typedef struct baum_i_raw_node {
   int32_t row[2]; /* -1: none */
   int32_t first_side;
@@ -14,8 +14,8 @@ typedef struct baum_i_raw_node {
   bool is_pin;
 } baum_i_raw_node;
 
-/* A side before its node has its place. `number` as in baum_i_full_pair, but that arms are counted
- * in the order of the rows. */
+/* A side before its node is placed. `number` is as in baum_i_full_pair, but arms are counted in the
+ * order of the rows. */
 typedef struct baum_i_raw_side {
   int32_t node;
   int32_t body_block;
@@ -39,11 +39,11 @@ typedef struct baum_i_block_builder {
   int32_t *graph_start;     /* (nodes.count + 1) */
   baum_i_vector neighbours; /* int32_t */
   int32_t *arm_of;          /* (nodes.count) pin's number in the order of places */
-  unsigned char *is_set;    /* (off_count) by a pair */
+  unsigned char *is_set;    /* (off_count) a pair sets it */
   baum_i_vector alike, opposite, first_pairs, full_pairs, zeros, targets;
 } baum_i_block_builder;
 
-/* Whether W = 0 there, so that it couples nothing. */
+/* Tells whether W = 0 there, so that the body block couples nothing. */
 static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body_block)
 {
   const unsigned char *fixed = u->block->fixed;
@@ -51,16 +51,16 @@ static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body
          (body_block <= u->layout->structure->mass_block_count && fixed[body_block - 1]);
 }
 
-/* Couplings of nodes that share a body block, and the blocks that are cleared first. BAUM_OK or
+/* Lists the couplings of nodes that share a body block, and the blocks to clear first. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 
-/* Blocks that the products of a node's couplings go to: of the f-th with those before it. BAUM_OK
- * or BAUM_ERR_MEMORY. */
+/* Lists the blocks that receive the products of a node's couplings: of the f-th with those before
+ * it. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
-/* Fill an empty block: everything of block.h but the numbers. As baum_i_block_create(); on failure
- * what was made so far is left to baum_i_block_destroy(). */
+/* Fills an empty block: everything of block.h but the numbers. Returns what baum_i_block_create()
+ * returns; after a failure the caller destroys the block. */
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block);
 
 #endif

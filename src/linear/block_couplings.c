@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings of the Schur complement in blocks: which two sides give to which block below the
- * diagonal, once nodes have their places. Two pins set their block; what else falls on it is added.
+/* Couplings of the Schur complement in blocks: which two sides contribute to which block below the
+ * diagonal, once nodes are placed. The first pair of pins sets its block; further pairs add to it.
  */
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* Block below the diagonal of two nodes at their places. */
+/* Finds the block below the diagonal of two placed nodes. */
 static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
 {
   int32_t low = order->start[earlier];
@@ -24,7 +24,7 @@ static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_
   return low;
 }
 
-/* Number of a side with arms counted by places. */
+/* Returns the number of a side, with arms counted by places. */
 static int32_t number_of(const baum_i_block_builder *u, const baum_i_raw_side *side)
 {
   return side->number >= 0 ? side->number : ~(u->arm_of[side->node] + (~side->number) % 2);
@@ -59,7 +59,7 @@ static baum_status add_pair(baum_i_block_builder *u, const baum_i_raw_side *x,
 
 static int by_off(const void *a, const void *b)
 {
-  /* Both kinds of pair begin with it. */
+  /* Both kinds of pair begin with the block. */
   int32_t x = *(const int32_t *)a;
   int32_t y = *(const int32_t *)b;
   return (x > y) - (x < y);

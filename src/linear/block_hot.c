@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic of the Schur complement in blocks: see block.h for the equations and the storage.
+/* Arithmetic of the Schur complement in blocks; block.h has the equations and the storage.
  *
  *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_2 c_n c_k^T
  *
- * Right-looking L D L^T. With U = S_ik adj(D), all that a pivot gives to others is a product with
- * U times 1 / det D, so that the division runs beside the products; the right side goes along.
+ * The factorization is a right-looking L D L^T. With U = S_ik adj(D), every contribution of a pivot
+ * is a product with U times 1 / det D, so the division runs in parallel with the products. The
+ * right-hand side is eliminated along with the matrix.
  *
- * Refinement is of both equations with a as an unknown of its own (J. Demmel, 1997, 2.5: what was
- * lost in squaring comes back). With t = W (f - M a - J^T lambda) and S d = J t - (r - J a):
+ * Refinement corrects both equations, with a as an unknown of its own (J. Demmel, 1997, 2.5), which
+ * restores what squaring lost. With t = W (f - M a - J^T lambda) and S d = J t - (r - J a):
  *
- *   a += t - W J^T d,   lambda += d
- */
+ *   a += t - W J^T d,   lambda += d */
 #include <math.h>
 #include <string.h>
 
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* det D against the product of the diagonal that S had, as block.h has weak_pivot: below this the
- * solver has nothing to say. */
+/* Below this share (as weak_pivot of block.h) the solver reports bad pivots. */
 static const double bad_pivot = 1e-10;
 
 /* A residual of this many units of its own size is rounding. */
@@ -26,7 +25,7 @@ static const double rounding = 0x1p-47;
 
 /* ---- what multipliers do to the motion ---- */
 
-/* motion -= W G^T lambda for the sides of one pin, of which arm and weight are (4). */
+/* motion -= W G^T lambda for the sides of one pin; arm and weight have 4 numbers. */
 static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, const double *weight,
                                baum_i_pair lambda, double *motion)
 {
@@ -38,8 +37,7 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-/* The same of all general nodes, and their rows of lambda, where these are wanted (NULL:
- * nowhere). */
+/* The same for all general nodes. Also stores their rows of lambda, unless rows is NULL. */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;
@@ -68,7 +66,7 @@ BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 
 /* ---- off the diagonal ---- */
 
-/* w_2 n k^T, with + or - w_0 on the diagonal. */
+/* w_2 n k^T, plus or minus w_0 on the diagonal. */
 static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs, int count,
                              double sign)
 {
@@ -85,7 +83,7 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   }
 }
 
-/* Of a full side with a pin's, +- [ I  c ]: rows are those of the full one. */
+/* Couples a general side and a pin's, +- [ I  c ]; the rows are those of the general side. */
 static inline baum_i_square couple_to_pin(const baum_i_block *b, int32_t side, int32_t arm,
                                           const double *w)
 {
@@ -134,22 +132,22 @@ static void couple(baum_i_block *b)
 
 /* ---- factor and solve ---- */
 
-/* A node whose turn it is, in registers: each number of D and of its right side twice. */
-typedef struct turn {
+/* The node of a pivot step, in registers: each number of D and of its right-hand side twice. */
+typedef struct pivot_step {
   baum_i_pair d[3];    /* D: first, off the diagonal, last */
   baum_i_pair inverse; /* 1 / det D */
   baum_i_pair right[2];
-} turn;
+} pivot_step;
 
 /* X adj(D) */
-static inline baum_i_square times_adjugate(baum_i_square x, const turn *t)
+static inline baum_i_square times_adjugate(baum_i_square x, const pivot_step *t)
 {
   return (baum_i_square){
     {x.column[0] * t->d[2] - x.column[1] * t->d[1], x.column[1] * t->d[0] - x.column[0] * t->d[1]}};
 }
 
-/* D^-1 of the right side. */
-static inline baum_i_pair solve_pivot(const turn *t)
+/* D^-1 times the right-hand side. */
+static inline baum_i_pair solve_pivot(const pivot_step *t)
 {
   baum_i_pair corners = {t->d[2][0], t->d[0][0]};
   baum_i_pair right = {t->right[0][0], t->right[1][0]};
@@ -157,9 +155,9 @@ static inline baum_i_pair solve_pivot(const turn *t)
   return t->inverse * (corners * right - t->d[1] * other);
 }
 
-/* What the coupling at x (rows of the later node `to`) gives to that node; L^T stays in its place.
- * Returns the coupling. */
-static inline baum_i_square eliminate_one(const turn *t, double *x, baum_i_node *to)
+/* Subtracts the contribution of the coupling at x (rows of the later node `to`) from that node and
+ * stores L^T in its place. Returns the coupling. */
+static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i_node *to)
 {
   baum_i_square s = baum_i_load_square(x);
   baum_i_square u = times_adjugate(s, t);
@@ -174,10 +172,11 @@ static inline baum_i_square eliminate_one(const turn *t, double *x, baum_i_node 
   return s;
 }
 
-/* All `count` couplings of a node that has several, from x on. `target`: the blocks that they give
- * to, the f-th with those before it. */
-static inline void eliminate_many(const turn *t, double *x, const int32_t *later, ptrdiff_t count,
-                                  const int32_t *target, baum_i_node *nodes, double *off)
+/* Eliminates all `count` couplings of a node that has several, from x on. `target` lists the blocks
+ * that receive the products of the f-th with those before it. */
+static inline void eliminate_many(const pivot_step *t, double *x, const int32_t *later,
+                                  ptrdiff_t count, const int32_t *target, baum_i_node *nodes,
+                                  double *off)
 {
   for (ptrdiff_t f = 0; f < count; f++) {
     baum_i_square s = eliminate_one(t, x + 4 * f, &nodes[later[f]]);
@@ -191,7 +190,7 @@ static inline void eliminate_many(const turn *t, double *x, const int32_t *later
   }
 }
 
-/* The smallest det D against the product of the diagonal that S had. */
+/* Returns the smallest det D over the product of the diagonal that S had. */
 static double weakest(const baum_i_block *b)
 {
   double least = (double)INFINITY;
@@ -204,7 +203,7 @@ static double weakest(const baum_i_block *b)
 
 static baum_i_pivots eliminate(baum_i_block *b)
 {
-  /* So early that it is in memory when multipliers are taken from it. */
+  /* Copied early, so that it is in the cache when substitution needs it. */
   memcpy(b->motion, b->from, (size_t)b->motion_size * sizeof *b->motion);
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
@@ -216,7 +215,7 @@ static baum_i_pivots eliminate(baum_i_block *b)
   double margin = (double)INFINITY;
   for (ptrdiff_t k = 0; k < b->node_count; k++) {
     baum_i_node *node = &nodes[k];
-    turn t = {
+    pivot_step t = {
       .d = {baum_i_both(node->pivot[0]), baum_i_both(node->pivot[1]), baum_i_both(node->pivot[3])},
       .right = {baum_i_both(node->lambda[0]), baum_i_both(node->lambda[1])}};
     baum_i_pair det = t.d[0] * t.d[2] - t.d[1] * t.d[1];
@@ -243,7 +242,7 @@ static baum_i_pivots eliminate(baum_i_block *b)
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* Couplings that are still to be taken, from the last to the first. */
+/* Couplings that are still to be substituted, from the last to the first. */
 typedef struct couplings {
   const int32_t *start; /* of each node, in later[] and in off[] */
   const int32_t *later;
@@ -267,8 +266,8 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
   return lambda;
 }
 
-/* From the last node to the first, and what each lambda does to the motion, which fills the time
- * that the next one waits for it. rows (nc), where lambda is wanted, or NULL. */
+/* Substitutes from the last node to the first and applies each lambda to the motion, which fills
+ * the latency of the next one. rows (nc) receives lambda; NULL: not wanted. */
 BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,
@@ -280,7 +279,7 @@ BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
   const double *weight = b->pin_weight + 4 * (ptrdiff_t)b->pin_count;
   double *motion = b->motion;
   ptrdiff_t k = b->node_count - 1;
-  /* Pins stand in the order of nodes. */
+  /* Pins are stored in the order of nodes. */
   for (const baum_i_pin_node *pin = b->pins + b->pin_count; pin-- > b->pins;) {
     for (ptrdiff_t next = pin->node; k > next; k--) {
       (void)backward_one(&c, k);
@@ -299,7 +298,7 @@ BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
   scatter_fulls(b, rows);
 }
 
-/* lambda = D^-1 L^-1 lambda with a factorization that is there. */
+/* lambda = D^-1 L^-1 lambda with the present factors. */
 static void forward(const baum_i_block *b)
 {
   baum_i_node *nodes = b->nodes;
@@ -312,9 +311,9 @@ static void forward(const baum_i_block *b)
       baum_i_square x = baum_i_transposed(baum_i_load_square(b->off + 4 * (size_t)e));
       baum_i_store(l, baum_i_load(l) - baum_i_times(x, right));
     }
-    const turn t = {.d = {baum_i_both(d[0]), baum_i_both(d[1]), baum_i_both(d[3])},
-                    .inverse = baum_i_both(nodes[k].inverse),
-                    .right = {baum_i_both(r[0]), baum_i_both(r[1])}};
+    const pivot_step t = {.d = {baum_i_both(d[0]), baum_i_both(d[1]), baum_i_both(d[3])},
+                          .inverse = baum_i_both(nodes[k].inverse),
+                          .right = {baum_i_both(r[0]), baum_i_both(r[1])}};
     baum_i_store(nodes[k].lambda, solve_pivot(&t));
   }
 }
@@ -380,7 +379,7 @@ static bool check(const baum_i_block *b)
   return fine;
 }
 
-/* lambda = J pull - rest of all nodes. */
+/* lambda = J pull - rest at all nodes. */
 static void gather(const baum_i_block *b)
 {
   for (int i = 0; i < b->pin_count; i++) {
@@ -404,8 +403,7 @@ static void gather(const baum_i_block *b)
   }
 }
 
-/* lambda of all nodes plus what was put aside; the largest change against the largest
- * multiplier. */
+/* Adds the saved lambda of all nodes; returns the largest change over the largest multiplier. */
 static double add_change(const baum_i_block *b, const double *before)
 {
   double change = 0.0;
@@ -467,8 +465,8 @@ static void read_lambda(const baum_i_block *b, double *lambda)
   }
 }
 
-/* Copies; whether all is finite: a sum of zeros is zero, or NaN where a number is not finite. So
- * many sums that none waits for itself. */
+/* Copies and tells whether all numbers are finite: a sum of zeros is zero, or NaN where a number is
+ * not finite. Two sums hide the latency of addition. */
 static bool copy_finite(const double *x, ptrdiff_t count, double *to)
 {
   baum_i_pair sum[2] = {{0.0, 0.0}, {0.0, 0.0}};

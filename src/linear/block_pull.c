@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Other right sides for the factors of the last solution. A correction (block_hot.c) of no motion
- * by the residual (0, r) is the solution of
+/* Other right-hand sides for the factors of the last solution. A correction (block_hot.c) that
+ * starts from no motion and the residual (0, r) gives the solution of
  *
- *   S lambda = -r,   a = -W J^T lambda,   so that J a = r
- */
+ *   S lambda = -r,   a = -W J^T lambda,   so that J a = r */
 #include "linear/block_pull.h"
 
 #include <string.h>

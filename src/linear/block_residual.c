@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual of the whole system in twice the working precision, for refinement
+/* Residual of the whole system in twice the working precision, for refinement:
  *
  *   W (f - M a - J^T lambda)  and  r - J a
  *
  * Close to a singular configuration both are tiny differences of large numbers, and the multipliers
- * depend on every digit of them. Sums and products keep what they round off (T. Ogita, S. M. Rump,
- * S. Oishi,
- * 2005, Dot2).
- */
+ * depend on every digit of them. Sums and products therefore keep their rounding errors (T. Ogita,
+ * S. M. Rump, S. Oishi, 2005, Dot2). */
 #include <math.h>
 #include <string.h>
 
 #include "linear/block.h"
 
-/* A number and what it lacks. */
+/* An unevaluated sum of two numbers. */
 typedef struct twofold {
   double high;
   double low;
@@ -34,7 +32,7 @@ static inline void subtract_product(twofold *sum, double x, double y)
   add(sum, -product);
 }
 
-/* What a node has on one body block, column by column. */
+/* A side of a node, column by column. */
 typedef struct side {
   int32_t place;
   double g[6];

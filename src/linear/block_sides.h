@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sides as pairs, for the hot files: what block_sides_hot.c and block_hot.c share. */
+/* Sides in pairs of numbers, shared by block_sides_hot.c and block_hot.c. */
 #ifndef BAUM_I_LINEAR_BLOCK_SIDES_H
 #define BAUM_I_LINEAR_BLOCK_SIDES_H
 
@@ -16,8 +16,9 @@ static inline baum_i_columns baum_i_load_full(const double *side)
   return (baum_i_columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
 }
 
-/* Of a side's number as in baum_i_full_pair. Axes come from memory, for made of one number they may
- * take an instruction (vmovq between registers as 66 0F D6) that valgrind 3.19 does not know. */
+/* Loads a side by its number as in baum_i_full_pair. The axes are read from memory: built from one
+ * number they may take an instruction (vmovq between registers as 66 0F D6) that valgrind 3.19 does
+ * not know. */
 static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t number)
 {
   static const double AXES[2][4] = {{1.0, 0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0, -1.0}};

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nodes that are not pins, from the blocks of J that their joints give: sides, in pairs of rows and
- * body blocks of columns; Phi' and the right side; pivots.
+/* General nodes from the blocks of J that their joints give: sides in pairs of rows and body blocks
+ * of columns, Phi', the right-hand side and pivots.
  *
- *   D = sum over sides of G W G^T,   J a0 - r = sum over sides of G a0 - r
- */
+ *   D = sum over sides of G W G^T,   J a0 - r = sum over sides of G a0 - r */
 #include <string.h>
 
 #include "base/hot.h"
@@ -41,7 +40,7 @@ static void set_force(baum_i_block *block, const double *force)
   }
 }
 
-/* Row by row, L y = G^T for a body with M = L L^T, over its body blocks. */
+/* Solves L y = G^T row by row for bodies with M = L L^T, over their body blocks. */
 static void whiten(baum_i_block *b)
 {
   for (int i = 0; i < b->dense_side_count; i++) {
@@ -60,8 +59,9 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* The velocities of all body blocks: v itself, or a copy in pull[], which only refinement needs,
- * where places lie outside of v. Of a dense body L^T v, since its sides are whitened. */
+/* Returns the velocities of all body blocks: v itself, or where places lie outside of v a copy in
+ * pull[], which only refinement needs. For a dense body the copy is L^T v, because its sides are
+ * whitened. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -87,7 +87,7 @@ static const double *gather_velocities(const baum_i_block *b, const double *v)
   return b->pull;
 }
 
-/* One of both rows of a node: Phi' from J v, and r. */
+/* Computes one row of a node: Phi' from J v, and r. */
 static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
 {
   if (r < 0) {
@@ -98,10 +98,10 @@ static inline double set_row(const baum_i_block_rows *rows, int32_t r, double ra
   return rows->bending * rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
 }
 
-/* What a node sums over its sides. */
+/* The sums of a node over its sides. */
 typedef struct sums {
   baum_i_pair on;   /* the diagonal of D */
-  baum_i_pair off;  /* what is beside it, twice */
+  baum_i_pair off;  /* its off-diagonal number, twice */
   baum_i_pair rate; /* J v */
   baum_i_pair free; /* J a0 */
 } sums;
@@ -112,7 +112,7 @@ static inline baum_i_pair times_side(const baum_i_columns *g, const double *x)
   return x[0] * g->c[0] + x[1] * g->c[1] + x[2] * g->c[2];
 }
 
-/* A side, which is put in its place if it comes from J as a whole. */
+/* Loads a side; one that comes from J as a whole is stored first. */
 static inline baum_i_columns take_side(const baum_i_block *b, ptrdiff_t side,
                                        const double *jacobian)
 {
@@ -174,7 +174,7 @@ static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
   }
   whiten(b);
   if (b->full_count > 0) {
-    const baum_i_block_rows at = *rows; /* in registers: nothing that is stored can change it */
+    const baum_i_block_rows at = *rows; /* a copy, which stores cannot change, stays in registers */
     const double *velocity = gather_velocities(b, rows->v);
     const baum_i_full_node *last = b->fulls + b->full_count;
     for (const baum_i_full_node *full = b->fulls; full < last; full++) {

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Structure of the Schur complement in blocks: nodes, sides, couplings, and where each number goes.
+/* Finds the structure of the Schur complement in blocks: nodes, sides, couplings, and the place of
+ * each number.
  *
- * Rows in their order make nodes with sides; sides of one body block couple their nodes; the graph
- * of nodes gives the order of elimination, and only then nodes get their final numbers, their
- * places.
- */
+ * Rows in their order give nodes with sides. Sides on one body block couple their nodes. The graph
+ * of nodes gives the order of elimination, which gives nodes their final numbers, their places. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,19 +11,19 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* A body with more sides than the first makes a clique, and so many couplings for each node make
- * fill, so that sparse elimination of the whole system, bodies or joints first as it likes, is the
- * better way. */
+/* A body with more sides than MOST_SIDES makes a clique, and more couplings than MOST_COUPLINGS per
+ * node make fill. Sparse elimination of the whole system is then faster, because it may take bodies
+ * or joints first. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */
 
-static int triples_for(int size)
+static int body_blocks_for(int size)
 {
   return (size + 2) / 3;
 }
 
-static int count_body_block(const baum_i_block_layout *layout, int *dense)
+static int count_body_blocks(const baum_i_block_layout *layout, int *dense)
 {
   const baum_i_kkt_structure *s = layout->structure;
   int count = 1 + s->mass_block_count;
@@ -32,7 +31,7 @@ static int count_body_block(const baum_i_block_layout *layout, int *dense)
   for (int i = 0; i < s->mass_block_count; i++) {
     if (!layout->diagonal[i]) {
       ++*dense;
-      count += triples_for(s->mass_blocks[i].size);
+      count += body_blocks_for(s->mass_blocks[i].size);
     }
   }
   return count;
@@ -42,7 +41,7 @@ static baum_status make_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_block *b = u->block;
-  b->body_block_count = count_body_block(u->layout, &b->dense_count);
+  b->body_block_count = count_body_blocks(u->layout, &b->dense_count);
   b->dense = baum_i_alloc((size_t)b->dense_count, sizeof *b->dense);
   b->place = baum_i_alloc((size_t)b->body_block_count, sizeof *b->place);
   u->column_body = baum_i_alloc((size_t)s->nv, sizeof *u->column_body);
@@ -54,8 +53,7 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* A diagonal body i is body block 1 + i, so that body blocks and bodies of the plane have one
- * numbering. */
+/* Diagonal body i is body block 1 + i, so body blocks and planar bodies share one numbering. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
@@ -79,7 +77,7 @@ static void place_bodies(baum_i_block_builder *u)
       b->dense[dense++] = (baum_i_dense_body){
         .mass_block = i, .body_block = next, .place = end, .factor = b->factor_size};
       b->factor_size += body->size * body->size;
-      for (int k = 0; k < triples_for(body->size); k++) {
+      for (int k = 0; k < body_blocks_for(body->size); k++) {
         b->place[next++] = end;
         end += 3;
       }
@@ -134,7 +132,7 @@ static baum_status add_pin(baum_i_block_builder *u, int row, const baum_i_block_
   return add_side(u, b, ~(arm + 1));
 }
 
-/* The full side of the present node on a body block, made when there is none. */
+/* Finds the general side of the present node on a body block, or adds one. */
 static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_t *number)
 {
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
@@ -150,13 +148,13 @@ static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_
   return add_side(u, body_block, *number);
 }
 
-/* A dense body's sides are made together, so that they stand one after the other. */
+/* Sides of a dense body are added together, so that they are consecutive. */
 static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
 {
   int before = u->full_sides.count;
   int32_t first = 0;
   int size = u->layout->structure->mass_blocks[body].size;
-  for (int k = 0; k < triples_for(size); k++) {
+  for (int k = 0; k < body_blocks_for(size); k++) {
     int32_t number;
     BAUM_I_TRY(find_side(u, u->body_block_of[body] + k, &number));
     first = k == 0 ? number : first;
@@ -172,7 +170,7 @@ static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
   return BAUM_OK;
 }
 
-/* One column of J over the rows of the present node. */
+/* Adds one column of J over the rows of the present node. */
 static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *rows, int c)
 {
   int32_t body = u->column_body[rows->col[c]];
@@ -208,7 +206,7 @@ static baum_status add_full(baum_i_block_builder *u, const baum_i_row_block *row
   return BAUM_OK;
 }
 
-/* Rows that are left, two by two. */
+/* Adds general nodes for the active rows, two by two. */
 static baum_status add_rows(baum_i_block_builder *u, const baum_i_row_block *rows)
 {
   int32_t pair[2] = {-1, -1};
@@ -240,7 +238,7 @@ static baum_status make_nodes(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Whether three entries from here on are all of a side, its columns and J's in the same order. */
+/* Tells whether three entries from here on are a whole side, its columns in the order of J's. */
 static bool is_whole_side(const baum_i_side_entry *entry, int left)
 {
   bool whole = left >= 3 && entry->to % 6 == 0;
@@ -252,7 +250,7 @@ static bool is_whole_side(const baum_i_side_entry *entry, int left)
   return whole;
 }
 
-/* Sides that can be taken from J as they are need no entries; those of dense bodies are still to be
+/* Sides that can be copied from J as a whole need no entries; those of dense bodies must be
  * whitened. */
 static baum_status find_sources(baum_i_block_builder *u)
 {
@@ -283,7 +281,7 @@ static baum_status find_sources(baum_i_block_builder *u)
 
 /* ---- the graph ---- */
 
-/* Mass block of a body block that is not ground. */
+/* Returns the mass block of a body block that is not ground. */
 static int body_of(const baum_i_block_builder *u, int body_block)
 {
   int body = body_block - 1;
@@ -293,7 +291,7 @@ static int body_of(const baum_i_block_builder *u, int body_block)
   return body;
 }
 
-/* Sides, body block by body block. */
+/* Sorts sides by body blocks. */
 static baum_status sort_sides(baum_i_block_builder *u)
 {
   int body_blocks = u->block->body_block_count;
@@ -303,7 +301,7 @@ static baum_status sort_sides(baum_i_block_builder *u)
     return BAUM_ERR_MEMORY;
   }
   const baum_i_raw_side *sides = u->sides.items;
-  int32_t *place = u->sorted_start + 1; /* one ahead: filling moves it to its own end */
+  int32_t *place = u->sorted_start + 1; /* one ahead: filling moves each start to its end */
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].body_block + 1]++;
   }
@@ -422,30 +420,27 @@ static void give_all(baum_i_block_builder *u)
 
 static void clear(baum_i_block_builder *u)
 {
-  const void *const arrays[] = {
-    u->nodes.items,
-    u->sides.items,
-    u->full_sides.items,
-    u->entries.items,
-    u->alike.items,
-    u->opposite.items,
-    u->first_pairs.items,
-    u->full_pairs.items,
-    u->zeros.items,
-    u->targets.items,
-    u->dense_sides.items,
-    u->neighbours.items,
-    u->column_body,
-    u->body_block_of,
-    u->dense_of,
-    u->sorted_start,
-    u->sorted,
-    u->graph_start,
-    u->arm_of,
-    u->is_set,
-  };
-  enum { COUNT = sizeof arrays / sizeof arrays[0] };
-  for (int i = 0; i < COUNT; i++) {
+  const void *const arrays[] = {u->nodes.items,
+                                u->sides.items,
+                                u->full_sides.items,
+                                u->entries.items,
+                                u->alike.items,
+                                u->opposite.items,
+                                u->first_pairs.items,
+                                u->full_pairs.items,
+                                u->zeros.items,
+                                u->targets.items,
+                                u->dense_sides.items,
+                                u->neighbours.items,
+                                u->column_body,
+                                u->body_block_of,
+                                u->dense_of,
+                                u->sorted_start,
+                                u->sorted,
+                                u->graph_start,
+                                u->arm_of,
+                                u->is_set};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
 }

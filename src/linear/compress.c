@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list is sorted by row, then by column, each time in linear time and without changing the
- * order of equals: then the rows of a column ascend, and repeated places stand side by side. */
+/* Sorts the list by row, then by column, each time in linear time and stably. The rows of a column
+ * then ascend, and repeated places are adjacent. */
 #include "linear/compress.h"
 
 #include <stdbool.h>
@@ -30,7 +30,7 @@ void baum_i_places_clear(baum_i_places *places)
   *places = (baum_i_places){0};
 }
 
-/* start (n + 1): from how often each key occurs, one place further on, to where its run begins. */
+/* Turns the counts in start (n + 1), which are one place further on, into the starts of runs. */
 static void accumulate(int32_t n, int32_t *start)
 {
   for (int32_t j = 0; j < n; j++) {
@@ -38,8 +38,8 @@ static void accumulate(int32_t n, int32_t *start)
   }
 }
 
-/* Indices in the order `before` to the order `after` by key, equals as they were.
- * next (n + 1) is scratch. */
+/* Sorts indices from the order `before` to the order `after` by key, stably. next (n + 1) is
+ * scratch. */
 static void sort_by(const int32_t *key, size_t count, int32_t n, const int32_t *before,
                     int32_t *next, int32_t *after)
 {
@@ -58,7 +58,7 @@ static bool is_same(const baum_i_places *places, int32_t a, int32_t b)
   return places->row[a] == places->row[b] && places->column[a] == places->column[b];
 }
 
-/* Give the places in ascending order their slots, repeated ones the same. */
+/* Numbers the places in ascending order; repeated ones share a slot. */
 static void assign(const baum_i_places *places, const int32_t *order, int32_t n, int32_t *start,
                    int32_t *row, int32_t *slot)
 {

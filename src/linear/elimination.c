@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent
- * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. The
- * graphs of joints are sparse and stay so; where they do not, the caller wants another solver
- * anyway.
+ * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. Graphs
+ * of joints are sparse and stay sparse; where they do not, the caller uses another solver.
  *
- * A node whose neighbours are all coupled already makes no fill whatever its degree is. Such nodes
- * come first, so that a round takes all ends of a mechanism, not the thinnest only.
- */
+ * A node whose neighbours are all coupled already makes no fill, whatever its degree. Such nodes
+ * come first, so that a round takes all ends of a mechanism and not only the thinnest. */
 #include "linear/elimination.h"
 
 #include <stdbool.h>
@@ -16,9 +14,8 @@
 #include "base/message.h"
 #include "linear/vector.h"
 
-/* Everything while the order is being found. Nodes not yet eliminated stand in buckets: those
- * without fill in the first, the others by degree; those that a round has touched wait for the next
- * one. */
+/* State of the search. Nodes that are not yet eliminated are in buckets: nodes without fill in the
+ * first, the others by degree. Nodes that a round has touched wait for the next round. */
 typedef struct search {
   int count;
   baum_i_vector *coupled; /* (count) int32_t, as the two below */
@@ -32,13 +29,14 @@ typedef struct search {
   int32_t round;
   int most;
   baum_i_vector waiting; /* touched in this round */
-  baum_i_vector later;   /* of all eliminated ones, as nodes */
+  baum_i_vector later;   /* of all eliminated nodes, as nodes */
   baum_i_elimination *out;
 } search;
 
 /* ---- buckets ---- */
 
-/* Whether all neighbours of a node are coupled with each other. Of many it is not asked. */
+/* Tells whether all neighbours of a node are coupled with each other. False for many neighbours,
+ * which are not checked. */
 static bool makes_no_fill(search *s, int32_t node)
 {
   enum { MANY = 8 };
@@ -90,7 +88,7 @@ static void leave(search *s, int32_t node)
 
 /* ---- elimination ---- */
 
-/* The neighbours of `node`, which goes, become neighbours of `other`, which is one of them. */
+/* Makes the neighbours of `node`, which is eliminated, neighbours of `other`, one of them. */
 static baum_status couple(search *s, int32_t node, int32_t other)
 {
   const baum_i_vector *gone = &s->coupled[node];
@@ -115,7 +113,7 @@ static baum_status couple(search *s, int32_t node, int32_t other)
   return BAUM_OK;
 }
 
-/* Out of its bucket until the next round. */
+/* Takes a node out of its bucket until the next round. */
 static baum_status touch(search *s, int32_t node)
 {
   if (s->touched[node] == s->round) {
@@ -184,7 +182,7 @@ static baum_status begin(search *s, const baum_i_graph *graph)
       BAUM_I_TRY(baum_i_vector_append_number(&s->coupled[i], graph->neighbour[k]));
     }
   }
-  /* The last to enter a bucket is the first to leave it. */
+  /* The last node to enter a bucket leaves it first. */
   for (int32_t i = (int32_t)s->count - 1; i >= 0; i--) {
     enter(s, i);
   }

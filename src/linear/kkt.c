@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Front of the saddle-point solvers: scaling, judging, refinement, new pivots, fallback.
  *
- * There is a ladder of ways to factor, each more expensive and more robust than the one before:
+ * A ladder of efforts leads from cheap to robust factorizations:
  *
  *   KEEP     the pivots of the last factorization
  *   CHOOSE   pivots chosen at these values
- *   CAREFUL  pivots chosen for accuracy only
+ *   CAREFUL  pivots chosen for accuracy alone
  *   LAST     rank-revealing QR, least squares
  *
- * factor climbs until the reciprocal condition can be trusted; solve climbs on where refinement
- * does not bring the residual down to rounding level.
- */
+ * factor climbs until the reciprocal condition can be trusted. solve climbs on where refinement
+ * does not bring the residual down to rounding level. */
 #include "linear/kkt.h"
 
 #include <math.h>
@@ -23,16 +22,16 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* Below it more effort is made, and if that does not help the matrix is called near singular. */
+/* Below this, more effort is made; if that does not help, the matrix is called near singular. */
 static const double trusted_rcond = 1e-10;
-/* Kept pivots are given up where rcond is below the first and has fallen to the second share of
- * what it was when they were chosen: it tells neither the accuracy nor the distance from a singular
- * configuration any more. */
+/* Kept pivots are chosen again where rcond is below the first number and has fallen to the second
+ * share of its value when they were chosen. It then tells neither the accuracy nor the distance
+ * from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
-/* Below it even careful LU has nothing left to say. */
+/* Below this even careful LU is worthless. */
 static const double least_rcond = 1e-15;
-/* How far rows that depend on each other may contradict each other, against the right side. */
+/* How far dependent rows may contradict each other, relative to the right-hand side. */
 static const double contradiction = 1e-8;
 
 typedef enum ladder_rung { RUNG_KEEP, RUNG_CHOOSE, RUNG_CAREFUL, RUNG_LAST } ladder_rung;
@@ -48,14 +47,14 @@ struct baum_i_kkt {
   const baum_i_kkt_structure *structure;
   int n;
   kkt_solver first;
-  kkt_solver last;     /* of RUNG_LAST, made when it is first needed */
-  kkt_solver *present; /* the one that factored */
+  kkt_solver last;     /* of RUNG_LAST, created on first use */
+  kkt_solver *present; /* the one that factored last */
   ladder_rung present_rung;
   ladder_rung top_rung;
   baum_i_kkt_quality quality;
   baum_i_kkt_counters counters;
   baum_i_kkt_values values;
-  double *memory; /* of the five below, (n) each */
+  double *memory; /* memory of the five below */
   double *scale;
   double *b;
   double *x;
@@ -78,15 +77,8 @@ static bool make_room(baum_i_kkt *kkt)
   return true;
 }
 
-static ladder_rung top_rung_of(baum_i_kkt_choice choice)
-{
-  switch (choice) {
-  case BAUM_I_KKT_KLU: return RUNG_CAREFUL;
-  case BAUM_I_KKT_QR: return RUNG_CHOOSE;
-  case BAUM_I_KKT_AUTO: break;
-  }
-  return RUNG_LAST;
-}
+static const ladder_rung TOP_RUNG[] = {
+  [BAUM_I_KKT_AUTO] = RUNG_LAST, [BAUM_I_KKT_KLU] = RUNG_CAREFUL, [BAUM_I_KKT_QR] = RUNG_CHOOSE};
 
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out)
@@ -102,7 +94,7 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
   kkt->present = &kkt->first;
   kkt->first.ops = choice == BAUM_I_KKT_QR ? &baum_i_qr_ops : &baum_i_klu_ops;
   kkt->last.ops = &baum_i_qr_ops;
-  kkt->top_rung = top_rung_of(choice);
+  kkt->top_rung = TOP_RUNG[choice];
   if (!make_room(kkt) || kkt->first.ops->create(structure, &kkt->first.self) != BAUM_OK) {
     baum_i_kkt_destroy(kkt);
     return baum_i_fail_memory();
@@ -157,17 +149,11 @@ static double present_rcond(const baum_i_kkt *kkt)
   return kkt->present->ops->rcond(kkt->present->self);
 }
 
-/* The first solver goes by the rung, the last one has one way only. */
-static baum_i_kkt_effort effort_of(ladder_rung rung)
-{
-  switch (rung) {
-  case RUNG_KEEP: return BAUM_I_EFFORT_KEEP;
-  case RUNG_CAREFUL: return BAUM_I_EFFORT_CAREFUL;
-  case RUNG_CHOOSE:
-  case RUNG_LAST: break;
-  }
-  return BAUM_I_EFFORT_CHOOSE;
-}
+/* The first solver follows the rung; the last one knows one effort. */
+static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
+                                           [RUNG_CHOOSE] = BAUM_I_EFFORT_CHOOSE,
+                                           [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
+                                           [RUNG_LAST] = BAUM_I_EFFORT_CHOOSE};
 
 static baum_status make_last(baum_i_kkt *kkt)
 {
@@ -186,7 +172,7 @@ static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
   kkt->present_rung = rung;
   kkt->counters.factorizations++;
   kkt->counters.full_factorizations += rung != RUNG_KEEP;
-  baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, effort_of(rung));
+  baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, EFFORT[rung]);
   solver->has_pivots = status == BAUM_OK && solver->ops->keeps_pivots;
   if (status == BAUM_OK && rung != RUNG_KEEP) {
     solver->chosen_rcond = present_rcond(kkt);
@@ -214,7 +200,7 @@ static baum_i_kkt_quality judge(const baum_i_kkt *kkt, baum_status status)
   return is_good ? BAUM_I_KKT_GOOD : BAUM_I_KKT_NEAR_SINGULAR;
 }
 
-/* Factor at the first rung from `start` on that can be trusted, or at the top. */
+/* Factors at the first trusted rung from `start` on, or at the top. */
 static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
 {
   baum_status status = factor_at(kkt, start);
@@ -223,13 +209,13 @@ static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
     status = factor_at(kkt, kkt->present_rung + 1);
   }
   if (status == BAUM_OK && kkt->present->ops->keeps_pivots && present_rcond(kkt) < least_rcond) {
-    status = BAUM_ERR_SINGULAR; /* LU divides by rounding, and no residual would tell */
+    status = BAUM_ERR_SINGULAR; /* LU would divide by rounding, and no residual would show it */
   }
   kkt->quality = judge(kkt, status);
   return status;
 }
 
-static baum_status report(baum_status status)
+static baum_status add_message(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
 }
@@ -242,14 +228,14 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
   }
   kkt->values = *values;
   baum_i_scale_compute(kkt->structure, values, kkt->scale);
-  /* Close to a singularity kept pivots would only be tried in vain. */
+  /* Close to a singularity kept pivots would fail. */
   bool keep = kkt->first.has_pivots && kkt->quality == BAUM_I_KKT_GOOD;
-  return report(climb(kkt, keep ? RUNG_KEEP : RUNG_CHOOSE));
+  return add_message(climb(kkt, keep ? RUNG_KEEP : RUNG_CHOOSE));
 }
 
 /* ---- solve ---- */
 
-/* Where count is 0 the arrays may be NULL. */
+/* The arrays may be NULL where count is 0. */
 static void copy(const double *from, int count, double *to)
 {
   for (int i = 0; i < count; i++) {
@@ -291,28 +277,29 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Some rows are still out, but are they all next to nothing? Asked only where more effort does not
- * help. */
+/* Tells whether the rows that fail are all negligible. Used only where more effort does not help.
+ */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
   bool is_careful = kkt->present_rung >= RUNG_CAREFUL || kkt->present_rung == kkt->top_rung;
   return is_careful && baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* A matrix without full rank was solved by least squares. */
+/* Tells whether a matrix without full rank was solved by least squares. */
 static bool is_least_squares(const baum_i_kkt *kkt)
 {
   return present_rcond(kkt) == 0.0;
 }
 
-/* Are the rows it could not meet nearly met? Nothing else counts there: where they contradict each
- * other unknowns may be so large that what is left of the rows is rounding of these. */
+/* Tells whether the rows that least squares could not meet are nearly met. Nothing else counts
+ * there: where rows contradict each other, unknowns may be so large that the rest of the rows is
+ * rounding. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
 }
 
-/* BAUM_ERR_SINGULAR if the residual stays large. */
+/* Returns BAUM_ERR_SINGULAR if the residual stays large. */
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
   BAUM_I_TRY(solve_once(kkt));
@@ -347,7 +334,7 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
   if (!are_finite(kkt->b, kkt->n)) {
     return BAUM_ERR_NOT_FINITE;
   }
-  BAUM_I_TRY(report(solve_climbing(kkt)));
+  BAUM_I_TRY(add_message(solve_climbing(kkt)));
   copy(kkt->x, kkt->structure->nv, a);
   copy(kkt->x + kkt->structure->nv, kkt->structure->nc, lambda);
   return BAUM_OK;

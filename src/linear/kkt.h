@@ -4,10 +4,9 @@
  *   [ M   J^T ] [ a      ]   [ f ]
  *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
- * M is block diagonal, J a list of dense blocks; both are given by their blocks, row-major, with a
- * structure that never changes. A omitted row i is replaced by lambda_i = 0. Backends stand behind
- * one ops table.
- */
+ * M is block diagonal, J a list of dense blocks. Both are given by their blocks, row-major, with a
+ * fixed structure. An omitted row i is replaced by lambda_i = 0. Backends are selected through one
+ * table of operations. */
 #ifndef BAUM_I_LINEAR_KKT_H
 #define BAUM_I_LINEAR_KKT_H
 
@@ -46,7 +45,7 @@ typedef struct baum_i_kkt_values {
   const double *mass;           /* values of the mass blocks */
   const double *jacobian;       /* values of the row blocks */
   const double *shift;          /* (nc) diagonal of S, or NULL for zeros */
-  const unsigned char *omitted; /* (nc) non-zero where a row is left out, or NULL for none */
+  const unsigned char *omitted; /* (nc) non-zero where a row is omitted, or NULL for none */
 } baum_i_kkt_values;
 
 /* How far the present factorization can be trusted. */
@@ -58,9 +57,9 @@ typedef enum baum_i_kkt_quality {
 
 typedef struct baum_i_kkt_counters {
   int64_t factorizations;      /* refactorizations and full ones */
-  int64_t full_factorizations; /* those that chose pivots again, which may allocate */
+  int64_t full_factorizations; /* those that chose pivots again and may allocate */
   int64_t refinements;
-  int64_t fallbacks; /* times QR was used because LU could not be trusted */
+  int64_t fallbacks; /* times QR replaced an LU that could not be trusted */
 } baum_i_kkt_counters;
 
 /* Forced choice of backend. */
@@ -73,33 +72,34 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
                               baum_i_kkt **out);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
 
-/* Factor at new values, which must stay in place until the last solve with them (the residual is
- * formed from them). Refactors on the fixed pattern, allocation-free, and chooses pivots again only
- * when rcond or residual demands it. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE; sets no message but for memory: the caller knows time and names. */
+/* Factors at new values, which must stay in place until the last solve with them, because the
+ * residual is formed from them. Refactors on the fixed pattern without allocation, and chooses
+ * pivots again only where rcond or the residual requires it. BAUM_OK (see quality),
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Sets a message for memory only: the
+ * caller knows time and names. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
-/* Solve, with the residual of both equations checked and refined (a and lambda are unknowns of
- * their own) until it is at rounding level. x = (a, lambda) may not alias f or r. BAUM_OK,
- * BAUM_ERR_SINGULAR (residual stays large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May itself fall
- * back to a full factorization or to QR. */
+/* Solves, and refines the residual of both equations (a and lambda are separate unknowns) to
+ * rounding level. x = (a, lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (the residual
+ * stays large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose pivots again or fall back to QR.
+ */
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
-/* Both, where values are used for one right side only. */
+/* Factors and solves, for values with one right-hand side. */
 baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
                                         const double *f, const double *r, double *a,
                                         double *lambda);
 
-/* Choose pivots again at the next factorization, so that nothing depends on the ones before. */
+/* Chooses pivots again at the next factorization, so that results do not depend on earlier ones. */
 void baum_i_kkt_forget(baum_i_kkt *kkt);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
-/* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization:
- * free of units, continuous while pivots are kept, with a jump where they are chosen again. 0 for
- * no factorization or no full rank. */
+/* Returns a cheap estimate of the reciprocal condition of the scaled matrix at the present
+ * factorization. It is free of units and continuous while pivots are kept; it jumps where they are
+ * chosen again. 0 without a factorization or full rank. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
-const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the last one used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 
 /* ---- plain products with the blocks, also used by dynamics ---- */
@@ -116,11 +116,11 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 
 /* ---- rank ---- */
 
-/* Rank of J with column j scaled by column_scale[j] and every row then scaled to unit length (rows
- * of zeros stay zero), by rank-revealing sparse QR of its transpose with tolerance `tolerance` on
+/* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is scaled by
+ * column_scale[j], then every row to unit length; rows of zeros stay zero. `tolerance` applies to
  * the remaining column norms. independent[i] (nc) receives 1 for the rows of one largest
- * independent set, else 0: those that it marks beforehand are taken first, of all others the
- * earlier. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
+ * independent set, else 0. Rows marked in it beforehand are preferred, then earlier ones. BAUM_OK,
+ * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

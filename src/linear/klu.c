@@ -1,23 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Backend "klu": sparse LU of the scaled saddle-point matrix by KLU of SuiteSparse, 32-bit indices.
+/* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
- * The pattern is analyzed once. klu_factor chooses pivots; klu_refactor keeps them and allocates
- * nothing. It may return KLU_OK and be worthless, when pivots that were fine at an earlier pose
- * have become small: klu_rcond, the ratio of the smallest to the largest pivot, tells here, the
- * residual in the front.
+ * Kept pivots may become worthless when pivots that were good at an earlier configuration have
+ * become small. Here the ratio of the smallest to the largest pivot shows it, in the front the
+ * residual.
  *
- * There are two ways to choose. Usually the scaled M has a unit diagonal and the diagonal is
- * preferred: masses are the pivots, and they stay good while the mechanism moves. But then
- * constraints enter as J M^-1 J^T, whose smallest eigenvalue is sigma^2 where the smallest singular
- * value of the scaled J is sigma. With care, M is weighted down,
+ * There are two ways to choose pivots. Usually the scaled M has a unit diagonal and the diagonal is
+ * preferred: masses are the pivots, and they stay good while the mechanism moves. Constraints then
+ * enter as J M^-1 J^T, whose smallest eigenvalue is sigma^2 where the smallest singular value of
+ * the scaled J is sigma. With care, M is weighted down,
  *
  *   [ w M   J^T ]
  *   [ J    -S/w ]
  *
- * and the largest entry is the pivot: J itself is eliminated, which loses sigma only, and masses of
+ * and the largest entry is the pivot. J itself is eliminated, which loses only sigma, and masses of
  * very different size do not disturb each other. Such pivots depend on the configuration and have
- * to be chosen more often.
- */
+ * to be chosen more often. */
 #include "base/alloc.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"

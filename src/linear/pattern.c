@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pattern of the saddle-point matrix in compressed columns: all entries are listed, and the list is
- * compressed. */
+/* Pattern of the saddle-point matrix in compressed columns: lists all entries and compresses the
+ * list. */
 #include "linear/pattern.h"
 
 #include <string.h>

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The saddle-point matrix in compressed columns:
- * the pattern is found once, filling allocates nothing.
+/* The saddle-point matrix in compressed columns. The pattern is found once; filling allocates
+ * nothing.
  *
- * Everything that can be non-zero is in the pattern, also where it is zero just now, and so is the
- * whole diagonal; rows ascend within a column. The pattern is symmetric.
- */
+ * The pattern holds everything that can be non-zero, even where it is zero now, and the whole
+ * diagonal. Rows ascend within a column. The pattern is symmetric. */
 #ifndef BAUM_I_LINEAR_PATTERN_H
 #define BAUM_I_LINEAR_PATTERN_H
 
@@ -17,7 +16,7 @@ typedef struct baum_i_pattern {
   int32_t *row;          /* (column_start[n]) */
 
   /* Places of the block values in `row`, in the order in which the blocks list them. */
-  int32_t *slot;             /* start of the one array behind the four below */
+  int32_t *slot;             /* memory of the four below */
   const int32_t *mass;       /* M */
   const int32_t *jacobian;   /* J */
   const int32_t *transposed; /* J^T, listed as J */
@@ -29,9 +28,9 @@ typedef struct baum_i_pattern {
 
 /* BAUM_OK or BAUM_ERR_MEMORY, then the pattern is empty. */
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
-void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is fine */
+void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is valid */
 
-/* Fill the matrix for D = diag(scale), weighted by `root` as baum_i_scale_weigh() does; a row with
+/* Fills the matrix for D = diag(scale), weighted by `root` as in baum_i_scale_weigh(). A row with
  * scale 0 is omitted. */
 void baum_i_pattern_fill(baum_i_pattern *pattern, const baum_i_kkt_values *values,
                          const double *scale, double root);

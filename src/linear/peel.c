@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A velocity that occurs in one block only is free for that block. Where the rows of a block, of
- * unit length, are well independent over its free velocities alone, no sum of other rows can make
- * up for them: they are independent, and no dependence of others contains them. The block is taken
- * away; its other velocities may then be free for a neighbour. So an open chain vanishes from its
- * tip to its root, motors too, and closed loops remain.
- */
+ * unit length, are clearly independent over its free velocities alone, no sum of other rows can
+ * cancel them: they are independent, and no dependence of other rows involves them. The block is
+ * removed, and its other velocities may then be free for a neighbour. An open chain so vanishes
+ * from its tip to its root, motors included, and closed loops remain. */
 #include "linear/peel.h"
 
 #include <math.h>
@@ -13,14 +12,13 @@
 
 #include "base/alloc.h"
 
-/* Larger blocks are left: they are few, and looked at again and again they would be expensive. */
+/* Larger blocks stay: they are few, and repeated checks would be expensive. */
 enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
 
-/* What must remain of a unit row: so much that no tolerance on the rank would ever judge
- * otherwise. */
+/* What must remain of a unit row: enough that no tolerance on the rank would judge otherwise. */
 static const double clear = 1e-3;
 
-enum { GONE, LEFT, WAITING }; /* of a block; waiting is left too */
+enum { GONE, LEFT, WAITING }; /* state of a block; a waiting one is left, too */
 
 typedef struct peeling {
   const baum_i_kkt_structure *structure;
@@ -42,7 +40,7 @@ static double size_of(const double *x, int count)
   return sqrt(sum);
 }
 
-/* Subtract from x its parts along `count` rows of unit length. */
+/* Subtracts from x its components along `count` rows of unit length. */
 static void orthogonalize(double *x, double rows[][MOST_COLUMNS], int count, int width)
 {
   for (int i = 0; i < count; i++) {
@@ -56,7 +54,7 @@ static void orthogonalize(double *x, double rows[][MOST_COLUMNS], int count, int
   }
 }
 
-/* Row i of a block, scaled to unit length, over its free velocities. Returns how many there are. */
+/* Loads row i of a block, scaled to unit length, over its free velocities. Returns their number. */
 static int load_row(const peeling *p, const baum_i_row_block *block, int i, double *out)
 {
   const double *value = p->jacobian + block->value + i * block->cols;
@@ -68,7 +66,8 @@ static int load_row(const peeling *p, const baum_i_row_block *block, int i, doub
   double size = size_of(row, block->cols);
   for (int k = 0; k < block->cols; k++) {
     if (p->users[block->col[k]] == 1) {
-      out[width++] = row[k] / size; /* where squares overflow or vanish, nothing is clear */
+      out[width++] =
+        row[k] / size; /* where squares overflow or vanish, no row is clearly independent */
     }
   }
   return width;
@@ -94,7 +93,7 @@ static bool is_independent(const peeling *p, const baum_i_row_block *block)
   return true;
 }
 
-/* Is a velocity of a block more than a place in its pattern? */
+/* Tells whether a velocity of a block has a non-zero entry, not only a place in the pattern. */
 static bool occurs(const peeling *p, const baum_i_row_block *block, int k)
 {
   for (int i = 0; i < block->rows; i++) {
@@ -105,13 +104,13 @@ static bool occurs(const peeling *p, const baum_i_row_block *block, int k)
   return false;
 }
 
-static void wait(peeling *p, int block)
+static void queue_block(peeling *p, int block)
 {
   p->state[block] = WAITING;
   p->stack[p->waiting++] = block;
 }
 
-static void take_away(peeling *p, int b)
+static void remove_block(peeling *p, int b)
 {
   const baum_i_row_block *block = &p->structure->row_blocks[b];
   p->state[b] = GONE;
@@ -123,12 +122,12 @@ static void take_away(peeling *p, int b)
     p->users[column]--;
     p->user[column] ^= b;
     if (p->users[column] == 1 && p->state[p->user[column]] == LEFT) {
-      wait(p, p->user[column]);
+      queue_block(p, p->user[column]);
     }
   }
 }
 
-static void enter(peeling *p, int b)
+static void add_block(peeling *p, int b)
 {
   const baum_i_row_block *block = &p->structure->row_blocks[b];
   for (int k = 0; k < block->cols; k++) {
@@ -137,19 +136,19 @@ static void enter(peeling *p, int b)
       p->user[block->col[k]] ^= b;
     }
   }
-  wait(p, b);
+  queue_block(p, b);
 }
 
-static void peel(peeling *p)
+static void peel_all(peeling *p)
 {
   for (int b = 0; b < p->structure->row_block_count; b++) {
-    enter(p, b);
+    add_block(p, b);
   }
   while (p->waiting > 0) {
     int b = p->stack[--p->waiting];
     p->state[b] = LEFT;
     if (is_independent(p, &p->structure->row_blocks[b])) {
-      take_away(p, b);
+      remove_block(p, b);
     }
   }
 }
@@ -178,7 +177,7 @@ baum_status baum_i_peel(const baum_i_kkt_structure *structure, const double *jac
                .user = memory + nv,
                .state = memory + 2 * nv,
                .stack = memory + 2 * nv + blocks};
-  peel(&p);
+  peel_all(&p);
   mark_rows(&p, peeled);
   baum_i_free(memory);
   return BAUM_OK;

@@ -7,12 +7,11 @@
  *         [ J    -S/w ]
  *
  * with a small w, because the smallest singular value of K_w is about sigma if that of the scaled J
- * is sigma > w, where that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 are
- * taken as dependent. The solution is the one of least norm among those that minimize the scaled
- * residual: K_w is symmetric, its range therefore also its row space, and it is enough to project
- * the basic solution onto it. Accelerations are unique where M is positive definite on ker J;
- * multipliers are of least norm in scaled rows.
- */
+ * is sigma > w; that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count as
+ * dependent. The solution is the one of least norm among those that minimize the scaled residual.
+ * K_w is symmetric, so its range is its row space, and it suffices to project the basic solution
+ * onto it. Accelerations are unique where M is positive definite on ker J; multipliers have the
+ * least norm in scaled rows. */
 #include <colamd.h>
 #include <math.h>
 #include <string.h>
@@ -45,7 +44,7 @@ static void destroy(void *self)
   }
 }
 
-/* NULL when out of memory. */
+/* Returns NULL when out of memory. */
 static int32_t *order_columns(const baum_i_pattern *pattern)
 {
   int statistics[COLAMD_STATS];
@@ -92,7 +91,7 @@ static baum_status create(const baum_i_kkt_structure *structure, void **out)
   return BAUM_OK;
 }
 
-/* Project x[from..to), as a vector that is zero elsewhere, onto the range of K_w. */
+/* Projects x[from..to), as a vector that is zero elsewhere, onto the range of K_w. */
 static void project_part(qr_backend *qr, int from, int to, double *x)
 {
   size_t count = (size_t)(to - from);
@@ -102,9 +101,9 @@ static void project_part(qr_backend *qr, int from, int to, double *x)
   memcpy(x + from, qr->work + from, count * sizeof *x);
 }
 
-/* x <- K_w^+ x. As M and S are positive semidefinite, the null space is spanned by vectors of
- * velocities alone and of multipliers alone. Projecting each for itself keeps the rounding of the
- * one, which w makes large, out of the other. */
+/* x <- K_w^+ x. Because M and S are positive semidefinite, vectors of velocities alone and of
+ * multipliers alone span the null space. They are projected separately, which keeps the rounding of
+ * the one, which w enlarges, out of the other. */
 static void solve_scaled(qr_backend *qr, double *x)
 {
   baum_i_sparse_qr_solve(qr->factors, x);
@@ -124,8 +123,8 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank.
- * Two steps, because a singular vector may hide from one. */
+/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank. Two steps, because one may miss a
+ * singular vector. */
 static double estimate_rcond(qr_backend *qr)
 {
   int n = qr->pattern.n;
@@ -147,7 +146,7 @@ static double estimate_rcond(qr_backend *qr)
 static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
                           baum_i_kkt_effort effort)
 {
-  (void)effort; /* there is one way only */
+  (void)effort; /* QR knows one effort */
   qr_backend *qr = self;
   baum_i_pattern_fill(&qr->pattern, values, scale, weight_root);
   qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->pattern.matrix, dependent, NULL);

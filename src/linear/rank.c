@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The rank of J: that of the columns of J^T, scaled to unit length, by sparse QR. Of dependent
- * columns the later ones are given up, so the order is that of preference. */
+/* The rank of J, which is that of the columns of J^T, scaled to unit length, by sparse QR. Of
+ * dependent columns the later ones are omitted, so the order expresses preference. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 /* J^T in compressed columns. */
 typedef struct transposed {
-  unsigned char *peeled; /* (nc) rows of J that are known to be independent; here without entries */
+  unsigned char *peeled; /* (nc) rows of J known to be independent; they have no entries here */
   int32_t *order;        /* (nc) of preference */
   int32_t *start;        /* (nc + 1) */
   int32_t *velocity;     /* (start[nc]) */
@@ -33,7 +33,8 @@ static void count_entries(const baum_i_kkt_structure *structure, const transpose
   }
 }
 
-/* To unit length; by the largest number first, so that squares neither overflow nor vanish. */
+/* Scales to unit length, by the largest number first, so that squares neither overflow nor vanish.
+ */
 static void make_unit(double *x, int count)
 {
   double largest = 0.0;
@@ -50,7 +51,7 @@ static void make_unit(double *x, int count)
   }
 }
 
-/* False: a number is not finite, which peels no row. */
+/* Returns false where a number is not finite; such rows are never peeled. */
 static bool list_entries(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *column_scale, const transposed *columns)
 {
@@ -73,7 +74,7 @@ static bool list_entries(const baum_i_kkt_structure *structure, const double *ja
   return true;
 }
 
-/* Marked ones first. */
+/* Lists marked rows first. */
 static void order_rows(int nc, const unsigned char *marked, int32_t *order)
 {
   for (int pass = 0; pass < 2; pass++) {
@@ -102,7 +103,7 @@ static baum_status find_rank(const baum_i_kkt_structure *structure, const transp
   return BAUM_OK;
 }
 
-/* Room for the entries that are left. */
+/* Makes room for the entries that remain. */
 static baum_status make_room(const baum_i_kkt_structure *structure, const double *jacobian,
                              const double *column_scale, transposed *columns)
 {

@@ -6,14 +6,13 @@
  *
  *   omega = max_i |b - K x|_i / (|K| |x| + |b|)_i .
  *
- * Each row is held against itself, and so neither units nor masses of very different size matter. A
- * row whose denominator is only the rounding noise of other rows might never pass; such rows are
- * held against the largest row instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once
- * if they are noise of noise, what one refinement makes of them, and when refinement has ended also
- * if they are plain noise. And a residual passes at once that would be nothing beside a row of
- * rounding (eps^2): rows that rounding alone keeps from zero, such as those of a guide along an
- * axis of the ground, cannot be met any better.
- */
+ * Each row is compared with itself, so units and masses of very different size do not matter. A row
+ * whose denominator is only the rounding noise of other rows might never pass. After scaling, such
+ * rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989): at once if
+ * they are noise of noise, as one refinement leaves them, and after refinement also if they are
+ * plain noise. A residual also passes at once if it would be negligible beside a row of rounding
+ * (eps^2). Rows that only rounding keeps from zero, such as those of a guide along an axis of the
+ * ground, cannot be met any better. */
 #include "linear/residual.h"
 
 #include <float.h>
@@ -48,7 +47,7 @@ static void subtract_mass(const baum_i_kkt_structure *structure, const double *m
   }
 }
 
-/* One row of a block of J, in both equations. x = (a, lambda). */
+/* Subtracts one row of a block of J in both equations. x = (a, lambda). */
 static void subtract_row(const baum_i_row_block *block, const double *value, int row,
                          const double *x, double *residual, double *size)
 {
@@ -89,7 +88,7 @@ static void add_shift(int nc, const double *shift, const double *lambda, double 
   }
 }
 
-static void leave_out(int nc, const unsigned char *omitted, double *residual, double *size)
+static void clear_omitted(int nc, const unsigned char *omitted, double *residual, double *size)
 {
   for (int i = 0; i < nc; i++) {
     if (omitted[i]) {
@@ -110,7 +109,7 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
     add_shift(structure->nc, values->shift, x + nv, residual + nv, size + nv);
   }
   if (values->omitted) {
-    leave_out(structure->nc, values->omitted, residual + nv, size + nv);
+    clear_omitted(structure->nc, values->omitted, residual + nv, size + nv);
   }
 }
 
@@ -123,11 +122,11 @@ static double largest_scaled(int n, const double *scale, const double *x)
   return largest;
 }
 
-/* Rows of scaled size up to `negligible` of the largest are held against the largest. */
+/* Compares rows of scaled size up to `negligible` of the largest with the largest. */
 static bool is_rounding(int n, const double *scale, const double *residual, const double *size,
                         double negligible)
 {
-  double largest = -1.0; /* found when it is needed */
+  double largest = -1.0; /* computed on first use */
   for (int i = 0; i < n; i++) {
     if (fabs(residual[i]) <= rounding * size[i]) {
       continue;

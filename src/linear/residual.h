@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual b - K x of the saddle-point system, and whether it is at rounding level whatever the
+/* Residual b - K x of the saddle-point system, and whether it is at rounding level, independent of
  * units. */
 #ifndef BAUM_I_LINEAR_RESIDUAL_H
 #define BAUM_I_LINEAR_RESIDUAL_H
@@ -10,16 +10,16 @@
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 
-/* Is each |residual_i| a few units of rounding of its own size_i? NaN is not. */
+/* Tells whether each |residual_i| is a few units of rounding of its own size_i. False for NaN. */
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size);
 
-/* The same, but rows whose scaled size is itself rounding noise of the largest one are held against
- * that one. */
+/* The same, but rows whose scaled size is itself rounding noise of the largest row are compared
+ * with that row. */
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
                               const double *size);
 
-/* Is each scaled |residual_i| at most `tolerance` of the largest scaled |b_i|? */
+/* Tells whether each scaled |residual_i| is at most `tolerance` times the largest scaled |b_i|. */
 bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,
                               double tolerance);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Powers of two stay normal numbers. */
+/* Limits that keep powers of two normal numbers. */
 enum { EXPONENT_BIAS = 1023, EXPONENT_BITS = 52, EXPONENT_MASK = 0x7ff, EXPONENT_LIMIT = 1000 };
 
 /* floor(log2(x)) of a finite x > 0. */
@@ -41,7 +41,7 @@ static double inverse_root(double x)
   return power_of_two(-(exponent - (exponent & 1)) / 2);
 }
 
-/* Below, 0 means "not known yet". */
+/* Below, a scale of 0 is not known yet. */
 
 static void scale_velocities(const baum_i_kkt_structure *structure, const double *mass, double *d)
 {
@@ -58,7 +58,7 @@ static void scale_velocities(const baum_i_kkt_structure *structure, const double
   }
 }
 
-/* largest[i] of each row over the columns whose scale is known. */
+/* Finds largest[i] of each row over the columns with a known scale. */
 static void measure_rows(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *d, double *largest)
 {
@@ -87,7 +87,7 @@ static void scale_constraints(const baum_i_kkt_structure *structure,
   }
 }
 
-/* Minus the largest scaled entry of each column whose scale is not known. */
+/* Stores minus the largest scaled entry of each column without a known scale. */
 static void measure_massless(const baum_i_kkt_structure *structure, const double *jacobian,
                              const double *e, double *d)
 {
@@ -104,9 +104,9 @@ static void measure_massless(const baum_i_kkt_structure *structure, const double
   }
 }
 
-/* Let scales spread from rows to the velocities without mass in them; true if any was found. */
-static bool spread(const baum_i_kkt_structure *structure, const double *jacobian, const double *e,
-                   double *d)
+/* Spreads scales from rows to their velocities without mass; true if any was found. */
+static bool spread_scales(const baum_i_kkt_structure *structure, const double *jacobian,
+                          const double *e, double *d)
 {
   bool found = false;
   measure_massless(structure, jacobian, e, d);
@@ -144,7 +144,7 @@ void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kk
   scale_velocities(structure, values->mass, d);
   scale_constraints(structure, values, d, e);
   if (any_unknown(d, structure->nv)) {
-    while (spread(structure, values->jacobian, e, d)) {
+    while (spread_scales(structure, values->jacobian, e, d)) {
       scale_constraints(structure, values, d, e);
     }
     replace_unknown(d, structure->nv);

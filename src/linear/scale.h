@@ -1,27 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Symmetric scaling of the saddle-point matrix K to D K D, by powers of two,
- * so that scaling rounds nothing.
+/* Symmetric scaling of the saddle-point matrix K to D K D by powers of two, which rounds nothing.
  *
  *   d_j = 1 / sqrt(M_jj)          for velocities,   so that the scaled M has a unit diagonal,
  *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that scaled rows of J have entries up to 1,
  *
- * all to the power of two next below. A change of units multiplies K by a diagonal matrix from both
- * sides; D follows it, and but for that rounding D K D does not depend on units.
- * A velocity without mass takes its d_j from the rows it is in.
- */
+ * all to the next power of two below. A change of units multiplies K by a diagonal matrix from both
+ * sides. D follows it, so D K D does not depend on units, except for the rounding to powers of two.
+ * A velocity without mass takes its d_j from its rows. */
 #ifndef BAUM_I_LINEAR_SCALE_H
 #define BAUM_I_LINEAR_SCALE_H
 
 #include "linear/kkt.h"
 
-/* scale (nv + nc) = (d, e); e_i = 0 where row i is omitted,
- * which takes the row out of D K D and of D b. */
+/* scale (nv + nc) = (d, e). e_i = 0 where row i is omitted, which removes the row from D K D and D
+ * b. */
 void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           double *scale);
 
-/* weighted (nv + nc) = (root d, e / root), so that D K D has M times root^2, J as it is, and S over
- * root^2, but that rows in which S would exceed one get less than e / root. root is a power of two
- * up to one. */
+/* weighted (nv + nc) = (root d, e / root): D K D then has M times root^2, J as it is, and S over
+ * root^2. Rows in which S would exceed one get less than e / root. root is a power of two up to
+ * one. */
 void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                         const double *scale, double root, double *weighted);
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* General sparse LU by KLU of SuiteSparse, 32-bit indices, rows scaled by their largest entry.
+/* Sparse LU by KLU of SuiteSparse, 32-bit indices.
  *
- * klu_refactor keeps the pivots and allocates nothing, but may return KLU_OK and be worthless, when
- * pivots have become small since they were chosen: klu_rcond, the ratio of the smallest to the
- * largest pivot, tells. What it says of pivots that have just been chosen is taken as it is.
- */
+ * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK and a worthless result
+ * where pivots have become small since they were chosen; klu_rcond, the ratio of the smallest to
+ * the largest pivot, shows it. For pivots just chosen the ratio is accepted as it is. */
 #include "linear/sparse_lu.h"
 
 #include <stdbool.h>
@@ -14,12 +13,12 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* Pivots that have fallen to this share of what they were when chosen are chosen again. */
+/* Pivots are chosen again where their ratio has fallen to this share of its value when chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* KLU takes them without const, and leaves them as they are */
+  int32_t *columns; /* KLU takes them without const but does not change them */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;

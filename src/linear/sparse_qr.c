@@ -45,7 +45,8 @@
 
 enum { NONE = -1 };
 
-/* How much wider than the pattern of a row of R its front may be: by a share of it, and columns. */
+/* How much wider a front may be than the pattern of a row of R: by a share of it, and by columns.
+ */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
@@ -83,7 +84,7 @@ struct baum_i_sparse_qr {
 
 /* ---- structure ---- */
 
-/* What only creation needs. */
+/* Data that only creation needs. */
 typedef struct plan {
   const baum_i_sparse_columns *pattern;
   int32_t *memory;   /* of the six below, (n) each */
@@ -127,7 +128,7 @@ static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
   return qr->place[qr->row_start[row]];
 }
 
-/* Each row of A links its columns, one to the next; mark: the way up so far, shortened. */
+/* Each row of A links its columns, one to the next; mark is the path up so far, shortened. */
 static void find_parents(const baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *last = qr->next_row; /* scratch: column of each row so far */
@@ -147,7 +148,7 @@ static void find_parents(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Column k is in the pattern of row i of R, and of its front, if there are fronts already. */
+/* Adds column k to the pattern of row i of R, and to its front once fronts exist. */
 static void add_to_pattern(const baum_i_sparse_qr *qr, plan *p, int32_t i, int32_t k)
 {
   p->mark[i] = k;
@@ -177,7 +178,7 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Chain columns to their parents as long as the front is little wider than each pattern. */
+/* Chains columns to their parents as long as the front is little wider than each pattern. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *length = p->mark;    /* of the chain up to a column */
@@ -201,7 +202,7 @@ static void find_fronts(baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Lists are filled from behind, so that they ascend. */
+/* Lists are filled from the end, so that they ascend. */
 static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
 {
   for (int32_t f = 0; f < qr->front_count; f++) {
@@ -259,7 +260,7 @@ static bool make_room(baum_i_sparse_qr *qr)
   return true;
 }
 
-/* Parts of baum_i_sparse_qr_create(), false: out of memory. */
+/* Parts of baum_i_sparse_qr_create(); false when out of memory. */
 static bool copy_pattern(baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern,
                          const int32_t *order)
 {
@@ -355,7 +356,7 @@ static double *row_of(const front *f, int32_t i)
   return f->value + (ptrdiff_t)i * f->columns;
 }
 
-/* Does a reflection, and so a row of R or r, belong to column j? It is the last so far. */
+/* Tells whether column j has a reflection, and so a row of R or r. It is the last so far. */
 static bool is_reduced(const front *f, int32_t j)
 {
   return f->done[j] > (j > 0 ? f->done[j - 1] : 0);
@@ -366,7 +367,7 @@ static const front *front_at(const baum_i_sparse_qr *qr, int32_t index)
   return index == NONE ? NULL : &qr->fronts[index];
 }
 
-/* end becomes where rows begin that begin with each column. Returns how many there are. */
+/* Sets end to the first row that begins with each column. Returns the number of rows. */
 static int32_t count_rows(const baum_i_sparse_qr *qr, const front *f)
 {
   fill(f->end, f->columns, 0);
@@ -387,7 +388,7 @@ static int32_t count_rows(const baum_i_sparse_qr *qr, const front *f)
   return begin;
 }
 
-/* Row i of A; end grows to what it is to be. */
+/* Loads row i of A; end grows to its final value. */
 static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i, const front *f)
 {
   int32_t row = f->end[qr->position[first_of_row(qr, i)]]++;
@@ -397,7 +398,7 @@ static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i
   }
 }
 
-/* What a child hands on. */
+/* Loads the rows that a child hands on. */
 static void load_child(const baum_i_sparse_qr *qr, const front *c, const front *f)
 {
   for (int32_t j = c->pivots; j < c->columns; j++) {
@@ -437,7 +438,8 @@ static double sum_of_squares(const front *f, int32_t j, int32_t first)
   return sum;
 }
 
-/* Column j, of some length from row `first` on, becomes -+length, v_1, v_2, ... with v_0 = 1. */
+/* Turns column j, of the given length from row `first` on, into -+length, v_1, v_2, ... with v_0 =
+ * 1. */
 static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
   double *x = &row_of(f, first)[j];
@@ -462,7 +464,7 @@ static void add_row(double factor, const double *restrict other, int32_t j, int3
   }
 }
 
-/* Apply the reflection of column j to the columns behind; sum (columns) is scratch. */
+/* Applies the reflection of column j to the columns behind it; sum (columns) is scratch. */
 static void reflect(const front *f, int32_t j, int32_t first, double *sum)
 {
   double *top = row_of(f, first);
@@ -511,7 +513,7 @@ int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, doub
 
 /* ---- use ---- */
 
-/* The reflection of column j, if there is one. */
+/* Applies the reflection of column j, if there is one. */
 static void reflect_by(const front *f, int32_t j, double *x)
 {
   if (!is_reduced(f, j)) {
@@ -549,7 +551,7 @@ static void multiply(const baum_i_sparse_qr *qr, double *x)
   }
 }
 
-/* x (n) by places from y = Q^T b, zero for dependent columns. */
+/* Computes x (n) by places from y = Q^T b; zero for dependent columns. */
 static void solve_triangle(const baum_i_sparse_qr *qr, const double *y, double *x)
 {
   for (int32_t i = qr->front_count - 1; i >= 0; i--) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The life of a definition: defaults, check, copy into an element, read back, replace.
+/* What is done with definitions: set defaults, check, copy into an element, read back, replace.
  *
- * Every add and set works on the side and changes the mechanism only when nothing can fail any
- * more.
+ * Every add and set prepares the new element first. It changes the mechanism only when nothing can
+ * fail any more.
  */
 #include "mechanism/definition.h"
 
@@ -18,16 +18,16 @@
 
 /* ---- a caller's struct, which may be of an older version ---- */
 
-/* Fields are only ever appended, so that a smaller struct is one of an older version: what it lacks
- * has its default. */
+/* Versions only append fields. A smaller struct is therefore of an older version, and the fields
+ * that it lacks have their defaults. */
 typedef union whole_def {
   baum_i_def_head head;
   double numbers[32];
   unsigned char bytes[256];
 } whole_def;
 
-/* How much of a struct of that size are fields that its version had. A struct ends with padding,
- * where a later version may have put a field. */
+/* How many bytes of a struct of that size hold fields of its version. The rest is padding, which a
+ * later version may use for a field. */
 static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
   const size_t word = sizeof(size_t);
@@ -109,15 +109,13 @@ static baum_status fill(baum_i_element *element, const void *def)
   return BAUM_OK;
 }
 
-/* Bodies of an element; a body alone acts on itself. On failure there is nothing. */
+/* Find the bodies of an element. A body acts on itself. On failure the span owns nothing. */
 static baum_status make_span(const baum_mechanism *mechanism, const baum_i_definition *definition,
                              const void *def, int number, baum_i_span *span)
 {
   int most = baum_i_fields_bodies(definition, mechanism, def, NULL);
   *span = (baum_i_span){.bodies = baum_i_alloc((size_t)most + 1, sizeof *span->bodies)};
-  if (!span->bodies) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(span->bodies));
   span->bodies[0] = number;
   span->body_count = most > 0 ? baum_i_fields_bodies(definition, mechanism, def, span->bodies) : 1;
   return BAUM_OK;
@@ -135,9 +133,7 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
                                   const baum_i_definition *definition, const void *def)
 {
   baum_i_element *element = baum_i_alloc(1, family->size);
-  if (!element) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(element));
   element->family = family->name;
   element->definition = definition;
   element->index = baum_i_family_count(family, mechanism) + 1;
@@ -158,7 +154,7 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
 
 /* ---- add ---- */
 
-/* Complete a definition and check it for the number-th element of its family. */
+/* Complete a definition, and check it for element `number` of its family. */
 static baum_status check(const baum_mechanism *mechanism, const baum_i_family *family,
                          const baum_i_definition *definition, const void *def, int number,
                          whole_def *out)
@@ -184,7 +180,7 @@ baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *f
 
 /* ---- get and set ---- */
 
-/* The element of an id, which must be of that kind. */
+/* Find the element of an id. */
 static baum_status find(const baum_mechanism *mechanism, const baum_i_family *family,
                         const baum_i_definition *definition, baum_i_id id, baum_i_element **out)
 {
@@ -218,7 +214,7 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
   return BAUM_OK;
 }
 
-/* Whether a new definition keeps what the element is tied to: counts, joints, bodies. */
+/* Check that a new definition keeps the counts, joints and bodies of the element. */
 static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
                               const void *def, baum_i_element *element)
 {
@@ -233,7 +229,7 @@ static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_fami
     same = next.bodies[i] == span->bodies[i];
   }
   baum_i_free(next.bodies);
-  return same ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies must stay", label);
+  return same ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies cannot change", label);
 }
 
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,

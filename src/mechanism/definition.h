@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions: the same life for every kind of element. A type's file calls the macro at its end,
- * which spells out its four public functions.
+/* Definitions of elements. A type's file ends with the macro below, which defines the four public
+ * functions of the type.
  */
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H
@@ -10,14 +10,14 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Whether a caller's struct_size may be that of this struct or of a version before it had all of
- * its fields: whole words, from the first two fields on. */
+/* Whether a caller's struct_size can belong to this struct or to an older version of it: whole
+ * words, with at least the first two fields. */
 static inline bool baum_i_is_struct_size(size_t size, size_t present)
 {
   return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
 }
 
-/* New elements from checked definitions, for add and copy: BAUM_OK, or BAUM_ERR_MEMORY with its
+/* Append an element by a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY with its
  * message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   const baum_i_definition *definition, const void *def);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elements in order and by name. */
+/* Elements by number and by name. */
 #include <baum/elements.h>
 
 #include <string.h>
 
 #include "mechanism/identify.h"
 
-/* Number k, from 0, of a family, or none. */
+/* The id of element k of a family, from 0, or none. */
 #define ID_AT(FAMILY, MECHANISM, K)                             \
   ((K) >= 0 && (K) < baum_mechanism_##FAMILY##_count(MECHANISM) \
      ? (baum_##FAMILY##_id){(K) + 1, (MECHANISM)->tag}          \

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism: one call per group, or per element where none is frequent. */
+/* Evaluation of a whole mechanism: one call per group, or per element where speed matters
+ * little. */
 #include <string.h>
 
 #include "base/message.h"
@@ -146,12 +147,12 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* ---- energy ----
  *
- * Functions of the user give a potential, but not its gradient: the power of these elements is
- * taken whole, and what the potential has taken up over a time is the difference of its values,
- * without any error.
+ * User functions give a potential, but not its gradient. The power of these elements is therefore
+ * that of the whole force, and the energy stored in the potential is the difference of its values,
+ * which is exact.
  */
 
-/* whole_power: only of types whose power is taken whole. */
+/* whole_power: only of types whose power is that of the whole force. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

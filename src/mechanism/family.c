@@ -4,7 +4,7 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* ---- lists and groups, which differ in their types only ---- */
+/* ---- lists and groups, the same code for three types ---- */
 
 /* LIST begins with FIRST elements that are not counted. */
 #define LIST_FUNCTIONS(FAMILY, LIST, FIRST)                                                    \
@@ -26,7 +26,7 @@
   }                                                                                            \
   static baum_status open_##FAMILY##_groups(baum_mechanism *mechanism)                         \
   {                                                                                            \
-    /* With one behind the last, which stays empty. */                                         \
+    /* One more than needed: an empty group ends the list. */                                  \
     size_t count = (size_t)mechanism->FAMILY##_count + 1;                                      \
     mechanism->FAMILY##_groups = baum_i_alloc(count, sizeof *mechanism->FAMILY##_groups);      \
     return mechanism->FAMILY##_groups ? BAUM_OK : baum_i_fail_memory();                        \

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies, joints and forces as families of elements: what is done to elements is written once, for
- * any of them. */
+/* Bodies, joints and forces as families of elements, so that code for elements is written once. */
 #ifndef BAUM_I_MECHANISM_FAMILY_H
 #define BAUM_I_MECHANISM_FAMILY_H
 
 #include "mechanism/model.h"
 
-/* How much a family has been given of columns or rows, and of values in blocks. */
+/* How many columns or rows, and how many values in blocks, a family has so far. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies, rows of joints */
@@ -14,22 +13,21 @@ typedef struct baum_i_totals {
   int64_t squares; /* nl x nl each */
 } baum_i_totals;
 
-/* What families differ in. An element is a struct of theirs, which begins with its
- * baum_i_element. */
+/* How families differ. Each has its own element struct, which begins with a baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
   size_t size;      /* of an element */
   size_t span;      /* offset of its baum_i_span */
   size_t count;     /* offset of their number in the mechanism, an int */
   baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* from 0, without ground */
-  /* Those that may fail do so with BAUM_ERR_MEMORY and its message. */
+  /* Functions that can fail return BAUM_ERR_MEMORY with its message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*prepare)(baum_i_element *element); /* set what follows from the definition */
-  /* At freeze: rows or velocities of one, where its blocks begin, how large all are. */
+  void (*prepare)(baum_i_element *element); /* set the type, and sizes by the definition */
+  /* At freeze: rows or velocities of one element; where its blocks begin; sizes of the family. */
   int (*rows)(const baum_i_element *element);
   void (*place)(baum_i_element *element, const baum_i_totals *before);
   void (*close)(baum_mechanism *mechanism, const baum_i_totals *all);
-  /* All elements by type. */
+  /* Lists of elements of one type. */
   baum_status (*open_groups)(baum_mechanism *mechanism);
   baum_status (*join_group)(baum_mechanism *mechanism, baum_i_element *element);
   void (*free_groups)(baum_mechanism *mechanism); /* none is fine */

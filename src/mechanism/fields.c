@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is done to the fields of a definition by their table. */
+/* Defaults, checks, copies, digests and bodies of definitions by their tables of fields. */
 #include "mechanism/fields.h"
 
 #include <stdio.h>
@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* More rows or coordinates than this in one element are taken for a mistake;
- * products of two still fit an int. */
+/* More rows or coordinates in one element are taken for a mistake. Products of two such numbers fit
+ * an int. */
 enum { COUNT_MAX = 10000 };
 
 /* ---- defaults ---- */
@@ -33,7 +33,7 @@ void baum_i_fields_set(const baum_i_definition *definition, void *def)
 
 /* ---- numbers ---- */
 
-/* What rules allow beside finite numbers above zero, and what is said of others. */
+/* What each rule allows beside positive finite numbers, and the remedy in its message. */
 static const struct {
   bool nan, negative, zero;
   const char *remedy;
@@ -50,7 +50,7 @@ static const struct {
   [BAUM_I_RULE_DIRECTION] = {false, true, true, ""},
 };
 
-static bool is_fine(baum_i_rule rule, double value)
+static bool is_allowed(baum_i_rule rule, double value)
 {
   bool fine =
     isfinite(value) && (value >= 0.0 || rules[rule].negative) && (value != 0.0 || rules[rule].zero);
@@ -60,18 +60,18 @@ static bool is_fine(baum_i_rule rule, double value)
 baum_status baum_i_check_number(const char *label, const char *field, const char *unit,
                                 baum_i_rule rule, double value)
 {
-  if (is_fine(rule, value)) {
+  if (is_allowed(rule, value)) {
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g%s%s, must be finite%s", label, field, value,
                      unit[0] ? " " : "", unit, rules[rule].remedy);
 }
 
-/* One of several numbers of a field. */
+/* Check one of several numbers of a field. */
 static baum_status check_entry(const baum_i_def_field *f, const double *values, int k,
                                const char *label)
 {
-  if (is_fine(f->rule, values[k])) {
+  if (is_allowed(f->rule, values[k])) {
     return BAUM_OK;
   }
   char name[64];
@@ -104,7 +104,7 @@ static baum_status check_numbers(const baum_i_def_field *f, const double *values
   return BAUM_OK;
 }
 
-/* ---- what is pointed to ---- */
+/* ---- pointers ---- */
 
 static const void *pointer_at(const baum_i_def_field *f, const void *def)
 {
@@ -118,7 +118,7 @@ static void set_pointer(const baum_i_def_field *f, void *def, const void *pointe
   memcpy((char *)def + f->offset, &pointer, sizeof pointer);
 }
 
-/* Entries of an array. */
+/* Number of entries of an array. */
 static int32_t count_of(const baum_i_def_field *f, const void *def)
 {
   const char *bytes = def;
@@ -205,7 +205,7 @@ static baum_status check_bodies(const baum_i_def_field *f, const baum_mechanism 
 
 /* ---- all fields ---- */
 
-/* Counts first, which tell how long arrays are. */
+/* Check the counts, which give the lengths of arrays. */
 static baum_status check_counts(const baum_i_definition *definition, const void *def,
                                 const char *label)
 {
@@ -241,7 +241,7 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
   case BAUM_I_FIELD_FUNCTION: return check_function(f, def, label);
-  default: return BAUM_OK; /* every value is fine, or the definition checks it */
+  default: return BAUM_OK; /* every value is allowed, or the definition checks it */
   }
 }
 
@@ -274,9 +274,9 @@ baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const 
     if (!is_kept(f, present, next)) {
       const int32_t *count = baum_i_field_at(f, present);
       return f->kind == BAUM_I_FIELD_COUNT
-               ? baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its %s is %d and must stay", label, f->name,
-                             (int)*count)
-               : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its %s must stay", label, f->name);
+               ? baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its %s is %d and cannot change", label,
+                             f->name, (int)*count)
+               : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its %s cannot change", label, f->name);
     }
   }
   return BAUM_OK;
@@ -306,7 +306,7 @@ void baum_i_fields_release(const baum_i_definition *definition, void *def)
   }
 }
 
-/* Of each array its own copy, or NULL when out of memory. */
+/* Replace each array by a copy, or by NULL when out of memory. */
 static bool own_arrays(const baum_i_definition *definition, void *def)
 {
   bool complete = true;
@@ -323,7 +323,7 @@ static bool own_arrays(const baum_i_definition *definition, void *def)
 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def)
 {
-  /* Own fields first: what they point to is the caller's when this fails. */
+  /* own() comes first: if it fails, all pointers are still the caller's. */
   if (definition->own) {
     BAUM_I_TRY(definition->own(def));
   }
@@ -356,7 +356,7 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
 /* A growing list of bodies; ids are checked. */
 typedef struct list {
   int count;
-  int *bodies; /* or NULL: count only, the same one twice as two */
+  int *bodies; /* NULL: count only, and count repeated bodies twice */
 } list;
 
 static void include(list *all, int body)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fields of a definition as a table, which is all that defaults, checks of single fields,
- * copies, digests, bodies of an element and tests of the headers need to know of it. */
+/* The fields of a definition as a table. Defaults, checks of single fields, copies, digests, the
+ * bodies of an element and tests of the headers all work by this table. */
 #ifndef BAUM_I_MECHANISM_FIELDS_H
 #define BAUM_I_MECHANISM_FIELDS_H
 
@@ -12,7 +12,7 @@
 
 #include "base/digest.h"
 
-/* What an optional number is by default; NAN itself is a float. */
+/* Default of optional numbers. NAN itself is a float. */
 #define BAUM_I_NOT_GIVEN ((double)NAN)
 
 /* What a number must be. */
@@ -29,26 +29,26 @@ typedef enum baum_i_rule {
   BAUM_I_RULE_DIRECTION /* finite, and not all of a field are zero */
 } baum_i_rule;
 
-/* An "own" field is checked, copied and released by the functions of its definition. */
+/* The functions of the definition check, copy and release an "own" field. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
-  BAUM_I_FIELD_ARRAY,   /* of doubles, which counter counts; or NULL. Of the start only */
+  BAUM_I_FIELD_ARRAY,   /* of doubles, counted by `counter`; or NULL. Only for the start */
   BAUM_I_FIELD_OWN_ARRAY,
-  BAUM_I_FIELD_COUNT,          /* int32_t > 0 that must stay */
+  BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* likewise, or 0 */
   BAUM_I_FIELD_OWN_COUNT,
   BAUM_I_FIELD_FLAG,
-  BAUM_I_FIELD_START_FLAG, /* of the start only */
-  BAUM_I_FIELD_CLAIM,      /* flag of what functions do, true by default */
-  BAUM_I_FIELD_BODY,       /* that must be given; ground is allowed */
+  BAUM_I_FIELD_START_FLAG, /* only for the start */
+  BAUM_I_FIELD_CLAIM,      /* flag that describes user functions, true by default */
+  BAUM_I_FIELD_BODY,       /* must be given; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body, ground by default */
-  BAUM_I_FIELD_BODIES,     /* array of ids, which counter counts: neither ground nor one twice */
-  BAUM_I_FIELD_JOINT,      /* that must be given and stay; the element acts on its bodies */
+  BAUM_I_FIELD_BODIES,     /* array of ids, counted by `counter`: no ground, no repetition */
+  BAUM_I_FIELD_JOINT,      /* must be given and cannot change; the element acts on its bodies */
   BAUM_I_FIELD_INPUT,      /* or none */
-  BAUM_I_FIELD_FUNCTION,   /* that must be given */
+  BAUM_I_FIELD_FUNCTION,   /* must be given */
   BAUM_I_FIELD_OPTIONAL_FUNCTION,
-  BAUM_I_FIELD_KEPT_FUNCTION, /* one that is there or not, which must stay */
-  BAUM_I_FIELD_USER           /* pointer that is handed on */
+  BAUM_I_FIELD_KEPT_FUNCTION, /* given or not; this cannot change */
+  BAUM_I_FIELD_USER           /* pointer that user functions receive */
 } baum_i_field_kind;
 
 enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* of numbers */
@@ -56,14 +56,14 @@ enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* of numbers */
 /* One field behind struct_size and name. */
 typedef struct baum_i_def_field {
   const char *name;
-  const char *unit; /* of numbers; "": the user's own */
+  const char *unit; /* of numbers; "": chosen by the user */
   size_t offset;
   size_t size;
   baum_i_field_kind kind;
   baum_i_rule rule;                    /* of numbers and arrays of them */
   double value[BAUM_I_FIELD_SIZE_MAX]; /* default of numbers */
-  size_t counter;                      /* offset of the count of an array, */
-  size_t instead;                      /* and of that which holds where this is 0 */
+  size_t counter;                      /* offset of the count of an array */
+  size_t instead;                      /* offset of the count to use where that is 0 */
 } baum_i_def_field;
 
 #define BAUM_I_FIELD_OF(DEF, FIELD) \
@@ -74,7 +74,7 @@ typedef struct baum_i_def_field {
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = "", .kind = BAUM_I_FIELD_##KIND \
   }
 
-/* With the defaults of all numbers at the end. */
+/* The defaults of all numbers come last. */
 #define BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, ...)                                     \
   {                                                                                     \
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = (UNIT), .rule = BAUM_I_RULE_##RULE, .value = { \
@@ -82,7 +82,7 @@ typedef struct baum_i_def_field {
     }                                                                                   \
   }
 
-/* Numbers that need not be given. */
+/* Numbers that are optional. */
 #define BAUM_I_OPTIONAL(DEF, FIELD, RULE, UNIT)                                                \
   BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, \
                  BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN)
@@ -107,16 +107,15 @@ struct baum_i_point;
 typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
-  const baum_i_def_field *fields; /* all of them in their order; one without a name ends them */
-  /* Where the fields of former versions ended that had padding in which a later field lies;
-   * 0 ends the list. NULL: none. */
+  const baum_i_def_field *fields; /* all in their order; a field without a name ends the table */
+  /* Ends of the fields of former versions whose padding a later field uses; 0 ends the list. NULL:
+   * none. */
   const size_t *former;
   int parameter_count; /* of an element in the parameter array */
-  /* Check what the table cannot say, when it holds; messages start with label, such as:
-   * joint 2 "B". */
+  /* Check what the table cannot express, after the table's checks. Messages start with the label,
+   * such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
-  /* Replace what own fields point to by own copies: BAUM_OK or BAUM_ERR_MEMORY, then of these
-   * nothing is owned. */
+  /* Copy what own fields point to. BAUM_OK, or BAUM_ERR_MEMORY; then these fields own nothing. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free what own() made */
   /* Compare the derivatives that an element gives with differences; NULL: it gives none. */
@@ -128,39 +127,38 @@ static inline const void *baum_i_field_at(const baum_i_def_field *field, const v
   return (const char *)def + field->offset;
 }
 
-/* Set a whole definition to its defaults. */
+/* Set all fields of a definition to their defaults. */
 void baum_i_fields_set(const baum_i_definition *definition, void *def);
 
-/* Check all fields, and then what the definition itself checks: BAUM_OK, or BAUM_ERR_ARGUMENT with
- * its message. */
+/* Check all fields, then call the check of the definition. BAUM_OK, or BAUM_ERR_ARGUMENT with its
+ * message. */
 baum_status baum_i_fields_check(const baum_i_definition *definition,
                                 const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 
-/* Check that a definition that shall replace another one keeps what must stay: counts and
- * joints. */
+/* Check that a replacing definition keeps what cannot change: counts, joints, kept functions. */
 baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const void *present,
                                      const void *next, const char *label);
 
-/* Replace arrays by own copies: BAUM_OK or BAUM_ERR_MEMORY, then nothing is owned. */
+/* Replace arrays by copies. BAUM_OK, or BAUM_ERR_MEMORY; then the definition owns nothing. */
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
-/* Add what tells this one from others beside its bodies and numbers: flags, arrays, inputs. Not
- * what only the start knows. */
+/* Add flags, own arrays and inputs to a digest. Bodies and lowered numbers are added elsewhere, and
+ * fields that matter only for the start are left out. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
-/* The bodies that an element acts on, each once: those that it names, and those of the joints that
- * it names. Their number; bodies may be NULL, then at most as many. */
+/* Find the bodies that an element acts on, each once: the bodies and the bodies of the joints that
+ * its definition names. Returns their number, or with NULL for bodies an upper bound of it. */
 int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechanism *mechanism,
                          const void *def, int *bodies);
 
-/* ---- checks of single values, by which the table's are made ---- */
+/* ---- checks of single values ---- */
 
 baum_status baum_i_check_number(const char *label, const char *field, const char *unit,
                                 baum_i_rule rule, double value);
 
-/* At the start of evaluations, too: without a call where all is well. */
+/* Inline, because evaluations begin with it. */
 static inline baum_status baum_i_check_finite(const char *label, const char *field,
                                               const char *unit, double value)
 {
@@ -174,7 +172,7 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
   return baum_i_check_number(label, field, unit, BAUM_I_RULE_POSITIVE, value);
 }
 
-/* A required function or array: given is `def->mass != NULL`, field "mass()". */
+/* Check that a required function or array is given: `def->mass != NULL` for the field "mass()". */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);
 
 #endif

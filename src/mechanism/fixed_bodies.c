@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies that welds hold to ground, one by one, are fixed: where they are follows from the
- * welds. */
+/* Fixed bodies: those that a chain of welds connects to ground. The welds determine their poses. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"
 
-/* The other body of a weld that has one fixed body. */
+/* Fix the other body of a weld that has one fixed body. */
 static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
 {
   const baum_i_body *a = m->bodies[joint->span.bodies[0]];
@@ -24,7 +23,7 @@ static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
   return true;
 }
 
-/* Chains of welds in the order of joints or against it are found in one pass each. */
+/* Passes alternate in direction, so a chain of welds in either order takes one pass. */
 static void fix_bodies(baum_mechanism *m)
 {
   bool found = true;

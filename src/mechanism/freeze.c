@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Freezing: from definitions to the constant structure.
+/* Freezing turns definitions into the constant structure of a mechanism.
  *
- * Columns and rows are numbered in the order of adding; elements of one type are gathered into
- * groups; every number goes into the parameter array. On failure everything is undone and the
- * mechanism stays open.
+ * It numbers columns and rows in the order in which elements were added, gathers elements of one
+ * type into groups and writes all numbers to the parameter array. On failure it undoes everything,
+ * and the mechanism stays open.
  */
 #include <limits.h>
 #include <math.h>
@@ -55,8 +55,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 
 /* ---- numbering ---- */
 
-/* Scratch memory for the largest element: that many local columns and rows. False when it is too
- * large. */
+/* Provide scratch memory for an element with these local columns and rows. Returns false when it is
+ * too large. */
 static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
 {
   int64_t size = baum_i_scratch_size(columns, rows);
@@ -69,7 +69,7 @@ static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
   return true;
 }
 
-/* Columns of a body behind those that the span has. */
+/* Append the columns of a body to a span. */
 static void add_columns(const baum_i_body *body, baum_i_span *span)
 {
   for (int j = 0; j < body->nv; j++) {
@@ -90,9 +90,7 @@ static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *spa
     nl += (size_t)mechanism->bodies[span->bodies[i]]->nv;
   }
   span->columns = baum_i_alloc(nl + ql, sizeof *span->columns);
-  if (!span->columns) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(span->columns));
   span->positions = span->columns + nl;
   span->nl = 0;
   span->ql = 0;
@@ -103,7 +101,8 @@ static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *spa
   return BAUM_OK;
 }
 
-/* Every index of the frozen structure is an int; what would not fit is refused here. */
+/* Every index of the frozen structure is an int. Mechanisms whose indices would not fit are refused
+ * here. */
 static baum_status number_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   baum_i_element *element, baum_i_totals *totals)
 {
@@ -126,7 +125,7 @@ static baum_status number_element(baum_mechanism *mechanism, const baum_i_family
   return BAUM_OK;
 }
 
-static baum_status number(baum_mechanism *mechanism, const baum_i_family *family)
+static baum_status number_family(baum_mechanism *mechanism, const baum_i_family *family)
 {
   baum_i_totals totals = {0};
   BAUM_I_TRY(family->open_groups(mechanism));
@@ -139,7 +138,7 @@ static baum_status number(baum_mechanism *mechanism, const baum_i_family *family
   return BAUM_OK;
 }
 
-/* ---- length scale ---- */
+/* ---- characteristic length ---- */
 
 void baum_i_box_include(baum_i_box *box, double x, double y, double z)
 {
@@ -150,8 +149,8 @@ void baum_i_box_include(baum_i_box *box, double x, double y, double z)
   }
 }
 
-/* Size of the design configuration: the diagonal of the box around all bodies, and points of
- * joints. 1 when it has none, as with user coordinates only. */
+/* Size of the design configuration: the diagonal of the box around all bodies and all points of
+ * joints. 1 for mechanisms without such points, as of user coordinates alone. */
 static double design_size(const baum_mechanism *mechanism)
 {
   baum_i_box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -208,7 +207,7 @@ static bool has_spatial_elements(const baum_mechanism *m)
   return found;
 }
 
-static void draw_bodies(baum_mechanism *mechanism)
+static void place_bodies(baum_mechanism *mechanism)
 {
   mechanism->length =
     isnan(mechanism->given_length) ? design_size(mechanism) : mechanism->given_length;
@@ -240,7 +239,7 @@ static void draw_bodies(baum_mechanism *mechanism)
   }
 }
 
-static baum_status lower(baum_mechanism *m)
+static baum_status lower_elements(baum_mechanism *m)
 {
   for (int i = 0; i < m->joint_count; i++) {
     const baum_i_joint *joint = m->joints[i];
@@ -264,11 +263,11 @@ static baum_status build(baum_mechanism *mechanism)
   mechanism->scratch_size = 0;
   mechanism->parameter_count = 0;
   for (int i = 0; i < BAUM_I_FAMILIES; i++) {
-    BAUM_I_TRY(number(mechanism, baum_i_families[i]));
+    BAUM_I_TRY(number_family(mechanism, baum_i_families[i]));
   }
   BAUM_I_TRY(make_arrays(mechanism));
-  draw_bodies(mechanism);
-  BAUM_I_TRY(lower(mechanism));
+  place_bodies(mechanism);
+  BAUM_I_TRY(lower_elements(mechanism));
   baum_i_find_fixed_bodies(mechanism);
   return BAUM_OK;
 }

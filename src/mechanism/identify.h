@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who is who in a mechanism: ids, owners of rows and columns, labels for messages, and the checks
- * of ids and stages. */
+/* Ids, owners of rows and columns, labels for messages, and checks of ids and of the stage of a
+ * mechanism. */
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
@@ -12,20 +12,20 @@ typedef struct baum_i_id {
   uint32_t tag;
 } baum_i_id;
 
-/* Number of an id's element in its family, from 0, or -1: ground, none, foreign or out of range. */
+/* Number of an id's element in its family, from 0. -1 for ground, none, foreign ids and ids out of
+ * range. */
 int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
 
-/* Number of the element of that name, from 0, or -1. */
+/* Number of the first element of that name, from 0, or -1. */
 int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
                          const char *name);
 
-/* Index of an id's element, or -1: none, foreign or out of range. Ground gives 0 for bodies. */
+/* Index of an id's element; -1 for none, foreign ids and ids out of range. 0 for ground. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
 
-/* Check an id used in a definition. The message says whether it is none, or of another
- * mechanism. */
+/* Check an id in a definition. The message says whether it is none or of another mechanism. */
 baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
                             baum_i_id id, const char *label, const char *field);
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
@@ -34,26 +34,25 @@ baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id
                                const char *field);
 baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
                                const char *field);
-/* An id and the value it shall have. */
+/* Check the id of an input and its new value. */
 baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
                                      const char *call, double value);
 
 /* Initial inputs (input_count); NULL while there are none. */
 const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
 
-/* Check that a call got a mechanism that is not yet frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL),
- * BAUM_ERR_STATE. */
+/* Check that a mechanism is not frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL) or BAUM_ERR_STATE. */
 baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call);
 
-/* Check that a call got a frozen mechanism: BAUM_OK, BAUM_ERR_ARGUMENT (NULL), BAUM_ERR_STATE. */
+/* Check that a mechanism is frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL) or BAUM_ERR_STATE. */
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
-/* Joint that owns a row, and body that owns a velocity; frozen only. */
+/* The joint that owns a row, and the body that owns a velocity, of a frozen mechanism. */
 int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* `joint 2 "B"`, numbered from 1, or `ground` into text; returns text. */
+/* Write `joint 2 "B"`, numbered from 1, or `ground` to text; returns text. */
 enum { BAUM_I_LABEL_SIZE = 128 };
 const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE]);
 const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,

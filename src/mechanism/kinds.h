@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All kinds of elements, for whoever goes through their definitions. */
+/* The list of all kinds of elements. */
 #ifndef BAUM_I_MECHANISM_KINDS_H
 #define BAUM_I_MECHANISM_KINDS_H
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The manifold of a whole mechanism, body by body. */
+/* The configuration manifold of a mechanism, body by body. */
 #include "mechanism/manifold.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- one body; q, v and dx begin at its own ---- */
+/* ---- one body; q, v and dx begin at those of the body ---- */
 
 static void rate_body(const baum_i_body *body, const double *q, const double *v, double *dq)
 {
@@ -20,7 +20,7 @@ static void move_body(const baum_i_body *body, double h, const double *v, double
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
-    body->manifold->normalize(body, q); /* of many moves roundings add up */
+    body->manifold->normalize(body, q); /* rounding of many moves would add up */
   } else {
     baum_i_add_scaled(body->nv, h, v, q);
   }
@@ -33,7 +33,7 @@ static void subtract(int count, const double *from, const double *to, double *dx
   }
 }
 
-/* q + h dq, back on the manifold. */
+/* out = q + h dq, normalized. */
 static void shift_body(const baum_i_body *body, double h, const double *dq, const double *q,
                        double *out)
 {
@@ -43,8 +43,8 @@ static void shift_body(const baum_i_body *body, double h, const double *dq, cons
   body->manifold->normalize(body, out);
 }
 
-/* Steps of central differences, in relevant changes: errors are its square, and rounding over
- * it. */
+/* Step of central differences, in relevant changes. The truncation error is its square, and
+ * rounding is divided by it. */
 static const double STEP = 1e-5;
 
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
@@ -63,7 +63,7 @@ static void tangent_body(const baum_i_body *body, const double *scale, const dou
   }
 }
 
-/* Rate where q is moved by h along column j; direction (nv) is set. */
+/* Evaluate the rate at q moved by h along column j. direction (nv) and moved (nq) are scratch. */
 static void rate_beside(const baum_i_body *body, double h, int j, const double *q, const double *v,
                         double *dq, double *direction, double *moved)
 {
@@ -75,7 +75,7 @@ static void rate_beside(const baum_i_body *body, double h, int j, const double *
   body->manifold->rate(body, moved, v, dq);
 }
 
-/* The rate where the motion with a constant is after the time h. work (2 nq). */
+/* Evaluate the rate after a time h of motion at constant a. work (2 nq). */
 static void rate_later(const baum_i_body *body, double h, const double *q, const double *v,
                        const double *a, double *dq, double *work)
 {

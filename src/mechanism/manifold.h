@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The configuration manifold: positions q (nq), velocities v (nv) and q' = N(q) v.
  *
- * Where every body's q is a vector (mechanism->flat), N is the identity and q is moved by adding.
- * Elsewhere q is moved by `move`, and compared by `difference`; nothing of velocity size is ever
- * added to q. Integrators that combine rates q' = N v add these, of position size, and normalize
- * what they accept.
+ * Where every body's q is a vector (mechanism->flat), N is the identity and moving q is adding.
+ * Elsewhere `move` moves q and `difference` compares configurations; nothing of velocity size is
+ * ever added to q. Integrators that combine rates q' = N v, which have position size, add these and
+ * normalize the configurations that they accept.
  */
 #ifndef BAUM_I_MECHANISM_MANIFOLD_H
 #define BAUM_I_MECHANISM_MANIFOLD_H
@@ -13,7 +13,7 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- body by body, where the mechanism is not flat; as those without `bodies` below ---- */
+/* ---- for mechanisms that are not flat; like the functions without `bodies` below ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -26,7 +26,7 @@ const double *baum_i_tangent_of_bodies(const baum_mechanism *mechanism, const do
 
 /* ---- the whole ---- */
 
-/* y += h x, apart from each other */
+/* y += h x; x and y do not overlap. */
 static inline void baum_i_add_scaled(int n, double h, const double *restrict x, double *restrict y)
 {
   for (int i = 0; i < n; i++) {
@@ -34,7 +34,7 @@ static inline void baum_i_add_scaled(int n, double h, const double *restrict x, 
   }
 }
 
-/* dq (nq) = N(q) v; q may be off the manifold as far as an integrator's stage. */
+/* dq (nq) = N(q) v. q may be as far off the manifold as an integrator's stage. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
 {
@@ -45,8 +45,8 @@ static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q,
   }
 }
 
-/* q moves by h v, v of velocity size (nv): where it is after the time h at constant v, to second
- * order in h; on the manifold. */
+/* Move q by h v (nv): to where it is after the time h at constant v, to second order in h. The
+ * result is on the manifold. */
 static inline void baum_i_move(const baum_mechanism *mechanism, double h, const double *v,
                                double *q)
 {
@@ -57,7 +57,7 @@ static inline void baum_i_move(const baum_mechanism *mechanism, double h, const 
   baum_i_add_scaled(mechanism->nv, h, v, q);
 }
 
-/* The same of `from` into q, apart from each other. */
+/* Likewise, but start at `from` and write to q; the two do not overlap. */
 static inline void baum_i_move_from(const baum_mechanism *mechanism, const double *restrict from,
                                     double h, const double *restrict v, double *restrict q)
 {
@@ -71,11 +71,11 @@ static inline void baum_i_move_from(const baum_mechanism *mechanism, const doubl
   }
 }
 
-/* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. */
+/* dx (nv) such that baum_i_move() with h = 1 leads from `from` to `to`. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
 
-/* q becomes the nearest one on the manifold; nothing where the mechanism is flat. */
+/* Move q to the nearest point of the manifold; does nothing where the mechanism is flat. */
 static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
 {
   if (!mechanism->flat) {
@@ -83,8 +83,8 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
   }
 }
 
-/* The next three return what is asked for: in `room`, or the last vector given where the mechanism
- * is flat. */
+/* The next three functions write their result to `room` and return it. Where the mechanism is flat
+ * they return their last vector instead. */
 
 /* N(q) v (nq); room (nq). */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,
@@ -104,20 +104,20 @@ static inline const double *baum_i_second_rates(const baum_mechanism *mechanism,
   return mechanism->flat ? a : baum_i_second_rates_of_bodies(mechanism, q, v, a, room);
 }
 
-/* N^+ dq (nv), the velocities nearest to rates dq (nq), with q on the manifold; room (3 nq), not
- * dq. */
+/* N^+ dq (nv), the velocities nearest to rates dq (nq), for q on the manifold. room (3 nq) must not
+ * be dq. */
 static inline const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q,
                                            const double *dq, double *room)
 {
   return mechanism->flat ? dq : baum_i_tangent_of_bodies(mechanism, q, dq, room);
 }
 
-/* N^+ (N v)_q N, how rates at constant v change with a displacement of q: blocks nv x nv at the
- * `mass` of bodies with a manifold. work (6 nq). */
+/* N^+ (N v)_q N, the derivative of rates at constant v by a displacement of q: blocks nv x nv at
+ * the `mass` of bodies with a manifold. work (6 nq). */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 
-/* As baum_i_move(), of the local columns of a span. */
+/* Like baum_i_move(), for the local columns of a span. */
 void baum_i_span_move(const baum_mechanism *mechanism, const baum_i_span *span, double h,
                       const double *v, double *q);
 

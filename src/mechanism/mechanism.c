@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism as an object: create, copy, share, destroy, what is set on the whole. */
+/* A mechanism as an object: create, copy, share, destroy, and settings of the whole. */
 #include "mechanism/mechanism.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@
 
 /* ---- life ---- */
 
-/* A tag that two mechanisms share by chance once in 2^32: address and time, well mixed (Stafford's
- * mix 13). A counter would be global state. */
+/* Make a tag from address and time (Stafford's mix 13). Two mechanisms share one by chance with a
+ * probability of 2^-32. A counter would be global state. */
 static uint32_t make_tag(const void *address)
 {
   struct timespec now = {0};
@@ -50,9 +50,7 @@ baum_status baum_mechanism_create(baum_mechanism **out)
   }
   *out = NULL;
   baum_mechanism *mechanism = baum_i_alloc(1, sizeof *mechanism);
-  if (!mechanism) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(mechanism));
   atomic_init(&mechanism->references, 1);
   mechanism->tag = make_tag(mechanism);
   mechanism->gravity[1] = -9.81;
@@ -71,7 +69,7 @@ baum_status baum_mechanism_create(baum_mechanism **out)
 
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
 {
-  /* The count is the one member of a constant mechanism that changes. */
+  /* The reference count is the only member of a constant mechanism that changes. */
   baum_mechanism *counted = baum_i_mutable(mechanism);
   atomic_fetch_add(&counted->references, 1);
   return mechanism;
@@ -174,7 +172,7 @@ baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double g
 baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism, double length)
 {
   BAUM_I_TRY(baum_i_check_open(mechanism, "baum_mechanism_set_characteristic_length"));
-  BAUM_I_TRY(baum_i_check_positive("mechanism", "length scale", "m", length));
+  BAUM_I_TRY(baum_i_check_positive("mechanism", "characteristic length", "m", length));
   mechanism->given_length = length;
   return BAUM_OK;
 }
@@ -195,7 +193,7 @@ bool baum_mechanism_is_frozen(const baum_mechanism *mechanism)
   return mechanism && mechanism->frozen;
 }
 
-static void put(int32_t *out, int value)
+static void give_number(int32_t *out, int value)
 {
   if (out) {
     *out = value;
@@ -206,9 +204,9 @@ baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, i
                                  int32_t *nc)
 {
   BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_sizes"));
-  put(nq, mechanism->nq);
-  put(nv, mechanism->nv);
-  put(nc, mechanism->nc);
+  give_number(nq, mechanism->nq);
+  give_number(nv, mechanism->nv);
+  give_number(nc, mechanism->nc);
   return BAUM_OK;
 }
 
@@ -218,8 +216,8 @@ baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id j
   BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_rows"));
   BAUM_I_TRY(baum_i_check_joint(mechanism, joint, "baum_mechanism_rows", "joint"));
   const baum_i_joint *found = mechanism->joints[baum_i_joint_index(mechanism, joint)];
-  put(first, found->row);
-  put(count, found->rows);
+  give_number(first, found->row);
+  give_number(count, found->rows);
   return BAUM_OK;
 }
 
@@ -232,7 +230,7 @@ baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id
   if (index == 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_columns: ground has no coordinates");
   }
-  put(first_q, mechanism->bodies[index]->q);
-  put(first_v, mechanism->bodies[index]->v);
+  give_number(first_q, mechanism->bodies[index]->q);
+  give_number(first_v, mechanism->bodies[index]->v);
   return BAUM_OK;
 }

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism as a whole: its life, and evaluation over all of its elements. */
+/* A mechanism as a whole: create and destroy, and evaluate all elements. */
 #ifndef BAUM_I_MECHANISM_MECHANISM_H
 #define BAUM_I_MECHANISM_MECHANISM_H
 
 #include "mechanism/identify.h"
 #include "mechanism/model.h"
 
-/* Share and release; destroying is releasing. */
+/* Share a mechanism; destroying it ends one share. */
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
 
 /* ---- fixed_bodies.c ---- */
 
-/* Once all numbers are known. */
+/* Called when all numbers are known. */
 void baum_i_find_fixed_bodies(baum_mechanism *mechanism);
-/* Their part of q (nq), and of v (nv), which becomes zero. */
+/* Set their part of q (nq); set their part of v (nv) to zero. */
 void baum_i_place_fixed_bodies(const baum_mechanism *mechanism, double *q);
 void baum_i_rest_fixed_bodies(const baum_mechanism *mechanism, double *v);
 
@@ -25,19 +25,20 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism);
 baum_status baum_i_copy_inputs(baum_mechanism *to, const baum_mechanism *from);
 void baum_i_free_inputs(baum_mechanism *mechanism);
 
-/* ---- evaluation of the whole: runs over all groups; arrays as in the types above ---- */
+/* ---- evaluation of all elements ---- */
 
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows);
-/* One of them, all of it set. */
+/* One of them; all entries are set. */
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi);           /* (nc) */
 baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian); /* (jacobian_size) */
 baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /* (nc) */
 baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma);       /* (nc) */
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass);         /* (mass_size) */
 baum_status baum_i_mechanism_force(baum_i_point *point, double *force);       /* (nv) */
-/* Its parts, added to (nv): of bodies whose force depends on parameters only, or of the others; */
+/* Parts of the force, added to (nv): of the bodies whose force depends on parameters only, or of
+ * the other bodies; */
 baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force);
-/* of those others and of all forces. */
+/* of the other bodies and all forces. */
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force);
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential);
 /* Whether the force on every body depends on parameters only. */
@@ -52,10 +53,10 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* ---- for the energy account ---- */
 
-/* Set by class; needs velocities. */
+/* Powers by class; needs velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
-/* By class, the potential of the types whose power is given whole: its change is to be added to
- * their work. */
+/* Potentials by class of the types whose power includes that of the potential. The account adds the
+ * change of these potentials to their work. */
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
                                                 double potential[BAUM_I_POWERS]);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The types of a mechanism: elements (bodies, joints, forces), their types, the point where they
- * are evaluated, and the frozen structure. What is done to the whole is in mechanism.h.
+ * are evaluated, and the frozen structure. Functions of the whole mechanism are in mechanism.h.
  *
  * An element type is one const struct of functions; adding a joint is one file with such a struct
  * and its four public functions (definition.h). Functions work on groups: all elements of
@@ -23,7 +23,7 @@
 
 /* ---- elements ---- */
 
-/* What all elements have; first member of each. */
+/* The first member of every element. */
 typedef struct baum_i_element {
   const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
@@ -33,8 +33,9 @@ typedef struct baum_i_element {
   int parameter; /* start of its numbers in the parameter array; set at freeze */
 } baum_i_element;
 
-/* Bodies that an element acts on, with their velocities and positions. Local columns are those of
- * the bodies one after the other, without ground. Set at freeze but for bodies and body_count. */
+/* The bodies that an element acts on, with their velocities and positions. The local columns are
+ * those of the bodies one after the other, without ground. Freeze sets all but bodies and
+ * body_count. */
 typedef struct baum_i_span {
   int body_count;
   int *bodies;    /* (body_count) indices, 0 = ground */
@@ -45,9 +46,9 @@ typedef struct baum_i_span {
   bool flat;      /* none of the bodies has a manifold */
 } baum_i_span;
 
-/* Where a body's frame comes from. */
+/* Which coordinates give a body's frame. */
 typedef enum baum_i_frame_kind {
-  BAUM_I_FRAME_NONE,     /* user coordinates: no place */
+  BAUM_I_FRAME_NONE,     /* user coordinates: no position */
   BAUM_I_FRAME_PARTICLE, /* x, y */
   BAUM_I_FRAME_BODY,     /* x, y, angle */
   BAUM_I_FRAME_GROUND,
@@ -87,7 +88,7 @@ typedef struct baum_i_joint {
   int jacobian; /* start of its rows x nl values */
   int square;   /* start of its nl x nl values, for second derivatives */
   bool fixed;   /* between fixed bodies */
-  bool fixes;   /* the weld by which one of them is fixed */
+  bool fixes;   /* the weld that fixes one of them */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -117,7 +118,7 @@ typedef struct baum_i_force_group {
 
 /* ---- a point in state space ---- */
 
-/* Place of a body's axes: every planar element reads this instead of q. One cache line. */
+/* Pose and velocities of a body. Every planar element reads this instead of q. One cache line. */
 typedef struct baum_i_frame {
   double x, y;   /* origin */
   double vx, vy; /* velocities; zero at position level */
@@ -134,7 +135,7 @@ typedef struct baum_i_spatial_frame {
   double axes[9]; /* A by rows: turns body axes into ground axes */
 } baum_i_spatial_frame;
 
-/* Where a body's frame comes from. */
+/* Where a body's frame finds its coordinates. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
   int32_t v;    /* first velocity */
@@ -145,15 +146,16 @@ typedef struct baum_i_frames_kernel baum_i_frames_kernel;
 
 baum_i_frame_kind baum_i_frame_of(const baum_i_body *body);
 
-/* Frame of a body at its q, and its v or NULL for rest; those without a place are at the origin. */
+/* Frame of a body at its q, and its v or NULL for rest. Bodies without a position are at the
+ * origin. */
 baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v);
 
-/* Where functions are evaluated. Belongs to a workspace; one thread at a time. */
+/* A point at which functions are evaluated. Only one thread at a time may use it. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
   const double *parameters; /* of the mechanism, or a caller's own copy */
   double t;
-  const double *q;      /* of bodies with a manifold normalized, in own memory */
+  const double *q;      /* normalized, in own memory, where the mechanism is not flat */
   const double *v;      /* NULL at position level */
   double *normalized;   /* (nq); NULL where the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
@@ -162,14 +164,14 @@ typedef struct baum_i_point {
   const double *inputs;          /* (input_count) present values; NULL while there are none */
   double *scratch;               /* (mechanism->scratch_size) for gathering and differences */
   bool retry;                    /* set when the last failure may vanish with a smaller step */
-  bool asking; /* within a function of the user, who may not ask anything of this point */
+  bool asking;                   /* a user function is running, which must not use this point */
 } baum_i_point;
 
-/* Of a body as it is drawn, from its definition, at rest; valid before freeze. */
+/* Frame of a body in the design configuration at rest, from its definition; valid before freeze. */
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
-/* Memory of a point, with the mechanism's own numbers and initial inputs. BAUM_OK or
- * BAUM_ERR_MEMORY; then, too, what there is has to be released. */
+/* Create a point with the mechanism's numbers and initial inputs. BAUM_OK or BAUM_ERR_MEMORY;
+ * release it in both cases. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
@@ -186,12 +188,12 @@ baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism
 /* Set the spatial frames of a point. */
 void baum_i_point_set_spatial(baum_i_point *point);
 
-/* The two of baum_i_point_set(): where the mechanism is flat, or else. */
+/* The two cases of baum_i_point_set(): the mechanism is flat, or not. */
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 
-/* Set t, q (and v, may be NULL) and the frames. v is referred to, not copied, and so is q where
- * the mechanism is flat. */
+/* Set t, q, v (or NULL) and the frames. The point refers to v, and to q where the mechanism is
+ * flat, without a copy. */
 static inline void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
   if (point->normalized) {
@@ -211,8 +213,8 @@ typedef struct baum_i_box {
 
 void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
-/* What is wanted of all constraint rows; NULL members are not. Rows of nu whose joint is
- * scleronomic are left as they are: they hold zeros. */
+/* What to evaluate of all constraint rows; NULL members are not wanted. Scleronomic joints leave
+ * their rows of nu alone, which hold zeros. */
 typedef struct baum_i_rows {
   double *phi;      /* (nc) */
   double *jacobian; /* (jacobian_size) */
@@ -254,16 +256,16 @@ typedef enum baum_i_power {
   BAUM_I_POWERS
 } baum_i_power;
 
-/* Positions of a body that are not a vector: q' = N(q) v. Its q is (nq), its v (nv), its dx is of
+/* Manifold of a body whose positions are not a vector: q' = N(q) v, with q (nq) and v (nv). dx has
  * velocity size. See manifold.h. */
 struct baum_i_manifold {
-  /* dq = N(q) v; q may be off the manifold as far as an integrator's stage. */
+  /* dq = N(q) v. q may be as far off the manifold as an integrator's stage. */
   void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
-  /* q becomes what it is after the time h at constant v, to second order in h. */
+  /* Move q to where it is after the time h at constant v, to second order in h. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
-  /* The dx by which `move` with h = 1 leads from one to the other. */
+  /* dx such that `move` with h = 1 leads from one to the other. */
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
-  /* The nearest q on the manifold. */
+  /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
 };
 
@@ -272,18 +274,18 @@ struct baum_i_body_type {
   baum_i_frame_kind frame;
   bool scleronomic;                  /* mass and force of the type never depend on t */
   bool constant_force;               /* force of the type depends on parameters only */
-  int nq, nv;                        /* of all of the type; 0: size() and positions() tell */
+  int nq, nv;                        /* of all of the type; 0: see size() and positions() */
   int (*size)(const void *def);      /* nv of one; or NULL */
   int (*positions)(const void *def); /* nq of one; or NULL */
-  /* Of one; NULL, and a NULL answer: q is a vector and v = q'. */
+  /* Of one; NULL, or returning NULL: q is a vector and v = q'. */
   const baum_i_manifold *(*manifold)(const void *def);
-  bool (*constant_mass)(const void *def);       /* NULL: it is */
+  bool (*constant_mass)(const void *def);       /* NULL: always */
   bool (*depends_on_velocity)(const void *def); /* force() does; NULL: never */
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
-  /* Start pose, and given velocities or NaN. */
+  /* Design pose, and given velocities or NaN. */
   void (*design)(const void *def, double *q, double *v, bool *held);
-  /* (nv) relevant change of each coordinate, as a displacement of velocity size. */
+  /* (nv) relevant change of each coordinate. */
   void (*scale)(const void *def, double length, double *scale);
   /* (nq) relevant change of each position; NULL where there is no manifold. */
   void (*position_scale)(const void *def, double length, double *scale);
@@ -293,11 +295,11 @@ struct baum_i_body_type {
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
   /* One body: adds; NULL: 0. */
   baum_status (*potential)(const baum_i_body *body, baum_i_point *point, double *sum);
-  /* One body. a (nv); blocks arrive zeroed. NULL: they stay so. */
+  /* One body. a (nv). The blocks are zeroed before. NULL: they stay zero. */
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
-  /* One body: adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and
-   * M' = 0. */
+  /* One body: adds g^T v + v^T M' v / 2, including the power of the potential. NULL: the potential
+   * gives all forces, and M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
@@ -326,16 +328,16 @@ struct baum_i_joint_type {
   baum_i_definition definition;
   int width;        /* BAUM_I_PLANE or BAUM_I_SPACE: its reaction is force and moment; 0: neither */
   bool scleronomic; /* Phi never depends on t */
-  bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
+  bool is_pin;      /* its rows are exactly those of pin_rows.h */
   /* One row: the coordinate of that joint minus a function of time; NULL: no driver. Its width is
    * that of the joint. */
   const baum_i_joint *(*driven)(const baum_mechanism *mechanism, const void *def);
   /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
-  /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
-   * NULL: there is no law. */
+  /* Replace the law of a driver, in its numbers, by s + s' (t - t0) + s'' (t - t0)^2 / 2. NULL for
+   * joints that are not drivers. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int row_count;                /* of all of the type; 0: rows() tells */
+  int row_count;                /* of all of the type; 0: see rows() */
   int (*rows)(const void *def); /* of one; or NULL */
   /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
    * message. */
@@ -346,11 +348,11 @@ struct baum_i_joint_type {
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
                               const baum_i_rows *rows);
-  /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
+  /* One joint. w (nv), lambda (nc). The blocks are zeroed before. NULL: they stay zero. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
-  /* Where one body is, by the pose of the other (body_a's if from_a; NULL: ground); NULL: no
-   * weld. */
+  /* Find the pose of one body from that of the other (body_a's if from_a; NULL: ground). NULL: the
+   * type is no weld. */
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
   /* The joint's point on body_b in ground axes, for reactions and drawing; NULL without width. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
@@ -360,7 +362,7 @@ struct baum_i_joint_type {
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
   /* Only joints with a coordinate, else NULL. */
   bool is_angle; /* [rad], else [m] */
-  /* Whether this one has it, of a checked definition; NULL: all have. */
+  /* Check that a joint with a checked definition has it; NULL: all have. */
   baum_status (*check_coordinate)(const baum_mechanism *mechanism, const void *def,
                                   const char *label);
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
@@ -384,10 +386,10 @@ struct baum_i_force_type {
   bool (*depends_on_velocity)(const void *def); /* NULL: never */
   /* One force: adds; NULL: 0. */
   baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
-  /* One force. Blocks arrive zeroed. */
+  /* One force. The blocks are zeroed before. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* One force: adds g^T v without what comes of the potential, by class; or with it, and
+  /* One force: adds g^T v by class, without the power of the potential; with it where
    * power_is_whole. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
@@ -424,7 +426,7 @@ struct baum_mechanism {
   int parameter_count;
   bool constant_mass;
   bool flat;                 /* no body has a manifold: nq = nv and q' = v */
-  double length;             /* scale L */
+  double length;             /* characteristic length */
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   bool spatial;              /* has a spatial body, joint or force */
@@ -434,9 +436,9 @@ struct baum_mechanism {
   bool *held;                     /* (nv) */
   double *scale;                  /* (nv) relevant change of each coordinate */
   double *position_scale;         /* (nq) likewise of each position */
-  int fixed_count;                /* fixed bodies without ground, */
-  int fixed_nv;                   /* their velocities, */
-  double *fixed_q;                /* (nq) and where they are */
+  int fixed_count;                /* fixed bodies without ground */
+  int fixed_nv;                   /* number of their velocities */
+  double *fixed_q;                /* (nq) their positions */
   baum_i_body_group *body_groups; /* each list ends with a group without a type */
   baum_i_joint_group *joint_groups;
   baum_i_force_group *force_groups;

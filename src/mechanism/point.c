@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points in state space and the frames of bodies there. */
+/* Points in state space, and the frames of bodies at them. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -35,13 +35,13 @@ baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const doub
 
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body)
 {
-  const baum_i_body *drawn = mechanism->bodies[body];
-  baum_i_frame_kind kind = baum_i_frame_of(drawn);
+  const baum_i_body *designed = mechanism->bodies[body];
+  baum_i_frame_kind kind = baum_i_frame_of(designed);
   double q[3] = {0.0};
   if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY) {
     double v[3];
     bool held;
-    drawn->type->design(drawn->element.def, q, v, &held);
+    designed->type->design(designed->element.def, q, v, &held);
   }
   return baum_i_frame_at(kind, q, NULL);
 }

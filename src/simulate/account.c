@@ -15,18 +15,17 @@
  *
  * is a part of the work of drivers and violation. docs/theory/energy.md.
  *
- * States inside of a step are those of the method's own interpolant; with steps of one length and
- * up to order 4 those of Hermite's polynomials, of degree 5 in q and 3 in v, whose error over a
- * step is of order 5; and above order 4 the ends of shorter steps of the method from the same
- * start. So are they where a projection moves far, as from a start off the constraints: the
- * interpolants of the pairs end at the projected state, which the motion did not.
+ * States inside a step come from the method's own interpolant. Fixed steps up to order 4 use
+ * Hermite polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5. Fixed
+ * steps above order 4 use shorter steps of the method from the same start. So do variable steps
+ * whose projection moves far, as from a start off the constraints, because the interpolants of the
+ * pairs end at the projected state, which the motion did not.
  *
- * IDA begins on the constraints of its formulation, wherever the start was; that move is a
- * projection too.
+ * IDA starts on the constraints of its formulation, wherever the given start was. That move counts
+ * as a projection.
  *
- * The account has a workspace of its own: no evaluation of it reaches the run's solver or its
- * counters.
- */
+ * The account has a workspace of its own, so its evaluations do not touch the run's solver or
+ * counters. */
 #include "simulate/account.h"
 
 #include <math.h>
@@ -39,7 +38,7 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* Projections that move further than so many tolerances are not the method's own errors. */
+/* Projections that move further than this many tolerances are not errors of the method. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
@@ -76,7 +75,7 @@ static const double WEIGHT[MOST_NODES][MOST_NODES] = {
   {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538},
 };
 
-/* A stretch of motion: from account->from to the state (q, v) at t. */
+/* A part of the motion: from account->from to the state (q, v) at t. */
 typedef struct stretch {
   double t;
   const double *q;
@@ -97,7 +96,7 @@ static double product(int n, const double *x, const double *y)
   return sum;
 }
 
-/* lambda of the equations that are integrated, in the workspace; that of (5) aside. */
+/* Solve for lambda of the integrated equations, in the workspace, and for that of (5) beside it. */
 static baum_status solve(baum_i_account *account, const baum_i_state *at)
 {
   baum_workspace *w = account->workspace;
@@ -126,8 +125,8 @@ static baum_status power_at(baum_i_account *account, const baum_i_state *at,
 
 /* ---- states inside a step ---- */
 
-/* Of degree 5 in q and of degree 3 in v, by values and rates at the ends; x of 0 to 1. */
-static void put_hermite(baum_i_account *account, const stretch *s, double x)
+/* Polynomials of degree 5 in q and 3 in v through values and rates at both ends; x from 0 to 1. */
+static void find_by_hermite(baum_i_account *account, const stretch *s, double x)
 {
   const baum_mechanism *m = account->workspace->mechanism;
   ptrdiff_t nq = m->nq;
@@ -159,7 +158,7 @@ static void put_hermite(baum_i_account *account, const stretch *s, double x)
   }
 }
 
-/* The state at a share x of a stretch, into account->node. */
+/* Find the state at a share x of a stretch, in account->node. */
 static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 {
   baum_i_account *account = run->account;
@@ -167,7 +166,7 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
   const baum_integrator *method = run->integrator;
   double h = x * (s->t - account->from.t);
   if (s->to_a) {
-    put_hermite(account, s, x);
+    find_by_hermite(account, s, x);
     node->t = account->from.t + h;
     return BAUM_OK;
   }
@@ -183,7 +182,7 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Adds factor times the potentials that are not in the powers. */
+/* Add factor times the potentials that the powers do not contain. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {
@@ -216,7 +215,7 @@ static baum_status integrate_powers(baum_simulation *run, const stretch *s,
   return add_potentials(account, 1.0, s->t, s->q, s->v, works);
 }
 
-/* The energy that a projection from one state to another has brought. */
+/* Add the energy that a projection from one state to another has brought. */
 static baum_status add_projection(baum_i_account *account, double t, const double *from,
                                   const double *q, const double *v, double works[BAUM_I_WORKS])
 {
@@ -229,7 +228,7 @@ static baum_status add_projection(baum_i_account *account, double t, const doubl
   return BAUM_OK;
 }
 
-/* Where IDA began, which may be off the state it was given. */
+/* Move to where IDA started, which may be off the given state. */
 static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
@@ -243,7 +242,7 @@ static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
   return BAUM_OK;
 }
 
-/* Did the projection to a state move far beyond the errors that the method allows itself? */
+/* Did the projection to a state move it far beyond the tolerated errors? */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -259,7 +258,7 @@ static bool moved_far(const baum_simulation *run, const baum_i_state *state)
   return far;
 }
 
-/* How states inside a stretch are found. */
+/* Choose how states inside a stretch are found. */
 static baum_status choose_nodes(baum_simulation *run, stretch *s)
 {
   baum_i_account *account = run->account;
@@ -283,7 +282,7 @@ static baum_status choose_nodes(baum_simulation *run, stretch *s)
   return status;
 }
 
-/* From account->from to a state, projected if the formulation says so. */
+/* Add the works from account->from to a state, projected if the formulation includes it. */
 static baum_status work_to(baum_simulation *run, const baum_i_state *state,
                            double works[BAUM_I_WORKS])
 {
@@ -368,7 +367,7 @@ void baum_i_account_accept(baum_simulation *run)
   memset(run->account->last, 0, sizeof run->account->last);
 }
 
-/* A state inside the last step before its projection. */
+/* Find a state inside the last step before its projection. */
 static baum_status find_unprojected(baum_simulation *run, double t)
 {
   baum_i_account *account = run->account;
@@ -382,8 +381,8 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* A sample of a fixed step is its trial state, whose step does not count; one of a variable step
- * may be inside the last step, to be integrated up to there. */
+/* A sample of a fixed-step method is its trial state, whose step does not count. One of a
+ * variable-step method may be inside the last step and needs integration up to there. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
@@ -423,7 +422,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
 
 /* ---- life ---- */
 
-/* Enough for the order of the method. */
+/* Nodes that suffice for the order of the method. */
 static int node_count(const baum_simulation *run)
 {
   int order = run->integrator->order;
@@ -449,7 +448,7 @@ static baum_status make_memory(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Where projections may move far. */
+/* A second stepper is needed where projections may move far. */
 static baum_status make_stepper(baum_simulation *run)
 {
   const baum_integrator *method = run->integrator;
@@ -466,8 +465,8 @@ baum_status baum_i_account_create(baum_simulation *run)
 {
   if (run->integrator->without_freedom) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "simulation options: energy_account is true, but %s integrates nothing "
-                       "over which powers could be summed",
+                       "simulation options: energy_account is true, but %s does not integrate "
+                       "the motion, so powers cannot be summed",
                        run->integrator->name);
   }
   run->account = baum_i_alloc(1, sizeof *run->account);

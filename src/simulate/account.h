@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account of a run: works by class, beside the motion and with equations of its own. */
+/* The energy account of a run: works by class. It runs beside the motion with equations of its
+ * own. */
 #ifndef BAUM_I_SIMULATE_ACCOUNT_H
 #define BAUM_I_SIMULATE_ACCOUNT_H
 
 #include "simulate/run.h"
 
-/* Works; those up to BAUM_I_POWERS are of the powers of mechanism.h. */
+/* Works; the first BAUM_I_POWERS belong to the powers of mechanism.h. */
 enum {
   BAUM_I_WORK_DRIVERS = BAUM_I_POWERS,
   BAUM_I_WORK_VIOLATION,
@@ -16,28 +17,28 @@ enum {
 
 enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 }; /* kinetic, potential, works, residual */
 
-/* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY,
- * BAUM_ERR_UNSUPPORTED. */
+/* Create the account of a run whose problem is chosen, at its trial state. BAUM_OK,
+ * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_account_create(baum_simulation *run);
-/* Of a run of that method; NULL is fine for the account. */
+/* The account may be NULL. */
 void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account);
 
-/* What follows is called where run->account is not NULL. */
+/* The following functions need run->account. */
 
-/* restart at the present state: without works, or with those that were read last. */
+/* Restart at the present state: without works, or with those that were read last. */
 void baum_i_account_begin(baum_simulation *run);
 void baum_i_account_go_on(baum_simulation *run);
 
-/* Works of the step to the trial state, after its projection. What cannot be evaluated is warned
- * of, and ends the account. */
+/* Add the works of the step to the trial state, after its projection. If they cannot be evaluated,
+ * the run warns and the account ends. */
 void baum_i_account_step(baum_simulation *run);
-/* That step counts; fixed step. With a variable one every step counts, when the next begins. */
+/* Accept that step; fixed step. A variable step always counts, once the next begins. */
 void baum_i_account_accept(baum_simulation *run);
 
-/* Works up to the present state or to a sample, for go_on() or the columns. */
+/* Read the works up to the present state or a sample, for go_on() or the columns. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state);
 
-/* Choose pivots again, and what is saved of it. */
+/* Forget pivots; list what is saved. */
 void baum_i_account_forget(baum_i_account *account);
 void baum_i_account_saved(baum_i_account *account, baum_i_saved *list);
 

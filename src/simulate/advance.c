@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loop of a run.
  *
- * Fixed step: times are origin + k h. A step is made on the trial state, projected there if the
- * formulation says so, checked, and only then becomes the present state. A sample off the grid is
- * such a trial that is not kept.
- * Variable step: the method runs ahead by whole steps of its own; what is reported is interpolated
- * inside the last, and this copy is projected if the formulation says so.
- */
+ * Fixed step: times are origin + k h. A step is tried on the trial state, projected there if the
+ * formulation includes it, and checked; only then does it become the present state. A sample off
+ * the grid is a trial that is not kept.
+ *
+ * Variable step: the method runs ahead by whole steps of its own. Reported states are interpolated
+ * inside the last step, and these copies are projected if the formulation includes it. */
 #include <math.h>
 
 #include "mechanism/definition.h"
@@ -40,7 +40,7 @@ static double grid_time(const baum_simulation *run, int64_t k)
   return run->grid.origin + (double)k * run->options.step;
 }
 
-/* A step off the grid has been kept, and a new grid begins; past steps were of the old one. */
+/* Start a new grid after a step off the grid; the history of the method belongs to the old one. */
 static void leave_grid(baum_simulation *run)
 {
   run->counters.short_steps++;
@@ -48,8 +48,8 @@ static void leave_grid(baum_simulation *run)
   run->grid = (baum_i_grid){.origin = run->state.t};
 }
 
-/* The step to t_next that has just been tried, up to an event that stops the run: BAUM_STOP_EVENT,
- * and it is kept to there. */
+/* Search the step to t_next, which has just been tried, for events. BAUM_STOP_EVENT: the step is
+ * kept up to a terminal event. */
 static baum_status watch_step(baum_simulation *run, double t_next)
 {
   baum_status status = run->events ? baum_i_events_watch(run, t_next) : BAUM_OK;
@@ -76,16 +76,18 @@ static baum_status whole_step(baum_simulation *run, int direction)
 {
   double t_next = grid_time(run, run->grid.k + direction);
   if (t_next == run->state.t) {
-    return baum_i_fail(BAUM_ERR_STEP,
-                       "t = %.17g s: the step of %g s is lost in the rounding of the time",
-                       run->state.t, run->options.step);
+    return baum_i_fail(
+      BAUM_ERR_STEP,
+      "t = %.17g s: the step of %g s is smaller than the rounding of the time; take a "
+      "larger step",
+      run->state.t, run->options.step);
   }
   baum_status status = kept_step(run, t_next);
   run->grid.k += status == BAUM_OK ? direction : 0;
   return status;
 }
 
-/* To a break and over it. */
+/* Step to a break and pass it. */
 static baum_status break_step(baum_simulation *run, baum_i_break next, double on_grid)
 {
   BAUM_I_TRY(baum_i_run_is_at(run, next) ? BAUM_OK : kept_step(run, next.near));
@@ -93,7 +95,7 @@ static baum_status break_step(baum_simulation *run, baum_i_break next, double on
   return baum_i_run_pass(run, next);
 }
 
-/* The next step on the grid or to a break. */
+/* Take the next step on the grid or to a break. */
 static baum_status next_fixed(baum_simulation *run, int direction)
 {
   baum_i_break next = baum_i_run_next_break(run);
@@ -102,7 +104,7 @@ static baum_status next_fixed(baum_simulation *run, int direction)
   return breaks ? break_step(run, next, t) : whole_step(run, direction);
 }
 
-/* Where next_fixed() leads to. */
+/* The time that next_fixed() leads to. */
 static double next_time(const baum_simulation *run, int direction)
 {
   double t = grid_time(run, run->grid.k + direction);
@@ -110,8 +112,8 @@ static double next_time(const baum_simulation *run, int direction)
   return direction * (t - far) >= -SAME_TIME * run->options.step ? far : t;
 }
 
-/* Whole steps as long as they do not pass t; then the present time is t (on the grid) or less than
- * a step before. */
+/* Take whole steps that do not pass t. Afterwards the present time is t, if that is on the grid, or
+ * less than a step before it. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
@@ -158,13 +160,13 @@ static baum_status internal_step(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* The end of the last internal step becomes the present state. */
+/* Make the end of the last internal step the present state. */
 static void catch_up(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->ahead, &run->state);
 }
 
-/* Look at the last step, as far as t or its end; the run stands where an event stops it. */
+/* Search the last step for events, up to t or its end. A terminal event sets the present state. */
 static baum_status watch_last(baum_simulation *run, double t)
 {
   bool passed = run->problem.direction * (run->ahead.t - t) > 0.0;
@@ -175,7 +177,7 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
-/* Over a break at the end of the last step, and over those that are too near to it for a step
+/* Pass a break at the end of the last step, and those that are too close to it for a step in
  * between. */
 static baum_status pass_breaks(baum_simulation *run)
 {
@@ -190,8 +192,8 @@ static baum_status pass_breaks(baum_simulation *run)
   return status;
 }
 
-/* One step more. Meanwhile the run stands where it begins: where it stays if that step, or a look
- * inside it, fails. */
+/* Take one more step. If the step or a search inside it fails, the run stays where the step
+ * began. */
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
   catch_up(run);
@@ -223,8 +225,8 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- what every call begins and ends with ---- */
 
-/* Point the run towards t. When a multistep method cannot restart from the present state, it has
- * not turned. */
+/* Point the run towards t. If a multistep method cannot restart from the present state, the
+ * direction stays. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -249,7 +251,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
                                         : advance_variable(run, t, taken);
 }
 
-/* What a call begins with. */
+/* What a call keeps from its beginning. */
 typedef struct public_call {
   struct timespec start;
   baum_i_kept_message before;
@@ -264,7 +266,7 @@ static void begin_call(baum_simulation *run, public_call *c)
   baum_i_message_keep(&c->before);
 }
 
-/* Look at the state where the call ends, which no later step has looked at yet. */
+/* End a call: monitor its last state, which no step has evaluated yet. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
@@ -300,7 +302,7 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
   return finish_call(simulation, advance(simulation, t, &c.taken), &c);
 }
 
-/* Of the method's own length, from the end of the last one. */
+/* Take a step of the method's own length from the end of the last one. */
 static baum_status own_step(baum_simulation *run)
 {
   BAUM_I_TRY(pass_breaks(run));
@@ -354,11 +356,10 @@ static baum_status check_times(const baum_simulation *run, const double *times, 
   double last = run->state.t;
   for (int64_t k = 0; k < n; k++) {
     if (!isfinite(times[k]) || direction * (times[k] - last) < 0.0) {
-      return baum_i_fail(
-        BAUM_ERR_ARGUMENT,
-        "%s: times[%lld] is %.9g s after %.9g s; times must be finite and go one way "
-        "from the present time",
-        call, (long long)k, times[k], last);
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s: times[%lld] is %.9g s after %.9g s; times must be finite and "
+                         "monotonic from the present time",
+                         call, (long long)k, times[k], last);
     }
     last = times[k];
   }
@@ -378,8 +379,8 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   return check_times(run, times, n);
 }
 
-/* To a sample time: by whole steps, and from there to the side on the trial state,
- * which is where the sample is. */
+/* Advance to a sample time: by whole steps, and from there by a trial step, whose end is the
+ * sample. */
 static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken,
                                   const baum_i_state **at)
 {
@@ -405,7 +406,7 @@ static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t
   return beside ? advance_beside(run, t, taken, at) : advance(run, t, taken);
 }
 
-/* As many rows as `done` tells. */
+/* Fill rows; *done counts them. */
 static baum_status sample_all(baum_simulation *run, const double *times, int64_t n,
                               const baum_channel *channels, int count, double *rows, int64_t *done,
                               int64_t *taken)

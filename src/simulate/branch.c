@@ -1,43 +1,42 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which branch a motion is on behind a singular configuration.
+/* Decides which branch a motion has taken after a singular configuration.
  *
- * At such a configuration several branches of motion cross, each with a direction of its own; the
- * smooth motion is the one whose velocity goes on. Polynomials through positions and velocities of
- * the clear states before are taken to the first clear state behind, and what they say of v is
- * compared with v, in the scales of the coordinates:
+ * Several branches of motion cross at such a configuration, each with its own direction. The smooth
+ * motion is the one whose velocity is continuous. Polynomials through positions and velocities of
+ * the clear states before it are extrapolated to the first clear state after it, and their velocity
+ * is compared with v, in the scales of the coordinates:
  *
  *   jump   max |v_i - p_i'| / s_i  over  max |v_i| / s_i
  *   error  likewise the difference of two polynomials of degrees 2 m - 1 and 2 m - 3; m is chosen
- *   for the least one
+ *          for the least one
  *
- * Whether branches cross at all depends on the mechanism: where it only comes close, the motion
- * turns round sharply and a step that jumps over the turn goes on smoothly and wrongly. There no
- * pose on the way is both singular and assembled. So the constraints are looked at where the motion
- * has its least pivot: a violation that neither the run nor the polynomial accounts for is such a
- * gap. Steps that go round the turn in small pieces are right.
- */
+ * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
+ * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. No
+ * configuration in between is then both singular and assembled. So the constraints are evaluated
+ * where the motion has its least pivot: a violation that neither the run nor the polynomial
+ * explains shows such a gap. Steps that resolve the turn are right. */
 #include <math.h>
 #include <string.h>
 
 #include "base/least.h"
 #include "simulate/crossing.h"
 
-/* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began
- * at 0.9. Polynomials over the longest steps are off by 0.06. */
+/* Directions of branches differ by the size of the velocity: runs that left their branch had jumps
+ * from 0.9 on. Polynomials over the longest steps are off by 0.06. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
-/* Smaller ones are of steps with poor accelerations, if they are so many times their error: in 2688
- * right runs none was. */
+/* Smaller jumps come from steps with poor accelerations if they exceed their error this many times;
+ * none of 2688 right runs did. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* Larger ones are kicks from fewer times their error on: the next crossing is mostly lost. The
- * error follows the steps, and with them the tolerance; of right runs it is too small by more than
+/* Larger jumps count from fewer times their error on, because the next crossing is mostly lost. The
+ * error follows the steps, and with them the tolerance; in right runs it is too small by more than
  * ten. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
 static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
 static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
-/* A violation opens a gap whose least pivot is some five times as large, by an example. */
+/* A violation opens a gap whose least pivot is about five times as large in an example. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 static const double GAP =
@@ -53,20 +52,7 @@ static void follow(const baum_simulation *run, const baum_i_knot *knots, int cou
   baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
 }
 
-/* Of the usual one, at t of the motion through knots. */
-static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
-                       int *joint)
-{
-  baum_i_crossings *p = run->crossings;
-  *joint = -1;
-  follow(run, knots, count, t, &p->at);
-  if (baum_i_find_pivot(run->workspace, t, p->at.q, p->at.v) != BAUM_OK) {
-    return run->workspace->point.retry ? (double)INFINITY : 0.0;
-  }
-  return baum_i_smallest_pivot(run->workspace, joint) / p->usual;
-}
-
-/* The motion that is looked at, and the joint of its least pivot so far. */
+/* The motion that is searched, and the joint of its least pivot so far. */
 typedef struct look {
   baum_simulation *run;
   const baum_i_knot *knots;
@@ -75,11 +61,20 @@ typedef struct look {
   int joint;
 } look;
 
-static double look_at(void *user, double t)
+/* Pivot at t of the motion, relative to the usual one. */
+static double pivot_at(void *user, double t)
 {
   look *in = user;
+  baum_workspace *w = in->run->workspace;
+  baum_i_crossings *p = in->run->crossings;
   int joint = -1;
-  double pivot = pivot_at(in->run, in->knots, in->count, t, &joint);
+  double pivot = 0.0;
+  follow(in->run, in->knots, in->count, t, &p->at);
+  if (baum_i_find_pivot(w, t, p->at.q, p->at.v) == BAUM_OK) {
+    pivot = baum_i_smallest_pivot(w, &joint) / p->usual;
+  } else {
+    pivot = w->point.retry ? (double)INFINITY : 0.0;
+  }
   if (pivot < in->least) {
     in->least = pivot;
     in->joint = joint;
@@ -87,7 +82,7 @@ static double look_at(void *user, double t)
   return pivot;
 }
 
-/* When the time is known to a millionth of the span pivots are known to its square. */
+/* A time within a millionth of the span gives the pivot within its square. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {
@@ -95,14 +90,15 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
   double first = knots[0].t;
   double last = knots[count - 1].t;
   const double ends[2] = {fmin(first, last), fmax(first, last)};
-  double pivot = baum_i_least(look_at, &in, ends, 1e-6 * (ends[1] - ends[0]), 32, at);
+  double pivot = baum_i_least(pivot_at, &in, ends, 1e-6 * (ends[1] - ends[0]), 32, at);
   *joint = in.joint;
   return pivot;
 }
 
 /* ---- gap ---- */
 
-/* Largest violation as a displacement over the scales; INFINITY where it cannot be evaluated. */
+/* Largest violation as a displacement relative to the scales; INFINITY if it cannot be
+ * evaluated. */
 static double violation_at(baum_simulation *run, const baum_i_knot *at)
 {
   baum_workspace *w = run->workspace;
@@ -111,7 +107,7 @@ static double violation_at(baum_simulation *run, const baum_i_knot *at)
   return status == BAUM_OK ? baum_i_row_sizes(w, w->phi, &row) : (double)INFINITY;
 }
 
-/* Largest difference of two positions, over the scales. */
+/* Largest difference of two positions, relative to the scales. */
 static double apart(const baum_simulation *run, const double *q, const double *p)
 {
   baum_workspace *w = run->workspace;
@@ -119,7 +115,7 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
-/* A state of the run is singular as far as its violation allows, or it is not. */
+/* The pivot of a state of the run is that of a gap if its violation does not explain it. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -127,7 +123,7 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
-/* Between states: a violation that is not the run's own, nor the polynomial's. */
+/* Between states a violation shows a gap if neither the run nor the polynomial has it. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;
@@ -144,7 +140,7 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 }
 
 /* Branches that cross no longer do so where the constraints are violated: the motion of a run that
- * has drifted turns sharply from one to the other at a distance. */
+ * has drifted turns sharply from one to the other. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
   const baum_i_crossings *p = run->crossings;

@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks, of the mechanism and of scheduled inputs. At its time b a function has the value
- * that it has afterwards. So steps forward end a few roundings before b, where everything has its
- * value from before, and the next begins at b; backward in time they end at b and begin before it.
- * In between nothing moves. Methods that carry their past along restart there (restart.c).
- */
+/* Declared breaks of the mechanism and of scheduled inputs. At its time b a function already has
+ * the value that it has afterwards. A step forward in time therefore ends a few roundings before b,
+ * where all functions have their values from before, and the next one begins at b. Backward in time
+ * a step ends at b and the next begins before it. Nothing moves in between. Methods with a history
+ * restart there (restart.c). */
 
 #include <float.h>
 #include <math.h>
 
 #include "simulate/run.h"
 
-/* Of the largest time that the method reckons with: stages must not round to b. */
+/* Size of the gap, relative to the largest time that the method computes with: times of stages must
+ * not round to b. */
 static const double ROUNDINGS = 16.0;
 
-/* How far before a break at b its earlier side is. */
+/* Distance of the earlier side of a break from b. */
 static double gap(const baum_simulation *run, double b)
 {
   double largest = fmax(fmax(fabs(b), fabs(run->origin)), 1.0 / run->problem.rate);
   return ROUNDINGS * DBL_EPSILON * largest;
 }
 
-/* What stands at b, to rounding, is on its later side. */
+/* Is t on the later side of b? A time that equals b up to rounding is. */
 static bool is_later(const baum_simulation *run, double t, double b)
 {
   return b <= (run->problem.direction > 0.0 ? t : t + 0.5 * gap(run, b));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of a run, and the rate of the motion that the rule `auto` goes by. */
+/* Chooses the gains of a run, and the rate of the motion that the rule `auto` uses. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,12 +8,12 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: without gravity, which would tell
- * what is slow, nothing is known to move below it. */
+/* [1/s] sqrt(|a| / scale) of accelerations that are rounding errors. Without gravity, which defines
+ * what is slow, nothing below it counts as motion. */
 static const double ROUNDING_RATE = 1e-7;
 static const double AT_REST = 1e-3; /* of the rate at which gravity swings it */
 
-/* What gravity makes of a mechanism of this size that is free. */
+/* [1/s] Rate at which gravity swings a free mechanism of this size. */
 static double swing_rate(const baum_mechanism *m)
 {
   return sqrt(hypot(m->gravity[0], m->gravity[1]) / m->length);
@@ -26,8 +26,8 @@ double baum_i_rest_rate(const baum_mechanism *m)
   return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
 }
 
-/* At rest in an equilibrium the accelerations are rounding only: then gravity tells how fast the
- * mechanism would swing, and without it nothing does. */
+/* At rest in an equilibrium the accelerations are only rounding errors. Then gravity defines the
+ * rate; without gravity there is none. */
 double baum_i_run_start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -39,7 +39,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-/* The motion itself tells its rate, but for one that stands still or barely moves. */
+/* Measure the rate of the motion; one that is at rest or barely moves has that of gravity. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -95,7 +95,7 @@ static baum_status copy_row_gains(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* The worst of all rows is what the run is told by. */
+/* Keep the worst amplification of all rows for the run. */
 static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 {
   baum_i_gain_choice *all = &run->gains;
@@ -105,7 +105,7 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
-/* Says which row a refusal is about. */
+/* Name the row in a refusal. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   char label[BAUM_I_LABEL_SIZE];
@@ -113,7 +113,7 @@ static baum_status name_row(const baum_simulation *run, int row, baum_status sta
                      baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
 }
 
-/* Every factor that differs from that of the row before. */
+/* Judge every factor that differs from that of the row before. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
   double last = 1.0;

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A second integration of the motion beside a run.
  *
- * rk8 with projection takes one long step where methods with a fixed step, which are given no
- * tolerance, take many short ones. So it costs little to let it go along as soon as the error of
- * such a run may matter: when its local errors, summed, could become large in a motion that
- * amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it goes along from
- * the first singularity crossing on, which amplifies errors. It sets out some steps before, from a
- * state that was still good. Where the two stay apart by more than DOUBTFUL the run warns; short
- * peaks, as where a light rod flips a little too late, do not count.
+ * Fixed-step methods have no tolerance and take many short steps where rk8 with projection takes
+ * one long step. A companion that uses rk8 therefore costs little. It starts as soon as the error
+ * of such a run may matter: when the sum of its local errors could become large in a motion that
+ * amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it starts at the
+ * first singularity crossing, which amplifies errors. It starts some steps earlier, from a state
+ * that was still good. If run and companion stay apart by more than DOUBTFUL, the run warns. Short
+ * peaks do not count, for example where a light rod flips a little too late.
  *
- * With the option error_check it goes along from the start. Beside a variable step it is then the
- * same method at three hundredths of the tolerance: at a tenth both were wrong alike in one of 2000
- * mechanisms.
+ * With the option error_check the companion starts with the run. Beside a variable step it is then
+ * the same method at three hundredths of the tolerance: at a tenth, run and companion had the same
+ * wrong motion in one of 2000 mechanisms.
  *
- * It has a workspace of its own: none of its evaluations reaches the run's solver or counters.
- * Where it fails, or costs more than the run itself, as with stiff forces, it is given up, and the
- * error is not known. */
+ * The companion has a workspace of its own, so its evaluations do not touch the run's solver or
+ * counters. If it fails, or costs more than the run itself, as with stiff forces, it ends and the
+ * error is unknown. */
 #include "simulate/companion.h"
 
 #include <math.h>
@@ -28,27 +28,28 @@
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
 
-/* Errors relative to the scales: a right result is within 0.01, a wrong one off by 0.1, and this
- * lies between. */
+/* Errors relative to the scales: a right result is within 0.01, a wrong one is off by 0.1. This
+ * value lies in between. */
 static const double DOUBTFUL = 0.03;
-/* The two must stay apart for this share of 1/rate. */
+/* Share of 1/rate for which the two must stay apart. */
 static const double LASTING = 0.1;
-/* Aimed at by the step that is advised, for the error goes on growing after the warning. */
+/* Error that the recommended step aims at; it is small because the error keeps growing after the
+ * warning. */
 static const double FINE = 0.002;
-/* A sum of local errors that stays right when it grows by less than 1e3, and not wrong by less than
- * 1e4. */
+/* Sum of local errors: it stays negligible if it grows by less than 1e3, and does not become a
+ * wrong result below a growth of 1e4. */
 static const double NEGLIGIBLE = 1e-5;
-/* (angle of a step)^order from which on errors may matter before the first of them can be
+/* (angle of a step)^order above which errors may matter before the first of them can be
  * estimated. */
 static const double COARSE = 1e-3;
-/* Of rk8; at growth up to 1e3 its own error stays within that of a right result. */
+/* Tolerance of rk8: at growth up to 1e3 its own error stays within that of a right result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
 static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
-/* Evaluations of the companion per one of the run: an unasked check may not slow a run down by
- * much. Some are free, since short runs with long steps take few themselves. */
+/* Evaluations of the companion per evaluation of the run: a check that nobody asked for may not
+ * slow a run down much. Some are free, because short runs with long steps take few themselves. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
@@ -165,7 +166,7 @@ static void warn_of_error(baum_simulation *run, double t)
   run->companion->doing = run->options.error_check ? GOES_ALONG : ENDED;
 }
 
-static void compare(baum_simulation *run, const baum_i_state *state)
+static void compare_positions(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
   const baum_mechanism *m = run->workspace->mechanism;
@@ -180,8 +181,8 @@ static void compare(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-/* At the end of a call what is reported counts, however short it may last. */
-static void judge(baum_simulation *run, double t, bool ends)
+/* At the end of a call the reported state counts, however short the two have been apart. */
+static void warn_if_apart(baum_simulation *run, double t, bool ends)
 {
   const baum_i_companion *c = run->companion;
   bool lasts = fabs(t - c->apart) * run->problem.rate > LASTING;
@@ -192,8 +193,8 @@ static void judge(baum_simulation *run, double t, bool ends)
 
 /* ---- go along ---- */
 
-/* Its state where the run is, which is inside its last step. */
-static baum_status come_to(baum_simulation *run, double t)
+/* Find its state at the time of the run, which lies inside its last step. */
+static baum_status interpolate_at(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
   if (t == c->state.t) {
@@ -212,7 +213,7 @@ static bool is_too_costly(const baum_simulation *run)
   return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
-/* By steps until it is at t or past it. */
+/* Take steps until it has reached t. */
 static baum_status go_to(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
@@ -220,10 +221,10 @@ static baum_status go_to(baum_simulation *run, double t)
     BAUM_I_TRY(is_too_costly(run) ? BAUM_ERR_STEP
                                   : c->method->advance(c->self, &c->problem, &c->state));
   }
-  return come_to(run, t);
+  return interpolate_at(run, t);
 }
 
-/* Compare at a state of the run. What fails here says nothing of the run. */
+/* Compare at a state of the run. A failure here says nothing about the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
@@ -232,7 +233,7 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
   c->problem.stops = isfinite(c->problem.stop);
   bool reached = go_to(run, state->t) == BAUM_OK;
   if (reached) {
-    compare(run, state);
+    compare_positions(run, state);
   } else {
     c->doing = ENDED;
     run->counters.error_estimate = (double)NAN;
@@ -259,7 +260,7 @@ static void keep_present_twice(baum_simulation *run)
   run->companion->local.known = 0;
 }
 
-static void set_out(baum_simulation *run, const baum_i_state *from)
+static void start_companion(baum_simulation *run, const baum_i_state *from)
 {
   baum_i_companion *c = run->companion;
   c->doing = GOES_ALONG;
@@ -290,12 +291,12 @@ void baum_i_companion_begin(baum_simulation *run)
     c->doing = WAITS;
     run->counters.error_estimate = baum_i_run_has_fixed_step(run) ? 0.0 : (double)NAN;
     if (run->options.error_check || is_coarse(run)) {
-      set_out(run, &run->state);
+      start_companion(run, &run->state);
     }
   }
 }
 
-/* Is it time to set out? */
+/* Is it time to start? */
 static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
@@ -310,11 +311,11 @@ static bool may_matter(baum_simulation *run)
   return !(c->sum <= NEGLIGIBLE);
 }
 
-static void wait_or_set_out(baum_simulation *run, const baum_i_state *state)
+static void wait_or_start(baum_simulation *run, const baum_i_state *state)
 {
   bool is_clear = !run->crossings || !run->crossings->open;
   if (may_matter(run)) {
-    set_out(run, &run->companion->kept[0]);
+    start_companion(run, &run->companion->kept[0]);
   } else if (is_clear && run->counters.steps % STRIDE == 0) {
     keep_state(run, state);
   }
@@ -324,18 +325,18 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
   if (c && c->doing == WAITS) {
-    wait_or_set_out(run, state);
+    wait_or_start(run, state);
   }
   if (goes_along(run) && c->problem.direction * (state->t - c->state.t) >= 0.0 &&
       reach(run, state)) {
-    judge(run, state->t, false);
+    warn_if_apart(run, state->t, false);
   }
 }
 
 void baum_i_companion_end_call(baum_simulation *run)
 {
   if (goes_along(run) && reach(run, &run->state)) {
-    judge(run, run->state.t, true);
+    warn_if_apart(run, run->state.t, true);
   }
 }
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run that goes on where another one stands, of the same mechanism and with options of its
- * own. */
+/* A run that continues from the present state of another run of the same mechanism, with its own
+ * options. */
 #include "base/alloc.h"
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* Where a run stands, and what acts on it from outside. */
+/* The present state of a run, and what acts on it from outside. */
 typedef struct standing {
   double *q;          /* (nq) */
   double *v;          /* (nv) */
@@ -38,7 +38,7 @@ static void clear_standing(standing *s)
   baum_i_free(s->schedule.jumps);
 }
 
-/* The run gets what acts from outside, and gives its own. */
+/* Exchange inputs, parameters and schedule with those of the run. */
 static void exchange(baum_simulation *run, standing *s)
 {
   baum_workspace *w = run->workspace;
@@ -54,16 +54,6 @@ static void exchange(baum_simulation *run, standing *s)
   run->schedule = s->schedule;
   s->schedule = schedule;
   w->point.parameters = run->parameters ? run->parameters : w->mechanism->parameters;
-}
-
-/* A method that lets violations be may have left some, which this one may not take: then q and v
- * are changed by the least that does. */
-static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
-{
-  if (run->options.start != BAUM_START_AS_GIVEN) {
-    BAUM_I_TRY(baum_i_project(run->workspace, t, theirs->q, theirs->v));
-  }
-  return baum_simulation_set_state(run, t, theirs->q, theirs->v);
 }
 
 static baum_status check_both(const baum_simulation *run, const baum_simulation *from)
@@ -87,7 +77,14 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
-    status = take_over(simulation, from->state.t, &theirs);
+    /* The other method may have left a violation that this one does not accept. Projection removes
+     * it by the least change of q and v. */
+    if (simulation->options.start != BAUM_START_AS_GIVEN) {
+      status = baum_i_project(simulation->workspace, from->state.t, theirs.q, theirs.v);
+    }
+    if (status == BAUM_OK) {
+      status = baum_simulation_set_state(simulation, from->state.t, theirs.q, theirs.v);
+    }
     if (status != BAUM_OK) {
       exchange(simulation, &theirs);
     }

@@ -1,20 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Near-singular intervals of a run.
  *
- * Beside every accepted state stands the smallest pivot p of the equations there, of the largest p
- * of the run so far. Near a singular configuration p = (distance)^2 / (unit)^2, so that sqrt(p)
- * runs down to zero and up again in straight lines.
+ * Each accepted state has a pivot p: the smallest pivot of the equations there, relative to the
+ * largest one of the run so far. Near a singular configuration p = (distance)^2 / (unit)^2, so
+ * sqrt(p) falls to zero and rises again in straight lines.
  *
- *   p < NEAR            the run is inside; the last state before and the first one after are the
- *   ends of the interval sqrt(p) has a least value among three states, and its slopes would let it
- *   reach zero between them: the least p of
- *                       the motion through the three is looked for, for fixed steps may jump over a
- *                       singular configuration
- *   least p < SINGULAR  it has been a crossing, unless J keeps its rank there: it is recorded, its
- *   branch decided
- *                       (branch.c), and warned of; others are nothing but poses that are worse than
- *                       usual
- */
+ *   p < NEAR            the run is inside an interval; the last state before and the first after
+ *                       are its ends
+ *   minimum of sqrt(p)  among three states, with slopes that could reach zero between them: the
+ *                       least p of the motion through the three is searched, because fixed steps
+ *                       may jump over a singular configuration
+ *   least p < SINGULAR  the interval was a crossing, unless J keeps its rank there: it is recorded,
+ *                       its branch decided (branch.c), and the run warns; other intervals are only
+ *                       configurations with worse pivots than usual */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -24,11 +22,11 @@
 #include "base/sized.h"
 #include "mechanism/definition.h"
 
-/* Least pivot of a crossing: distances within a thirtieth of those of ordinary poses. */
+/* Least pivot of a crossing: distances within a thirtieth of those of ordinary configurations. */
 static const double SINGULAR = 1e-3;
 
-/* Clear states are so far from each other that rounding and tolerances do not blow up in
- * extrapolation [rad]. */
+/* [rad] Distance between clear states, so that rounding and tolerances are not amplified in
+ * extrapolation. */
 static const double SPACING = 0.1;
 
 /* ---- memory ---- */
@@ -86,7 +84,7 @@ static void set_knot(const baum_mechanism *m, double t, double pivot, const doub
   memcpy(to->v, v, (size_t)m->nv * sizeof *v);
 }
 
-/* A place for a new last one; when the list is full, that of the first. */
+/* Make place for a new last knot; if the list is full, in place of the first. */
 static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 {
   if (*count < most) {
@@ -144,7 +142,7 @@ static bool is_near(const baum_i_knot *state)
   return state->pivot < BAUM_I_NEAR_PIVOT;
 }
 
-/* Could sqrt(p) have been zero between the last three? */
+/* Could sqrt(p) have been zero between the last three states? */
 static bool may_have_jumped(const baum_i_crossings *p)
 {
   const baum_i_knot *k = p->recent;
@@ -159,7 +157,7 @@ static bool may_have_jumped(const baum_i_crossings *p)
   return s[1] <= 2.0 * fmax(falls, grows);
 }
 
-static void see_turn(baum_simulation *run)
+static void measure_turn(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   const baum_mechanism *m = run->workspace->mechanism;
@@ -180,21 +178,21 @@ static void open_crossing(baum_i_crossings *p, double from)
   p->present = (baum_i_crossing){.from = from, .joint = -1};
 }
 
-/* Small, or opened by the violation of the run. */
+/* Is a pivot that of a singular configuration, or of one that a violation has opened? */
 static bool is_singular(baum_simulation *run, double pivot)
 {
   return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
 }
 
-/* Whether the rows of J keep their rank where the pivot is small: redundant rows may hold where
- * those that are kept do not, and where a light body alone moves in the direction of a row the
- * pivot falls to the ratio of masses, but no further. */
+/* Do the rows of J keep their rank where the pivot is small? Omitted rows may hold where the active
+ * ones do not. And if a light body moves alone in the direction of a row, the pivot falls to the
+ * ratio of masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
-/* Where it is the least so far of those that are singular. */
+/* Record a pivot if it is the least of the singular ones so far. */
 static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
@@ -208,7 +206,7 @@ static bool is_lowest(baum_simulation *run, double t, const double *q, double pi
   return true;
 }
 
-/* Between the last three states. */
+/* Search the least pivot between the last three states. */
 static void search_least_pivot(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -222,8 +220,8 @@ static void search_least_pivot(baum_simulation *run)
   }
 }
 
-/* At the last state, which is near. */
-static void see_last(baum_simulation *run)
+/* Take the last state, which is near, as a candidate for the least pivot. */
+static void examine_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = baum_i_last_knot(p);
@@ -233,13 +231,13 @@ static void see_last(baum_simulation *run)
 }
 
 static const char *const BRANCHES[] = {
-  [BAUM_BRANCH_CONTINUED] = "the motion goes on smoothly behind it, which is right where branches "
-                            "cross, but not where they only come within rounding of each other",
+  [BAUM_BRANCH_CONTINUED] = "the motion continues smoothly; this is correct at a true bifurcation "
+                            "and wrong if two branches "
+                            "only pass close to each other",
   [BAUM_BRANCH_LEFT] =
-    "the motion behind it is on another branch; prefer projection, with rk8 or a "
-    "step that does not end there",
-  [BAUM_BRANCH_UNKNOWN] = "whether the motion behind it is on the same branch cannot be told; "
-                          "compare with projection and another step",
+    "the motion has left its branch; prefer projection, with rk8 or a step that does not end there",
+  [BAUM_BRANCH_UNKNOWN] = "whether the motion stays on its branch is unknown; compare with "
+                          "projection and another step",
 };
 
 static void record_crossing(baum_simulation *run, double to)
@@ -268,7 +266,7 @@ static void record_crossing(baum_simulation *run, double to)
   }
 }
 
-/* The violation may have opened it only since its pivot was the least. */
+/* Close a crossing. Only now is its violation known, which may have opened it. */
 static void close_crossing(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -279,21 +277,21 @@ static void close_crossing(baum_simulation *run)
   p->open = false;
 }
 
-static void look_inside(baum_simulation *run)
+static void examine_inside(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  see_turn(run);
+  measure_turn(run);
   if (may_have_jumped(p)) {
     search_least_pivot(run);
   }
   if (is_near(baum_i_last_knot(p))) {
-    see_last(run);
+    examine_last(run);
   } else {
     close_crossing(run);
   }
 }
 
-/* Has a crossing just been found between the last three states? */
+/* Was a singular configuration jumped over between the last three states? */
 static bool has_jumped(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -306,7 +304,7 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* A crossing has neither begun nor been jumped over. */
+/* Keep the last state but one as a clear one if no crossing has begun or been jumped over. */
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -316,24 +314,24 @@ static void keep_last_but_one(baum_simulation *run)
   }
 }
 
-static void look_outside(baum_simulation *run)
+static void examine_outside(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = baum_i_last_knot(p);
   if (has_jumped(run)) {
-    see_turn(run);
+    measure_turn(run);
     close_crossing(run);
     return;
   }
   keep_last_but_one(run);
   if (is_near(last)) {
     open_crossing(p, p->recent_count >= 2 ? last[-1].t : last->t);
-    see_turn(run);
-    see_last(run);
+    measure_turn(run);
+    examine_last(run);
   }
 }
 
-/* Most states have nothing to look for. */
+/* Most states need no examination. */
 void baum_i_crossings_look(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -348,9 +346,9 @@ void baum_i_crossings_look(baum_simulation *run)
   baum_i_probe probe;
   baum_i_probe_begin(&probe, run->workspace);
   if (p->open) {
-    look_inside(run);
+    examine_inside(run);
   } else {
-    look_outside(run);
+    examine_outside(run);
   }
   (void)baum_i_probe_end(&probe, BAUM_OK);
 }
@@ -368,8 +366,8 @@ void baum_i_crossings_end(baum_simulation *run)
 
 /* ---- steps of variable length ---- */
 
-/* [rad] by which a mechanism may move in a step before states inside it are looked at: near
- * singular configurations, and elsewhere, where a step may lead across one. */
+/* [rad] Motion in a step above which states inside it are examined: near singular configurations,
+ * and elsewhere if the step may lead across one. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
@@ -377,7 +375,7 @@ static const double PIVOT = 0.5;
 
 enum { INSIDE = 16 }; /* at most */
 
-/* Into how many pieces the step to `end` is to be cut. */
+/* Number of pieces into which the step to `end` is cut. */
 static int count_pieces(const baum_simulation *run, const baum_i_state *end, double pivot)
 {
   const baum_i_crossings *p = run->crossings;
@@ -393,8 +391,8 @@ static int count_pieces(const baum_simulation *run, const baum_i_state *end, dou
   return is_long ? (int)fmin(ceil(angle / SPACING), INSIDE) : 1;
 }
 
-/* A state inside the last step, as the method has it. */
-static void look_between(baum_simulation *run, double t)
+/* Examine a state inside the last step. */
+static void examine_between(baum_simulation *run, double t)
 {
   baum_i_crossings *p = run->crossings;
   baum_i_state between = {.t = t, .q = p->between.q, .v = p->between.v};
@@ -405,8 +403,7 @@ static void look_between(baum_simulation *run, double t)
   }
 }
 
-/* Everything here is about the motion as it was; what fails, fails again in the next step, where it
- * is told. */
+/* Failures here are not reported: they recur in the next step, which reports them. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
   baum_i_crossings *p = run->crossings;
@@ -423,7 +420,7 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
   int pieces = status == BAUM_OK ? count_pieces(run, end, pivot) : 1;
   double start = pieces > 1 ? baum_i_last_knot(p)->t : end->t;
   for (int k = 1; k < pieces; k++) {
-    look_between(run, start + (end->t - start) * k / pieces);
+    examine_between(run, start + (end->t - start) * k / pieces);
   }
   if (status == BAUM_OK) {
     note_state(run, end, pivot, joint);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crossings: what a run has come through close to singular configurations. It only watches;
- * singular_step.h steps. */
+/* Singularity crossings: how a run has passed near singular configurations. This part only
+ * monitors; singular_step.c takes steps. */
 #ifndef BAUM_I_SIMULATE_CROSSING_H
 #define BAUM_I_SIMULATE_CROSSING_H
 
@@ -12,22 +12,22 @@ enum {
   BAUM_I_RECENT = 3     /* states */
 };
 
-/* One under way, or just found between two steps. */
+/* A crossing that has begun, or has just been found between two steps. */
 typedef struct baum_i_crossing {
-  double from;         /* [s] last clear state before */
+  double from;         /* [s] last clear state before it */
   double largest_turn; /* [-] change of the velocity in a step, of its size */
   int32_t gap;         /* no singular configuration is on the way, as far as can be seen there */
   int32_t joint;       /* of the least pivot, -1: none */
 } baum_i_crossing;
 
 struct baum_i_crossings {
-  /* Numbers alone, saved up to `recent`. */
+  /* Plain numbers, saved up to `recent`. */
   double usual; /* largest pivot so far */
   baum_i_crossing present;
   int32_t recent_count;
   int32_t clear_count;
   int32_t open;
-  int32_t unseen;      /* the last recent state has not been looked at */
+  int32_t unseen;      /* the last recent state has not been examined */
   int32_t joint_noted; /* of its smallest pivot, where it is near; -1: none */
 
   baum_i_knot recent[BAUM_I_RECENT]; /* last states, the last one last */
@@ -49,42 +49,44 @@ static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossi
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is fine */
 
-/* From here on crossings may be NULL: nothing is done.
- * What comes next is not the motion that was before. */
+/* The following functions do nothing if crossings are NULL. Forget the states: what comes next is
+ * not the same motion. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
-/* A state of the run, at which the last solution was made. Evaluates nothing. */
+/* Note a state of the run, for which the last solution was made. Evaluates nothing. */
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
-/* Pivots to come are others, and compare with none before: what is under way ends. Not for NULL. */
+/* End a crossing under way, because the coming pivots cannot be compared with those before. Not for
+ * NULL. */
 void baum_i_crossings_end(baum_simulation *run);
 
-/* Look at the state that has been noted last; may evaluate. What functions of the user answer is
- * not told. */
+/* Examine the state that was noted last; may evaluate. Failures of user functions are not
+ * reported. */
 void baum_i_crossings_look(baum_simulation *run);
 
-/* A step of variable length that has just been taken. May evaluate; look at the end afterwards. */
+/* Note a variable step that has just been taken. May evaluate; call look() for its end
+ * afterwards. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
-/* branch.c: what has become of the motion, from the clear states before to the last recent one,
- * into *out. */
+/* branch.c: decide which branch the motion has taken, from the clear states before to the last
+ * recent one, into *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
-/* branch.c: least pivot, of the usual one, of the motion through `knots` from the first to the
- * last; time and joint of it. INFINITY where evaluations fail. */
+/* branch.c: least pivot, relative to the usual one, of the motion through `knots` from the first to
+ * the last, with its time and joint. INFINITY if evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint);
 
 /* branch.c: largest difference of two velocities (nv), over the scales. */
 double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, const double *w);
 
-/* branch.c: is there no singular configuration near the last recent state, or near the motion
- * through the recent ones at t, where its pivot is given? */
+/* branch.c: is there a gap, that is no singular configuration, near the last recent state, or near
+ * the motion through the recent ones at t, with the pivot given? */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 
-/* branch.c: could the violation of the last recent state have made such a least pivot of a singular
- * configuration? */
+/* branch.c: could the violation of the last recent state have made such a least pivot out of a
+ * singular configuration? */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot);
 
 #endif

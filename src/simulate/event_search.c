@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The search for events, one for all integrators: g(t) is the value of an event in the motion as
- * outputs see it, which is the interpolant of the last step, projected where the formulation says
- * so, or with fixed steps the end of a shorter step from the same start. docs/theory/events.md.
+/* The search for events, the same for all integrators. g(t) is the value of an event in the motion
+ * that outputs show: the interpolant of the last step, projected if the formulation includes it, or
+ * with fixed steps the end of a shorter step from the same start. docs/theory/events.md.
  *
- * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is looked at
- * cheaply, on the interpolant without projection or on the cubic of the two ends; where it shows
- * another side than known, g is asked. Each event has a side that it keeps from look to look, also
- * from step to step, where interpolants do not meet exactly: nothing is found twice or lost there.
+ * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is first
+ * checked cheaply, on the interpolant without projection or on the cubic of the two ends; g is
+ * evaluated only if that shows another sign. Each event keeps its side from check to check and from
+ * step to step, where interpolants do not meet exactly, so nothing is found twice or lost.
  *
- * Between two looks with different signs g is made zero by the secant with the weights of Dowell
- * and Jarratt (BIT 11,
- * 1971; "Illinois"), every third time by bisection, never nearer to an end than half of the
- * tolerance, until the two are a tolerance apart. The event is at the later one, where g has passed
- * zero.
- */
+ * Between two times with different signs the secant method finds the zero of g, with the weights of
+ * Dowell and Jarratt (BIT 11, 1971; "Illinois"), every third time by bisection, and never nearer to
+ * an end than half of the tolerance, until the two are a tolerance apart. The event is at the later
+ * time, where g has passed zero. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -28,7 +26,7 @@ enum { QUARTERS = 4, MOST_TRIES = 300 };
 static const double ROUNDINGS = 4.0;
 static const double SAME_TIME = 1e-12;
 
-/* A stretch without looks between. */
+/* A stretch that is not divided further. */
 typedef struct bracket {
   double a, b;   /* earlier and later time along the run */
   double fa, fb; /* of opposite signs */
@@ -52,8 +50,8 @@ static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out
   baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
-/* Shorter than this share of a step the cubic is the motion to rounding, and methods that divide by
- * the step are not asked. */
+/* For shares of a step below this the cubic equals the motion up to rounding; methods that divide
+ * by the step are not used. */
 static const double SHORTEST = 1e-9;
 
 static baum_status find_state_by_step(baum_simulation *run, double t)
@@ -69,7 +67,7 @@ static baum_status find_state_by_step(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* The state that outputs see at t, into the trial state. */
+/* Find the state that outputs show at t, in the trial state. */
 static baum_status find_state(baum_simulation *run, double t)
 {
   if (baum_i_run_has_fixed_step(run)) {
@@ -82,7 +80,7 @@ static baum_status find_state(baum_simulation *run, double t)
   return baum_i_run_inside(run, t);
 }
 
-/* About that state, at less cost, into events->look. */
+/* Approximate that state at less cost, in events->look. */
 static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
@@ -126,7 +124,7 @@ static double tolerance_of(const baum_i_event *event, double t)
   return event->def.tolerance > rounding ? event->def.tolerance : rounding;
 }
 
-/* The next time to look at. */
+/* Choose the next time to evaluate. */
 static double choose_time(const bracket *is, double tolerance, int try)
 {
   double width = is->b - is->a;
@@ -141,8 +139,8 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Take x as one of the ends, a when it is before the event. An end that stays is given half its
- * value, or it would stay for long (Illinois). */
+/* Replace one end by x: a if x is before the event. The other end gets half of its value if it
+ * stays repeatedly (Illinois). */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -218,7 +216,7 @@ static int first_found(const baum_simulation *run)
   return first;
 }
 
-/* The last time of those that cannot be told from the first. */
+/* The last of the times that cannot be distinguished from the first. */
 static double end_of_group(const baum_simulation *run, int first)
 {
   const baum_i_events *events = run->events;
@@ -235,7 +233,7 @@ static double end_of_group(const baum_simulation *run, int first)
   return end;
 }
 
-/* The events up to `end`, all at that time. Is one of them terminal? */
+/* Record the events up to `end`, all at that time. Returns a terminal one, or -1. */
 static int record_group(baum_simulation *run, double end)
 {
   baum_i_events *events = run->events;
@@ -274,7 +272,7 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
-/* In order of time, up to the first that is terminal. */
+/* Deliver events in order of time, up to the first terminal one. */
 static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
@@ -298,8 +296,8 @@ static bool any_has_passed(const baum_i_events *events, bool leaving)
   return any;
 }
 
-/* Every event that has passed at t, whose values are given; afterwards they are those at t
- * again. */
+/* Locate every event that has passed at t, where the values are known; afterwards they are those at
+ * t again. */
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
@@ -312,7 +310,7 @@ static baum_status locate_all(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Take the values at t. */
+/* Keep the values at t. */
 static void keep_values(baum_i_events *events, double t)
 {
   events->t = t;
@@ -324,7 +322,7 @@ static void keep_values(baum_i_events *events, double t)
   }
 }
 
-/* From events->t to t, without looks between. */
+/* Search from events->t to t. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a run: what they are, their values, where they begin, and what has happened.
- * The search is in event_search.c. */
+/* Events of a run: definitions, values, start and records. event_search.c searches. */
 #include "simulate/events.h"
 
 #include <assert.h>
@@ -93,7 +92,7 @@ void baum_i_events_destroy(baum_i_events *events)
   }
 }
 
-/* Room for one more, and its name; the list is as long as before. */
+/* Make room for one more event and copy its name. The count stays. */
 static baum_status make_room(baum_i_events *events, const baum_event_def *def)
 {
   assert(events);
@@ -157,7 +156,7 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 
 /* ---- where they begin ---- */
 
-/* Of 1/rate, for methods that go on from the very state they are given. */
+/* Share of 1/rate, for methods that start exactly from the state they are given. */
 static const double NO_TIME = 1e-10;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
@@ -168,7 +167,7 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-/* Look from the present state on, with the values there. */
+/* Search from the present state on, with the values there. */
 static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
@@ -187,8 +186,8 @@ void baum_i_events_begin(baum_simulation *run)
   take_values(run, true);
 }
 
-/* What has just happened may do so again at once only because a method begins a little beside the
- * state, or because the run turns back; that is leaving zero. */
+/* An event that has just happened may seem to recur at once, because a method starts a little
+ * beside the state or because the run reverses. That counts as leaving zero. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   take_values(run, false);

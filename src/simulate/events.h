@@ -10,7 +10,7 @@
 
 enum { BAUM_I_EVENT_RECORDS = 1024 };
 
-/* What is known of an event at the time up to which it has been looked at. */
+/* What is known of an event at the time up to which it has been searched. */
 typedef struct baum_i_event_mark {
   double value;
   double last;   /* [s] time of its last record, NaN: none */
@@ -21,21 +21,21 @@ typedef struct baum_i_event_mark {
 typedef struct baum_i_event {
   baum_event_def def; /* with a copy of its name */
   int joint;          /* of its coordinate, or -1 */
-  double next;        /* value at the state looked at */
+  double next;        /* value at the state evaluated last */
   double found;       /* time at which it passes zero in the stretch under way; NaN: does not */
 } baum_i_event;
 
 struct baum_i_events {
   /* Numbers alone, saved up to `list`. */
   int64_t recorded;
-  double t;     /* looked at up to here */
+  double t;     /* searched up to here */
   double begin; /* where fresh ones began */
   double from;  /* variable step: start of the last one */
 
   baum_i_event *list;       /* (count) */
   baum_i_event_mark *marks; /* (count) */
   int count;
-  double *memory;                                  /* of look */
+  double *memory;                                  /* memory of `look` */
   baum_i_state look;                               /* a state between */
   baum_event_record records[BAUM_I_EVENT_RECORDS]; /* the last ones, number k at k mod its size */
 };
@@ -44,20 +44,21 @@ void baum_i_events_destroy(baum_i_events *events);
 
 /* What follows is called where run->events is not NULL. */
 
-/* Values at a state, into next. BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+/* Evaluate all events at a state, into next. BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
-/* Begin at the present state, whose values have just been evaluated: a start, or a motion that goes
- * on another way. A start may be where the run stands already, with other velocities. */
+/* Start at the present state, whose values have just been evaluated: begin() for a start, which may
+ * be at the present place with other velocities, go_on() for a motion that continues in another
+ * way. */
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 
-/* Look at the motion up to time `to`. Fixed step: the trial state is the end of a step to there,
- * which is made again where it was needed otherwise. BAUM_OK; BAUM_STOP_EVENT, and the trial state
- * is at the event; or a failure. */
+/* Search the motion up to time `to`. Fixed step: the trial state is the end of a step to there,
+ * which is repeated if the trial state was needed for other times. BAUM_OK; BAUM_STOP_EVENT, and
+ * the trial state is at the event; or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
-/* Times nearer than this are one time: of leaving zero and the start. */
+/* [s] Times closer than this are one time: those of leaving zero and of the start. */
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
 
 static inline int32_t baum_i_sign(double x)

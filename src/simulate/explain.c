@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run is, in words. */
+/* Explains a run in text. */
 #include <math.h>
 
 #include "base/text.h"
@@ -17,7 +17,7 @@ static const char *const FORMULATIONS[] = {
   [BAUM_FORMULATION_INDEX3] = "Phi = 0 kept by the method itself",
 };
 
-static void say_mechanism(baum_simulation *run)
+static void explain_mechanism(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_row_set *r = &run->workspace->rows;
@@ -28,29 +28,30 @@ static void say_mechanism(baum_simulation *run)
       "%d\n",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank);
   if (r->count > 0) {
-    say(run, "              %d redundant %s left out of every solution\n", r->count,
+    say(run, "              %d redundant %s omitted from every solution\n", r->count,
         r->count == 1 ? "row" : "rows");
   }
   if (m->nv == rank) {
-    say(run, "              no freedom is left: the motion follows from the drivers alone%s\n",
+    say(run,
+        "              no degree of freedom is left: the motion follows from the drivers alone%s\n",
         run->integrator->without_freedom ? ""
                                          : "; kinematics gives it exactly, without integration");
   }
   say(run, "scale         %.6g m, and 1 rad\n", m->length);
 }
 
-static void say_factor(baum_simulation *run, const char *name, double value, double without)
+static void explain_factor(baum_simulation *run, const char *name, double value, double without)
 {
   if (value != without) {
     say(run, ", %s %.3g", name, value);
   }
 }
 
-static void say_integrator(baum_simulation *run)
+static void explain_integrator(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
   if (run->integrator->without_freedom) {
-    say(run, "integrator    %s: Phi(q, t) = 0 is solved to rounding at every time asked for\n",
+    say(run, "integrator    %s: Phi(q, t) = 0 is solved to rounding at every requested time\n",
         run->integrator->name);
     return;
   }
@@ -63,16 +64,16 @@ static void say_integrator(baum_simulation *run)
   if (!isnan(o->atol)) {
     say(run, ", atol %.3g", o->atol);
   }
-  say_factor(run, "tolerance_q", o->tolerance_q, 1.0);
-  say_factor(run, "tolerance_v", o->tolerance_v, 1.0);
-  say_factor(run, "tolerance_lambda", o->tolerance_lambda, (double)INFINITY);
+  explain_factor(run, "tolerance_q", o->tolerance_q, 1.0);
+  explain_factor(run, "tolerance_v", o->tolerance_v, 1.0);
+  explain_factor(run, "tolerance_lambda", o->tolerance_lambda, (double)INFINITY);
   say(run,
       "; positions relative to the scale, velocities to the scale times %.4g 1/s or the present "
       "velocity\n",
       run->problem.rate);
 }
 
-static void say_solver(baum_simulation *run)
+static void explain_solver(baum_simulation *run)
 {
   char text[BAUM_I_SOLVER_TEXT_SIZE];
   baum_i_solver_text(run->workspace, text);
@@ -89,12 +90,12 @@ static void say_solver(baum_simulation *run)
 void baum_i_run_explain(baum_simulation *run)
 {
   run->explain[0] = '\0';
-  say_mechanism(run);
+  explain_mechanism(run);
   if (!run->integrator->without_freedom) {
     say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
         FORMULATIONS[run->options.formulation]);
   }
-  say_integrator(run);
+  explain_integrator(run);
   if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {
     say(run, "gains         alpha %.6g 1/s, beta %.6g 1/s\n              %s\n", run->problem.alpha,
         run->problem.beta, run->gains.why);
@@ -102,7 +103,7 @@ void baum_i_run_explain(baum_simulation *run)
       say(run, "              times the factors of row_gains\n");
     }
   }
-  say_solver(run);
+  explain_solver(run);
   say(run, "start         t = %.9g s, largest displacement at assembly %.3g of the scale",
       run->state.t, run->counters.start_change);
 }

@@ -1,39 +1,39 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is added to the message of a step that failed: where the run stands, which joint and body to
- * look at first, and what may help. The message itself has time and step, from whoever failed.
+/* Completes the message of a failed step: where the run stands, which joint and body to look at
+ * first, and what may help. The message already has time and step, from whoever failed.
  *
- * At the last good step, by one solution of (5):
- *   the joint that is violated most, if that shows, else the one that bears the largest load
- *   the body that accelerates most
+ * At the last good step, one solution of (5) gives
  *
- * both relative to the scales.
- */
+ *   the joint with the largest constraint violation, if that is large, else with the largest load
+ *   the body with the largest acceleration
+ *
+ * both relative to the scales. */
 #include <math.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "simulate/run.h"
 
-/* A violation as a displacement that shows. */
+/* Violation, as a displacement, that is worth mentioning. */
 static const double VIOLATED = 1e-3;
 
 static const char *advice_for(baum_status status)
 {
   switch ((int)status) {
   case BAUM_ERR_SINGULAR:
-    return "a run with another step may pass a single configuration like this; no step passes a "
+    return "a run with another step may pass an isolated singular configuration; no step passes a "
            "dead end";
   case BAUM_ERR_CONVERGENCE: return "take a smaller step or tolerance";
-  case BAUM_ERR_STEP: return "look at what acts there, or take a larger rtol";
+  case BAUM_ERR_STEP: return "check what acts there, or take a larger rtol";
   case BAUM_ERR_NOT_FINITE:
-    return "look at functions and numbers there, or, where a run blows up, take a smaller step or "
-           "other gains";
-  case BAUM_ERR_INTEGRATOR: return "another integrator may get over it";
+    return "check functions and numbers there; if the motion grows without bound, take a smaller "
+           "step or other gains";
+  case BAUM_ERR_INTEGRATOR: return "try another integrator";
   default: return NULL;
   }
 }
 
-/* The largest of |x_i| / n_i, or of |x_i| n_i where n is a displacement. */
+/* Find the largest |x_i| / n_i, or |x_i| n_i if n is a displacement. */
 static int find_largest(const double *x, const double *n, int count, bool times, double *largest)
 {
   int row = -1;
@@ -48,7 +48,7 @@ static int find_largest(const double *x, const double *n, int count, bool times,
   return row;
 }
 
-static void say_joint(baum_workspace *w, char *text, size_t size)
+static void append_joint(baum_workspace *w, char *text, size_t size)
 {
   const baum_mechanism *m = w->mechanism;
   char label[BAUM_I_LABEL_SIZE];
@@ -66,7 +66,7 @@ static void say_joint(baum_workspace *w, char *text, size_t size)
   }
 }
 
-static void say_body(const baum_workspace *w, char *text, size_t size)
+static void append_body(const baum_workspace *w, char *text, size_t size)
 {
   const baum_mechanism *m = w->mechanism;
   char label[BAUM_I_LABEL_SIZE];
@@ -79,8 +79,8 @@ static void say_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Where not even that can be solved. */
-static void say_history(const baum_simulation *run, char *text, size_t size)
+/* Add what is known without a solution. */
+static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;
   char label[BAUM_I_LABEL_SIZE];
@@ -90,8 +90,8 @@ static void say_history(const baum_simulation *run, char *text, size_t size)
   }
 }
 
-/* The state where the run stands; what is evaluated for this message is not counted. */
-static void say_where(baum_simulation *run, const baum_i_state *at, char *text, size_t size)
+/* Add the state of the run. The evaluations for this message are not counted. */
+static void append_place(baum_simulation *run, const baum_i_state *at, char *text, size_t size)
 {
   baum_workspace *w = run->workspace;
   int64_t evaluations = w->evaluations;
@@ -101,10 +101,10 @@ static void say_where(baum_simulation *run, const baum_i_state *at, char *text, 
   }
   baum_i_append(text, size, "; at the last good step, t = %.9g s", at->t);
   if (status == BAUM_OK) {
-    say_joint(w, text, size);
-    say_body(w, text, size);
+    append_joint(w, text, size);
+    append_body(w, text, size);
   } else {
-    say_history(run, text, size);
+    append_history(run, text, size);
   }
   w->evaluations = evaluations;
 }
@@ -119,7 +119,7 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
   baum_i_probe probe;
   char text[BAUM_I_MESSAGE_SIZE / 2] = "";
   baum_i_probe_begin(&probe, run->workspace);
-  say_where(run, at, text, sizeof text);
+  append_place(run, at, text, sizeof text);
   return baum_i_fail(baum_i_probe_end(&probe, status), "%.500s%s; %s", probe.message.text, text,
                      help);
 }

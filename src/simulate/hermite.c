@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-/* What belongs to a knot at a time. */
+/* Factors of a knot at a time. */
 typedef struct factors {
   double q;
   double v;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polynomial through positions and velocities at some times. */
+/* Polynomial through the positions and velocities at several times. */
 #ifndef BAUM_I_SIMULATE_HERMITE_H
 #define BAUM_I_SIMULATE_HERMITE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run from outside: inputs and their schedules, and drivers with a law given by the
- * run. Both change the right side of the equations abruptly (restart.c). */
+/* What acts on a run from outside: inputs and their schedules, and drivers whose law the run sets.
+ * Both change the right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -45,7 +45,7 @@ double baum_simulation_input(const baum_simulation *simulation, baum_input_id in
 
 /* ---- a schedule of an input ---- */
 
-/* What an input is given: values from times on, and `before` the first. */
+/* Values that an input has from given times on, and its value before the first. */
 typedef struct given {
   int64_t input;
   const double *times;  /* (count) */
@@ -54,7 +54,7 @@ typedef struct given {
   double before;
 } given;
 
-/* Jumps of other inputs that are not after t, from the k-th on. Returns the next. */
+/* Append the jumps of other inputs up to and including t, from the k-th on. Returns the next. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {
@@ -67,7 +67,7 @@ static int append_others(const baum_i_schedule *old, int k, double t, int64_t in
   return k;
 }
 
-/* Both in order of time. A value that is the one before is no jump. */
+/* Merge the jumps in order of time. A value that equals the one before is no jump. */
 static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);
@@ -84,8 +84,7 @@ static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_sched
   (void)append_others(old, next, (double)INFINITY, g->input, out);
 }
 
-/* The run takes a list that is made, and restarts: the end of its last step may be behind a
- * jump. */
+/* Give the run its new list and restart it, because its last step may end after a jump. */
 static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *made, int64_t input)
 {
   double *present = &run->workspace->inputs[input];
@@ -101,14 +100,6 @@ static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *mad
     *present = before;
   }
   return status;
-}
-
-static baum_status replace_schedule(baum_simulation *run, const given *g)
-{
-  baum_i_schedule made = {.jumps = NULL};
-  BAUM_I_TRY(baum_i_schedule_reserve(&made, run->schedule.count + g->count));
-  merge_jumps(&run->schedule, g, &made);
-  return use_schedule(run, &made, g->input);
 }
 
 static const char *const CALL = "baum_simulation_schedule_input";
@@ -164,7 +155,13 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
   }
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
-  return baum_i_run_end_call(simulation, replace_schedule(simulation, &g), &kept);
+  baum_i_schedule made = {.jumps = NULL};
+  baum_status status = baum_i_schedule_reserve(&made, simulation->schedule.count + count);
+  if (status == BAUM_OK) {
+    merge_jumps(&simulation->schedule, &g, &made);
+    status = use_schedule(simulation, &made, index);
+  }
+  return baum_i_run_end_call(simulation, status, &kept);
 }
 
 /* ---- drivers ---- */

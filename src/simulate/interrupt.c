@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What may stop a run before its next step: the user, progress, too many steps, steps that lead
- * nowhere.
+/* What may stop a run before its next step: the user, progress(), too many steps, or steps that
+ * make no progress.
  *
- * A method that chooses its steps may get stuck with them, as BDF does next to a singular
- * configuration, or an explicit method with a stiff force. One that has taken 1e4 steps in a call
- * and at this pace would take more than 1e9, the default of max_steps, for the time 1/rate in which
- * the motion does anything at all, stops: it would not come to an end. Steps that high gains or
- * stiff forces ask for are far longer: those of 1e-6 of that time already cost 1e6 steps.
- */
+ * A method that chooses its steps may get stuck, like BDF next to a singular configuration or an
+ * explicit method with a stiff force. A run stops if it has taken 1e4 steps in a call and at this
+ * pace would need more than 1e9, the default of max_steps, for the time 1/rate of the motion: it
+ * would never end. High gains and stiff forces need far longer steps: those of 1e-6 of that time
+ * already cost 1e6 steps. */
 #include <math.h>
 
 #include "simulate/run.h"
@@ -64,7 +63,7 @@ static bool progress_cancels(baum_simulation *run)
   return answer != 0;
 }
 
-/* Over the last steps of this call, every so many of them. A fixed step is the user's own. */
+/* Judge the last steps of this call, once every PACE_STEPS. A fixed step is the user's choice. */
 static bool creeps(baum_simulation *run, int64_t taken)
 {
   if (baum_i_run_has_fixed_step(run) || taken % PACE_STEPS != 0) {
@@ -82,12 +81,10 @@ static baum_status fail_creeping(baum_simulation *run)
   const baum_i_state *now = &run->ahead;
   baum_status status = baum_i_fail(
     BAUM_ERR_STEP,
-    "t = %.9g s: %s creeps: %d steps have advanced by less than 1e-9 of the time of the motion "
-    "each; "
-    "forces may be stiff, which only cvode_bdf and ida are for, or the configuration singular, "
-    "where rk8 "
-    "goes "
-    "on",
+    "t = %.9g s: %s creeps: each of the last %d steps has advanced by less than 1e-9 of the time "
+    "of "
+    "the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
+    "configuration singular, which rk8 can pass",
     now->t, run->integrator->name, (int)PACE_STEPS);
   return baum_i_run_explain_failure(run, status, now);
 }

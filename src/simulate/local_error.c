@@ -37,7 +37,7 @@ BAUM_I_INLINE double error_of(double change, const double rates[3], const double
   return change - 0.5 * h * (rates[0] + rates[1] - rates[2]) - h * h / 12.0 * (bends[0] - bends[1]);
 }
 
-/* dq but for dv, as velocities, where q is no vector. */
+/* dq without the term of dv, as velocities, if q is no vector. */
 static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
                                           double h)
 {

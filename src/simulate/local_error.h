@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Local errors of steps of fixed length, from accelerations that the run has evaluated anyway. */
+/* Local errors of fixed steps, estimated from the accelerations that the run evaluates anyway. */
 #ifndef BAUM_I_SIMULATE_LOCAL_ERROR_H
 #define BAUM_I_SIMULATE_LOCAL_ERROR_H
 
@@ -16,13 +16,13 @@ typedef struct baum_i_local_error {
   int known;                       /* accelerations, at equal distances */
 } baum_i_local_error;
 
-/* Numbers that it needs, and where it puts them. */
+/* Count of the numbers that it needs, and where they are. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 
-/* At the present state of a run, where its last step has ended, and the acceleration there, in the
- * workspace: the estimated error of that step relative to the scales; 0 while too few accelerations
- * are known. known = 0: forget those before. */
+/* Estimate the error of the last step, relative to the scales, at its end: the present state, with
+ * its acceleration in the workspace. 0 as long as too few accelerations are known. known = 0
+ * forgets them. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run watches: violation and its joint, predicted violation, near-singular configurations,
+/* Monitors of a run: violation and its joint, predicted violation, near-singular configurations,
  * warnings, counters. */
 #include <math.h>
 #include <stddef.h>
@@ -41,10 +41,10 @@ static void observe_singular(baum_simulation *run, double t)
   run->near_singular_seen = w->near_singular;
 }
 
-/* Rows that were left out depend on the others only as long as the constraints agree with each
- * other and the motion stays on its branch. At a distance d from a configuration where the kept
- * rows alone are singular, the others may be off by 1/d of what the kept ones are off by, and next
- * to it by its root; more is a contradiction. */
+/* Omitted rows follow from the others only as long as the constraints agree with each other and the
+ * motion stays on its branch. At a distance d from a configuration where the active rows alone are
+ * singular, the omitted ones may be violated by 1/d of the violation of the active ones, and next
+ * to it by its root. More is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -77,11 +77,12 @@ static void observe_redundant(baum_simulation *run, double t)
   }
   if (left_out > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
-    baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
-                    "t = %.9g s: a row of %s that was left out as redundant is violated by %.3g, "
-                    "relative to the scales, the rows that were kept by %.1g: constraints "
-                    "contradict each other, or the motion has left its branch; do not trust it",
-                    t, baum_i_row_label(m, row, label), left_out, kept);
+    baum_i_run_warn(
+      run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
+      "t = %.9g s: an omitted redundant row of %s is violated by %.3g, relative to the "
+      "scales, the active rows by %.1g: constraints contradict each other, or the "
+      "motion has left its branch; do not trust it",
+      t, baum_i_row_label(m, row, label), left_out, kept);
   }
 }
 
@@ -94,10 +95,10 @@ static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;
 static const double TOLERANCES_KEPT = 1e3;
-/* Both Eulers may well have the steady violation that is predicted for their gains. */
+/* Both Euler methods may reach this multiple of the violation predicted for their gains. */
 static const double PREDICTED = 3.0;
 
-/* Largest violation as a displacement over the scales that raises no doubt. */
+/* Largest violation, as a displacement relative to the scales, that raises no doubt. */
 static double allowed_violation(const baum_simulation *run)
 {
   double rtol = run->problem.rtol;
@@ -112,8 +113,8 @@ static double allowed_violation(const baum_simulation *run)
   return fmin(LARGE, allowed);
 }
 
-/* Gains below this share of 1/h let the violation lag behind gamma,
- * and the steady formulas are off by more than a tenth. */
+/* With gains below this share of 1/h the violation lags behind gamma, and the steady formulas are
+ * off by more than a tenth. */
 static const double STEADY_GAIN = 0.1;
 
 /* Steady violation of both Eulers: |Phi'| = h |gamma| / 2, |Phi| = alpha h |gamma| / beta^2. */
@@ -130,7 +131,7 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
-/* Judged again only when the largest violation has doubled, for it costs a pass over J. */
+/* Repeated only when the largest violation has doubled, because it costs a pass over J. */
 static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
@@ -151,10 +152,12 @@ static void observe_large(baum_simulation *run, double t)
     double size = w->work_c[i];
     if (size > allowed && !(fabs(w->phi[i]) <= PREDICTED * c->predicted_phi)) {
       char label[BAUM_I_LABEL_SIZE];
-      baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
-                      "t = %.9g s: %s is violated by %.3g, relative to the scales: the run has "
-                      "drifted far or blows up; take other gains, a smaller step, or projection",
-                      t, baum_i_row_label(m, i, label), size);
+      baum_i_run_warn(
+        run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
+        "t = %.9g s: %s is violated by %.3g, relative to the scales: the motion "
+        "has drifted far or grows without bound; take other gains, a smaller step, or "
+        "projection",
+        t, baum_i_row_label(m, i, label), size);
       return;
     }
   }

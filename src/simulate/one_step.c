@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step tried, or one state inside the last step: both on the trial state, which is projected if
- * the formulation says so and checked. */
+/* Tries one step, or finds one state inside the last step. The result is the trial state, projected
+ * if the formulation includes it, and checked. */
 #include <math.h>
 #include <string.h>
 
@@ -13,8 +13,8 @@
 static baum_status fail_not_finite(const baum_simulation *run, const baum_i_state *state)
 {
   return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                     "t = %.9g s: the step to %.9g s gives values that are not finite; the run "
-                     "blows up: take a smaller step, or gains that are stable",
+                     "t = %.9g s: the step to %.9g s gives values that are not finite: the "
+                     "motion grows without bound; take a smaller step, or stable gains",
                      run->state.t, state->t);
 }
 
@@ -34,7 +34,7 @@ BAUM_I_INLINE baum_status check_finite(const baum_simulation *run, const baum_i_
   return BAUM_OK;
 }
 
-/* What a function of the user answers knows nothing of the run. */
+/* Add the time to the message of a callback, which does not know the run. */
 static baum_status explain(baum_simulation *run, baum_status status)
 {
   if (status == BAUM_ERR_CALLBACK) {
@@ -46,7 +46,7 @@ static baum_status explain(baum_simulation *run, baum_status status)
   return baum_i_run_explain_failure(run, status, &run->state);
 }
 
-/* From the present state, whose acceleration is known, to t_next. */
+/* Step from the present state, whose acceleration is known, to t_next. */
 static baum_status step_to(baum_simulation *run, double t_next)
 {
   const baum_i_state *state = &run->state;

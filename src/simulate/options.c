@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options of a run: defaults, and what is refused. */
+/* Defaults and checks of the options of a run. */
 #include "simulate/options.h"
 
 #include <math.h>
@@ -100,6 +100,13 @@ static const number NUMBERS[] = {
 };
 /* clang-format on */
 
+static baum_status check_range(const number *n, double x)
+{
+  bool above = x > n->least || (n->may_be_zero && x == 0.0);
+  bool below = x < n->most || (n->may_be_infinite && isinf(x));
+  return above && below ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+}
+
 static baum_status check_number(const number *n, stepping how, const baum_simulation_options *o)
 {
   double x;
@@ -116,9 +123,7 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
                        n->unit[0] ? " " : "", n->unit, name,
                        isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
   }
-  bool fine = (x > n->least || (n->may_be_zero && x == 0.0)) &&
-              (x < n->most || (n->may_be_infinite && isinf(x)));
-  return fine ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+  return check_range(n, x);
 }
 
 /* Methods of either kind proceed by what is given. */
@@ -157,7 +162,7 @@ static baum_status check_choices(const baum_simulation_options *o)
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }
 
-/* The pair of integrator and formulation. */
+/* Check that the integrator offers the formulation. */
 static baum_status check_pair(baum_simulation_options *o)
 {
   const baum_formulation *offered = o->integrator->formulations;
@@ -177,7 +182,7 @@ static baum_status check_pair(baum_simulation_options *o)
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                      "simulation options: %s does not offer the formulation %s; it offers %s%s%s",
                      o->integrator->name, name ? name : "of that number",
-                     list[0] ? list : "none, for no freedom is left", why ? "; " : "",
+                     list[0] ? list : "none, because no degree of freedom is left", why ? "; " : "",
                      why ? why : "");
 }
 
@@ -206,8 +211,8 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method
- * takes for their error does not fall with the step as it should. */
+/* At index 1 multipliers are as smooth as accelerations. In other forms the error estimate of an
+ * implicit method does not fall with the step as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {
@@ -227,7 +232,7 @@ static baum_status check_multipliers(const baum_simulation_options *o)
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: tolerance_lambda is %g, but with the formulation %s the "
-                     "error of multipliers cannot be tested, for its estimate grows as steps "
+                     "error of multipliers cannot be tested, because its estimate grows as steps "
                      "shrink; leave it infinite, or choose baumgarte or unstabilized",
                      o->tolerance_lambda, baum_formulation_name(o->formulation));
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one
- * solution of (5), which is made once per row and only when a channel asks for it.
- */
+/* Channels: the outputs of a run at a state. Accelerations, multipliers and reactions need one
+ * solution of (5), which is made once per row of output, and only if a channel needs it. */
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -15,7 +14,7 @@
 
 /* ---- quantities ---- */
 
-/* What the columns are of. */
+/* What the columns describe. */
 typedef enum object {
   OF_NOTHING,
   OF_Q,
@@ -27,7 +26,7 @@ typedef enum object {
   OF_JOINT
 } object;
 
-/* How much has to be evaluated, each with what is before it. */
+/* How much to evaluate; each level includes those before it. */
 typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
 
 typedef struct facts {
@@ -36,7 +35,7 @@ typedef struct facts {
   const char *word;
 } facts;
 
-/* By quantity; 0 is none. */
+/* By quantity; 0 is no quantity. */
 static const facts table[] = {
   [0] = {OF_NOTHING, DEPTH_FRAMES, "nothing"},
   [BAUM_Q] = {OF_Q, DEPTH_FRAMES, "positions"},
@@ -186,7 +185,7 @@ baum_channel baum_i_channel(const baum_channel *channels, int k)
   return channel;
 }
 
-/* The first one's size is the distance to the next. */
+/* The size of the first channel is the distance to the next. */
 static baum_status check_size(const baum_channel *channels, int k)
 {
   const size_t size = channels->struct_size;
@@ -275,8 +274,8 @@ static const double *vector_of(const baum_workspace *w, const baum_i_state *stat
   }
 }
 
-static int put_slice(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
-                     double *out)
+static int fill_slice(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                      double *out)
 {
   slice s = slice_of(w->mechanism, c);
   memcpy(out, vector_of(w, state, c->quantity) + s.first, (size_t)s.count * sizeof *out);
@@ -284,7 +283,7 @@ static int put_slice(const baum_workspace *w, const baum_i_state *state, const b
 }
 
 /* r'' = a + alpha p' - w^2 p (mechanism/planar/planar.h) */
-static void put_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
+static void fill_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
 {
   const double *p = marker->arm;
   double w2 = marker->w * marker->w;
@@ -294,8 +293,8 @@ static void put_acceleration(const baum_i_marker *marker, const double a[3], dou
 }
 
 /* r'' = a + A (w' x s + w x (w x s)) */
-static void put_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
-                                     const double a[6], double out[6])
+static void fill_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
+                                      const double a[6], double out[6])
 {
   double arm[3];
   double first[3];
@@ -311,12 +310,12 @@ static void put_spatial_acceleration(const baum_i_spatial_frame *frame, const do
   }
 }
 
-static int put_spatial_body(const baum_workspace *w, const baum_i_body *body, const baum_channel *c,
-                            double *out)
+static int fill_spatial_body(const baum_workspace *w, const baum_i_body *body,
+                             const baum_channel *c, double *out)
 {
   const baum_i_spatial_frame *frame = &w->point.spatial[body->element.index];
   if (c->quantity == BAUM_BODY_ACCELERATION) {
-    put_spatial_acceleration(frame, c->point, w->a + body->v, out);
+    fill_spatial_acceleration(frame, c->point, w->a + body->v, out);
     return 6;
   }
   bool pose = c->quantity == BAUM_BODY_POSE;
@@ -331,20 +330,20 @@ static int put_spatial_body(const baum_workspace *w, const baum_i_body *body, co
   return pose ? 7 : 6;
 }
 
-static int put_body(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
-                    double *out)
+static int fill_body(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                     double *out)
 {
   int index = baum_i_body_index(w->mechanism, c->body);
   const baum_i_body *body = w->mechanism->bodies[index];
   if (body->type->frame == BAUM_I_FRAME_SPATIAL_BODY) {
-    return put_spatial_body(w, body, c, out);
+    return fill_spatial_body(w, body, c, out);
   }
   if (body->type->frame != BAUM_I_FRAME_BODY) {
-    return put_slice(w, state, c, out);
+    return fill_slice(w, state, c, out);
   }
   baum_i_marker marker = baum_i_marker_at(&w->point, index, c->point);
   if (c->quantity == BAUM_BODY_ACCELERATION) {
-    put_acceleration(&marker, w->a + body->v, out);
+    fill_acceleration(&marker, w->a + body->v, out);
     return 3;
   }
   bool pose = c->quantity == BAUM_BODY_POSE;
@@ -354,7 +353,7 @@ static int put_body(const baum_workspace *w, const baum_i_state *state, const ba
   return 3;
 }
 
-static int put_joint(const baum_workspace *w, const baum_channel *c, double *out)
+static int fill_joint(const baum_workspace *w, const baum_channel *c, double *out)
 {
   int index = baum_i_joint_index(w->mechanism, c->joint);
   if (c->quantity == BAUM_JOINT_REACTION) {
@@ -373,15 +372,15 @@ static int put_joint(const baum_workspace *w, const baum_channel *c, double *out
   return 2;
 }
 
-static int put_channel(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
-                       double *out)
+static int fill_channel(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                        double *out)
 {
   switch (facts_of(c->quantity).of) {
   case OF_Q:
   case OF_V:
-  case OF_ROWS: return put_slice(w, state, c, out);
-  case OF_BODY: return put_body(w, state, c, out);
-  case OF_JOINT: return put_joint(w, c, out);
+  case OF_ROWS: return fill_slice(w, state, c, out);
+  case OF_BODY: return fill_body(w, state, c, out);
+  case OF_JOINT: return fill_joint(w, c, out);
   case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled afterwards, as energies are: */
   case OF_ENERGY:
   case OF_NOTHING:
@@ -389,8 +388,8 @@ static int put_channel(const baum_workspace *w, const baum_i_state *state, const
   }
 }
 
-/* Velocities of a point far out overflow, or reactions. Energies and the account are filled
- * afterwards. */
+/* Velocities of distant points overflow, and reactions may. Energies and the account are filled
+ * later. */
 static baum_status check_channel(const baum_channel *c, int k, const double *out, int width)
 {
   facts f = facts_of(c->quantity);
@@ -404,8 +403,8 @@ static baum_status check_channel(const baum_channel *c, int k, const double *out
   return BAUM_OK;
 }
 
-static baum_status put_energies(baum_simulation *run, const baum_i_state *state,
-                                const baum_channel *channels, int count, double *row)
+static baum_status fill_energies(baum_simulation *run, const baum_i_state *state,
+                                 const baum_channel *channels, int count, double *row)
 {
   baum_workspace *w = run->workspace;
   for (int k = 0; k < count; k++) {
@@ -428,11 +427,11 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
   BAUM_I_TRY(evaluate(w, state, channels, count));
   for (int k = 0; k < count; k++) {
     const baum_channel channel = baum_i_channel(channels, k);
-    int width = put_channel(w, state, &channel, place);
+    int width = fill_channel(w, state, &channel, place);
     BAUM_I_TRY(check_channel(&channel, k, place, width));
     place += width;
   }
-  return put_energies(run, state, channels, count, row);
+  return fill_energies(run, state, channels, count, row);
 }
 
 baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,

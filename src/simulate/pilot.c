@@ -38,7 +38,7 @@ typedef struct pilot {
   bool ready;    /* accelerations at y are in the workspace */
 } pilot;
 
-/* False where the motion cannot be followed. */
+/* Evaluate the accelerations; false if that fails. */
 static bool evaluate(pilot *p)
 {
   const baum_i_state *y = p->y;

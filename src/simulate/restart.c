@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run changes abruptly: an input, the law of a driver, the rows that are left out, a
+/* Restarts after an abrupt change: of an input, the law of a driver, the omitted rows, or a
  * function at a break.
  *
- * A fixed-step method begins every step from the state alone and takes the change as it is; a
- * variable-step method carries its past along and restarts from the present state, which may be
- * behind the end of its last step.
- */
+ * A fixed-step method starts every step from the state alone, so a change needs no restart. A
+ * variable-step method has a history and restarts from the present state, which may be before the
+ * end of its last step. */
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"

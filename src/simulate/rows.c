@@ -7,8 +7,8 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 
-/* Without memory the account and the companion go on with those before, which are no worse than
- * they were. */
+/* Pass the omitted rows on to the account and the companion. Without memory they keep the former
+ * ones, which still serve. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -18,9 +18,9 @@ static void tell_others(baum_simulation *run)
   }
 }
 
-/* Rows that were left out are off by more than those that were kept, the more the nearer these came
- * to dependent: from choice to choice a violation would grow by ten. One that was given stays all
- * the same. */
+/* Project the present state before other rows are omitted. The violation of the omitted rows
+ * exceeds that of the active ones, the more so the more ill-conditioned these are; without
+ * projection it would grow tenfold with each choice. A state that was given stays as it is. */
 static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
@@ -35,9 +35,9 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* KLU's pivots scatter, and those of QR, which weighs the constraints, fall next to a configuration
- * only. There rows are poor after a while, for all that is known; what looking at them costs is
- * little beside the work of these. */
+/* KLU's pivots scatter, and those of QR, which weighs the constraints, only fall next to a singular
+ * configuration. So the rows are checked after every 0.1 rad of motion, which costs little beside
+ * the work of these solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -49,10 +49,11 @@ static double guess_pivot(baum_simulation *run)
   return 0.0;
 }
 
-/* A method that keeps positions on the constraints may keep its history: the motion does not depend
- * on the choice of rows. Multipliers jump, but variable steps do not test their error. With GGL the
- * jump costs digits (three cranks at rtol 1e-10: 1.5e-7 in place of 1e-9), and with INDEX2 the
- * violation of positions would grow from choice to choice: these restart. */
+/* Does the method keep its history? It may if it keeps the positions on the constraints, because
+ * then the motion does not depend on the choice of rows. Multipliers jump, but variable steps do
+ * not test their error. GGL restarts because the jump costs digits (three cranks at rtol 1e-10:
+ * 1.5e-7 instead of 1e-9), and INDEX2 because the violation of positions would grow with each
+ * choice. */
 static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One run from the inside: present state, integrator, monitors, warnings. */
+/* The internals of a run: present state, integrator, monitors, warnings. */
 #ifndef BAUM_I_SIMULATE_RUN_H
 #define BAUM_I_SIMULATE_RUN_H
 
@@ -23,7 +23,7 @@ typedef struct baum_i_grid {
   int64_t k;
 } baum_i_grid;
 
-/* An input jumps at a time, see schedule.h. */
+/* An input jumps at a time; see schedule.c. */
 typedef struct baum_i_jump {
   double t; /* [s] */
   double before;
@@ -44,15 +44,15 @@ typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
-  /* How far it has come: numbers alone, saved up to `options`. */
+  /* Progress: plain numbers, saved up to `options`. */
   baum_i_grid grid;
-  double origin; /* [s] where the method restarted: its times may be counted from there */
+  double origin; /* [s] where the method restarted; it may count its times from there */
   double start_energy;
-  double largest_gamma;               /* over all rows and steps */
-  double rows_looked_at;              /* [s] redundant ones, with KLU and QR; see rows.c */
-  double judged_phi;                  /* max_phi when that was last looked at */
-  int64_t near_singular_seen;         /* workspace->near_singular at the last look */
-  int64_t announced[BAUM_I_WARNINGS]; /* how many of a warning a status has announced */
+  double largest_gamma;       /* over all rows and steps */
+  double rows_looked_at;      /* [s] last check of the redundant rows with KLU or QR; see rows.c */
+  double judged_phi;          /* max_phi at the last judgement */
+  int64_t near_singular_seen; /* workspace->near_singular at the last check */
+  int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that a status has announced */
   baum_counters counters;
 
   baum_simulation_options options;
@@ -62,11 +62,11 @@ struct baum_simulation {
   void *self; /* of the integrator; may be NULL for a fixed-step one */
 
   double *row_gains;       /* (nc) own copy of the option, or NULL */
-  baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
+  baum_i_account *account; /* energy account, see account.h; NULL: none */
   baum_workspace
     *beside[2]; /* of account and companion, which ask functions of the user too; NULL without */
-  baum_i_events *events;       /* see events.h; NULL: there are none */
-  baum_i_companion *companion; /* see companion.h; NULL: the error is not estimated */
+  baum_i_events *events;       /* see events.h; NULL: no events */
+  baum_i_companion *companion; /* see companion.h; NULL: no error estimate */
 
   baum_i_crossings *crossings; /* through singular configurations, see crossing.h; NULL: not looked
                                  for */
@@ -96,7 +96,7 @@ struct baum_simulation {
 
 /* ---- run.c ---- */
 
-/* Time, positions and velocities from one state to another. */
+/* Copy time, positions and velocities. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
@@ -114,109 +114,111 @@ static inline double baum_i_run_last_end(const baum_simulation *run)
  * laws of drivers. */
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
-/* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
+/* Create a workspace with the solver and the omitted rows of the run. BAUM_OK, BAUM_ERR_MEMORY. */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
 
 enum { BAUM_I_NO_JOINT = -1 };
 
-/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first
- * one keeps its text. */
+/* Warn at time t; joint is the one concerned, or BAUM_I_NO_JOINT. Later warnings of the same kind
+ * are only counted; the text of the first one stays. */
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...) BAUM_I_PRINTF(5, 6);
 
-/* Is it of a kind that doubts the motion? */
+/* Does a warning of this kind mean that the motion may be wrong? */
 bool baum_i_doubts_motion(baum_warning_code code);
 
 /* Does the run have a warning of this kind? */
 bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code);
 
-/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
+/* BAUM_OK, or BAUM_WARNED if there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
 
-/* Remember the message of a failure in the run and return its status. */
+/* Keep the message of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
-/* Of a call that reads from a run into a sized struct. BAUM_OK or BAUM_ERR_ARGUMENT. */
+/* Check the arguments of a call that fills a sized struct from a run. BAUM_OK or
+ * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
                                  const char *call);
 
-/* A call that may have tried what fails ends: it leaves the message of a failure, or the one from
- * before. */
+/* End a call: on success the thread has its message from before again, on failure the run keeps the
+ * message. */
 baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
                                 const baum_i_kept_message *before);
 
 /* ---- start.c ---- */
 
-/* Bring a state onto the constraints as the option `start` says, into trial;
- * the present state is untouched. */
+/* Bring a state onto the constraints as the option `start` says, into the trial state. The present
+ * state stays. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
-/* Of the trial state, when the rows to leave out are known: BAUM_ERR_INCONSISTENT, or a warning,
- * where ill-conditioned rows meet velocities that are far from what they ask for. */
+/* Check the velocities of the trial state once the omitted rows are known: BAUM_ERR_INCONSISTENT,
+ * or a warning, if ill-conditioned rows meet velocities that are far from what they ask for. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
-/* Energy of the trial state; leaves Phi and Phi' there in the workspace. */
+/* Find the energy of the trial state. Phi and Phi' there stay in the workspace. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, just measured, the present one: grid and energy restart. */
+/* Make the trial state, which has just been measured, the present one: grid and energy restart. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
 /* ---- choose_gains.c, pilot.c ---- */
 
-/* [1/s] Fastest angular rate of the trial state, whose accelerations are in the workspace; 0 where
- * nothing moves nor would under gravity. */
+/* [1/s] Fastest angular rate of the trial state, whose accelerations are in the workspace; 0 if
+ * nothing moves and gravity would not move it either. */
 double baum_i_run_start_rate(const baum_simulation *run);
 
-/* [1/s] Velocities below it are rounding. */
+/* [1/s] Rate below which velocities are rounding errors. */
 double baum_i_rest_rate(const baum_mechanism *m);
 
-/* Mean rate [1/s] over a short run from the trial state, whose accelerations are in the workspace.
- * It uses run->ahead and run->state, and leaves another state in the workspace. swing: [1/s] a rate
- * that steps are made for at least. */
+/* [1/s] Mean rate over a short pilot run from the trial state, whose accelerations are in the
+ * workspace. Overwrites run->ahead, run->state and the workspace. swing: [1/s] least rate for which
+ * steps are chosen. */
 double baum_i_run_pilot(baum_simulation *run, double swing);
 
-/* Gains, and what they ask of the step, into the problem. */
+/* Choose the gains, and the step limit that they need, for the problem. */
 baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Violation, gamma and near-singular configurations from the workspace's last velocity stage,
- * which was at time t. */
+/* Monitor the violation, gamma and near-singular configurations from the last velocity stage of the
+ * workspace, which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
-/* The violation of the present state is the user's own, and no reason to doubt the motion. */
+/* Accept the violation of the present state as the user's own: it is no reason to doubt the
+ * motion. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
-/* Relative error of derivatives that user constraints do not give; 0: they give all. */
+/* Relative error of the derivatives that user constraints do not provide; 0: they provide all. */
 double baum_i_difference_noise(const baum_mechanism *mechanism);
 
 /* Bring the counters of work up to date. */
 void baum_i_run_count(baum_simulation *run);
 
-/* Let the counters go on from what has been written into run->counters. */
+/* Continue counting from what has been written into run->counters. */
 void baum_i_run_count_from_here(baum_simulation *run);
 
 /* ---- restart.c ---- */
 
-/* What acts on the mechanism is about to change at the present state. */
+/* Prepare for a change of what acts on the mechanism, at the present state. */
 void baum_i_run_end_before_change(baum_simulation *run);
 
-/* The equations change at the present state: methods that carry their past along restart from it,
- * which may be behind the end of their last step. A method that fails here restarts at its next
- * step, and from the same state. */
+/* Restart after a change of the equations at the present state, which may be before the end of the
+ * last step. Methods with a history restart there. If a method fails to, it restarts at its next
+ * step, from the same state. */
 baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Before every step: cancelled, too many steps in this call, or steps that lead nowhere? A run that
- * stops here stands where its last step ended, which a variable-step method keeps ahead. */
+/* Check before every step: cancelled, too many steps in this call, or no progress? A run that stops
+ * here stands where its last step ended; a variable-step method keeps that state in `ahead`. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
-/* Before every sample, which may need no step: BAUM_OK, or BAUM_STOP_CANCELLED. */
+/* Check before every sample, which may need no step: BAUM_OK, or BAUM_STOP_CANCELLED. */
 baum_status baum_i_run_is_wanted(baum_simulation *run);
 
-/* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read
- * it. BAUM_ERR_ARGUMENT where the run is NULL. */
+/* Refuse calls from inside a callback of the run (BAUM_ERR_STATE) and a NULL run
+ * (BAUM_ERR_ARGUMENT). progress() may read the run. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
@@ -225,38 +227,38 @@ double baum_i_seconds_since(const struct timespec *then);
 
 /* ---- one_step.c ---- */
 
-/* Fixed step: a step to t_next from the present state, on the trial state. */
+/* Fixed step: try a step from the present state to t_next, on the trial state. */
 baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe);
 
-/* Variable step: one of the method's own length from `ahead`, on the trial state. */
+/* Variable step: try a step of the method's own length from `ahead`, on the trial state. */
 baum_status baum_i_run_try_own_step(baum_simulation *run);
 
-/* Variable step: the state inside the last step, projected if the formulation says so, into
- * trial. */
+/* Variable step: interpolate inside the last step into the trial state, projected if the
+ * formulation includes it. */
 baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK
- * or BAUM_ERR_MEMORY. */
+/* Give the run its own copy of the parameters, which belong to the mechanism otherwise. BAUM_OK or
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- schedule.c ---- */
 
-/* Time goes from one to another: inputs that jump between have the values of there. Goes back as
- * well. */
+/* Set inputs that jump between two times to their values at the second time, which may be
+ * earlier. */
 void baum_i_schedule_move(baum_simulation *run, double from, double to);
 
-/* The input has no schedule any more, and keeps its value. */
+/* End the schedule of an input, which keeps its value. */
 void baum_i_schedule_end(baum_simulation *run, int64_t input);
 
-/* Room for so many jumps. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Reserve room for `count` jumps. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
 
-/* Into an empty one. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Copy into an empty schedule. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
 
-/* Are these bytes, of any alignment, `count` jumps of a run with so many inputs? */
+/* Are these bytes, of any alignment, `count` valid jumps of a run with input_count inputs? */
 bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);
 
 /* ---- breaks.c ---- */
@@ -267,8 +269,8 @@ typedef struct baum_i_break {
   double far;  /* where the next begins */
 } baum_i_break;
 
-/* The next break on the way of the run from the end of its last step; both sides infinite when
- * there is none. */
+/* The next break after the last step, in the direction of the run; both sides are infinite if there
+ * is none. */
 baum_i_break baum_i_run_next_break(const baum_simulation *run);
 
 /* Does the last step end at its near side? */
@@ -280,39 +282,39 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 /* ---- rows.c ---- */
 
-/* At the present state, where the next step begins: leave out others where those that are kept have
- * become poor; then methods restart. Statuses of baum_i_run_restart(). Nothing for kinematics. */
+/* Check the omitted redundant rows at the present state, where the next step begins, and choose
+ * others if the active rows have become ill-conditioned; then methods restart. Statuses of
+ * baum_i_run_restart(). Does nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
-/* Likewise for a state that comes from outside of the motion, with which all restarts in any
- * case. */
+/* Choose the omitted rows for a state from outside of the motion, with which everything restarts in
+ * any case. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
-/* Leave out these (nc). Statuses of baum_i_omit_rows(); then all stays as it is. */
+/* Omit these rows (nc). Statuses of baum_i_omit_rows(); on failure nothing changes. */
 baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
 
 /* ---- singular_step.c ---- */
 
-/* A step begins whose acceleration is in run->acceleration: in a singular configuration its limit
- * takes that place. Uses the trial state. Statuses of an evaluation at the present state, which is
- * made again. */
+/* Replace run->acceleration at the start of a step by its limit if the configuration is singular.
+ * Uses the trial state. Statuses of an evaluation at the present state, which is repeated. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run);
 
-/* Project the trial state, the end of a step, onto the constraints at t; but so close to a singular
- * configuration that rounding would move it by more than the error of the step it stays. Statuses
- * of baum_i_project(). */
+/* Project the trial state, the end of a step, onto the constraints at t. The projection is skipped
+ * near a singularity, where rounding would exceed the error of the step. Statuses of
+ * baum_i_project(). */
 baum_status baum_i_run_project(baum_simulation *run, double t);
 
 /* ---- failure.c ---- */
 
-/* Add to the message of a step that failed which joint and body to look at, at the last good state,
- * and what may help. Returns the status. */
+/* Add to the message of a failed step which joint and body to look at, at the last good state, and
+ * what may help. Returns the status. */
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
                                        const baum_i_state *at);
 
 /* ---- output.c ---- */
 
-/* Check channels and find their width: BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT. */
+/* Check channels and find their total width: BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT. */
 baum_status baum_i_check_channels(const baum_mechanism *mechanism, const baum_channel *channels,
                                   int count, int *width);
 
@@ -323,7 +325,7 @@ baum_channel baum_i_channel(const baum_channel *channels, int k);
 void baum_i_append_channel(const baum_mechanism *mechanism, const baum_channel *channel, char *text,
                            size_t size);
 
-/* Channels at any state, without change to the run. The channels are checked. */
+/* Evaluate checked channels at any state. The run does not change. */
 baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
                           const baum_channel *channels, int count, double *row);
 

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run into memory and back.
+/* Saves a run into memory and restores it.
  *
- * A buffer is words of eight bytes as this machine has them:
+ * A buffer consists of words of eight bytes in the format of this machine:
  *
- *   "baumsave"       a number by which byte order and doubles are known      version
+ *   "baumsave"       a number that identifies byte order and doubles         version
  *   size in bytes    fingerprint of the mechanism (2)
  *   the parts of saved.h
  *   sum over all before (base/digest.h)
  *
- * Everything is checked before anything changes. What methods remember of steps, and pivots, are
- * not in it: saving makes the run forget them, as restoring does, so that both go on alike.
- */
+ * Everything is checked before anything changes. Integrator history and pivots are not saved;
+ * saving discards them just as restoring does, so both runs continue identically. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -64,13 +63,13 @@ static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "the sum over what the events are",
 };
 
-/* As many bits as a double holds. */
+/* A sum as an exact number: as many of its bits as a double holds. */
 static double number_of(const baum_i_digest *sum)
 {
   return (double)(sum->value >> 11);
 }
 
-/* But for functions and names. */
+/* Sum over the events without their functions and names. */
 static double sum_of_events(const baum_i_events *events)
 {
   baum_i_digest sum = {0};
@@ -107,7 +106,7 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
 
 /* ---- the list ---- */
 
-/* In the order of their names. */
+/* The parts with a name, in the order of the enum. */
 static void list_named(baum_simulation *run, baum_i_saved *list)
 {
   baum_workspace *w = run->workspace;
@@ -187,7 +186,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 
 /* ---- forget ---- */
 
-/* What no buffer holds. */
+/* Forget what no buffer holds. */
 static void forget_unsaved(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
@@ -200,7 +199,7 @@ static void forget_unsaved(baum_simulation *run)
   }
 }
 
-/* The state that is reported becomes the one from which the next step goes. */
+/* Make the reported state the one from which the next step starts. */
 static void restart_for_save(baum_simulation *run)
 {
   baum_i_run_end_before_change(run);
@@ -210,7 +209,7 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* Values here have been asked for before; should one fail now, what is known of them stays. */
+    /* The values here were evaluated before; should one fail now, the known ones stay. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
@@ -279,21 +278,21 @@ typedef struct reader {
 
 #define OTHER_OPTIONS "is of a run with other options: "
 
-/* Is it of this library, and whole? */
+/* Check that the buffer is complete and was written by this version. */
 static baum_status check_header(reader *r)
 {
   const header *h = &r->head;
   if (r->size < sizeof *h + WORD) {
-    return refuse("has %zu bytes, less than its head; it is cut off, or none of "
+    return refuse("has %zu bytes, less than a header; it is cut off, or was not written by "
                   "baum_simulation_save()",
                   r->size);
   }
   memcpy(&r->head, r->bytes, sizeof r->head);
   if (memcmp(h->magic, MAGIC, WORD) != 0) {
-    return refuse("is none of baum_simulation_save()");
+    return refuse("was not written by baum_simulation_save()");
   }
   if (h->number != NUMBER) { /* also where it is no number there */
-    return refuse("is of a machine with another order of bytes or other numbers, or "
+    return refuse("was written on a machine with another byte order or other numbers, or is "
                   "damaged");
   }
   if (h->version != BAUM_I_SAVED_VERSION) {
@@ -305,7 +304,7 @@ static baum_status check_header(reader *r)
     return refuse("has %zu bytes of %llu; it is cut off", r->size, (unsigned long long)h->size);
   }
   if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
-    return refuse("is damaged: it says that it has %llu bytes", (unsigned long long)h->size);
+    return refuse("is damaged: it claims to have %llu bytes", (unsigned long long)h->size);
   }
   return BAUM_OK;
 }
@@ -316,7 +315,7 @@ static baum_status check_sum(reader *r)
   baum_i_digest sum = {0};
   baum_i_digest_add(&sum, r->bytes, before);
   if (memcmp(&sum.value, r->bytes + before, WORD) != 0) {
-    return refuse("is damaged: its sum is not that of its bytes");
+    return refuse("is damaged: its checksum is wrong");
   }
   return BAUM_OK;
 }
@@ -330,8 +329,8 @@ static baum_status check_mechanism(const reader *r, const baum_simulation *run)
                   "differ");
   }
   if (there->numbers != here->numbers) {
-    return refuse("is of another mechanism: elements are the same, but not all masses, "
-                  "lengths or other numbers of theirs");
+    return refuse("is of another mechanism: the elements are the same, but masses, lengths or "
+                  "other parameters differ");
   }
   return BAUM_OK;
 }
@@ -344,12 +343,12 @@ static baum_status check_text(const char *name, const char *there, const char *h
   return refuse(OTHER_OPTIONS "the %s is %.31s there and %s here", name, there, here);
 }
 
-/* A number may not be given, as there. */
+/* NaN stands for a number that is not given and equals itself. */
 static baum_status check_identity(const reader *r, const baum_i_saved_identity *here)
 {
   baum_i_saved_identity there = {0};
   if (r->head.size < sizeof(header) + WORD + sizeof there + WORD) {
-    return BAUM_OK; /* which is found out next */
+    return BAUM_OK; /* which check_parts() finds */
   }
   memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
   BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));
@@ -364,7 +363,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   return BAUM_OK;
 }
 
-/* As many as here, or all taken for independent here. */
+/* As many rows must be omitted as here, unless all rows are independent here. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
@@ -376,10 +375,10 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
   }
   return sound && (count == here->count || here->count == 0)
            ? BAUM_OK
-           : refuse("does not fit: which rows are redundant is not as it may be here");
+           : refuse("does not fit: its set of omitted rows is impossible here");
 }
 
-/* A driver that has no other motion than its polynomial cannot be without it. */
+/* A driver without another law needs its polynomial. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
@@ -416,7 +415,7 @@ static baum_status check_counters(const reader *r)
   return sound ? BAUM_OK : refuse("is damaged: a counter is out of range");
 }
 
-/* What is used as an index. */
+/* Check what is used as an index. */
 static baum_status check_crossings(const reader *r, int joints)
 {
   const struct {
@@ -468,8 +467,7 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
 
 /* ---- put back ---- */
 
-/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more
- * than here. */
+/* Allocate what the buffer has and the run does not: its own parameters, and scheduled jumps. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {
@@ -501,7 +499,7 @@ static void put_inputs_back(baum_simulation *run, const reader *r)
   }
 }
 
-/* Ids of another process have other tags. */
+/* Give ids the tag of this process. */
 static void own_id(const baum_simulation *run, baum_joint_id *id)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -518,7 +516,7 @@ static void own_ids(baum_simulation *run)
   }
 }
 
-/* Whatever bytes they were. */
+/* Make entries valid, whatever bytes they were. */
 static void own_entries(baum_simulation *run)
 {
   for (int k = 0; run->events && k < run->events->count; k++) {

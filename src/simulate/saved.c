@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts as bytes: for each its number of entries, and these, filled up to whole words. */
+/* Writes parts as bytes: the number of entries of each, then the entries, padded to whole words. */
 #include "simulate/saved.h"
 
 #include <assert.h>
@@ -75,7 +75,7 @@ unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to)
   return to;
 }
 
-/* So far from their end that none is reached. */
+/* Are counters so far from overflow that no run reaches it? */
 static bool counters_are_sound(const unsigned char *at, int counters)
 {
   bool sound = true;

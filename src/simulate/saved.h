@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as a list of parts: plain structs and arrays, each where the run has it. save.c makes the
- * list and takes it back; BAUM_I_SAVED_VERSION is raised whenever a part, or its meaning, changes.
- * tests/unit/test_saved.c remembers which sizes each version had.
+/* A run as a list of parts: plain structs and arrays, each with its place in the run. save.c makes
+ * the list and restores it. BAUM_I_SAVED_VERSION rises whenever a part or its meaning changes;
+ * tests/unit/test_saved.c records the sizes of each version.
  *
- * Plain structs hold numbers alone; flags are int32_t, so that any bytes are some. Those that
- * belong to an object are its members up to the first that is not saved.
- */
+ * Plain structs hold numbers only, with flags as int32_t, so that any bytes are valid. The parts of
+ * an object are its members up to the first that is not saved. */
 #ifndef BAUM_I_SIMULATE_SAVED_H
 #define BAUM_I_SIMULATE_SAVED_H
 
@@ -15,7 +14,7 @@
 
 enum { BAUM_I_SAVED_VERSION = 10, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
-/* Parts that are dealt with by name, in this order; the others are put back as they are. */
+/* Parts that are read by name, in this order; the others are copied back as they are. */
 enum {
   BAUM_I_SAVED_IDENTITY,
   BAUM_I_SAVED_OMITTED,
@@ -27,7 +26,7 @@ enum {
 
 enum { BAUM_I_SAVED_FACTS = 19 };
 
-/* What must be here as it was there. */
+/* What must agree between the saved run and this one. */
 typedef struct baum_i_saved_identity {
   char integrator[BAUM_I_SAVED_TEXT];
   char formulation[BAUM_I_SAVED_TEXT];
@@ -37,10 +36,10 @@ typedef struct baum_i_saved_identity {
 typedef struct baum_i_saved_part {
   void *place;
   size_t unit;   /* bytes of an entry */
-  int64_t count; /* entries that are here, */
-  int64_t least; /* and that there may be */
+  int64_t count; /* entries in this run */
+  int64_t least; /* limits of the entries in a buffer */
   int64_t most;
-  int counters; /* numbers at the beginning, int64_t, that go on counting */
+  int counters; /* int64_t at the beginning that keep counting up */
 } baum_i_saved_part;
 
 struct baum_i_saved {
@@ -49,22 +48,22 @@ struct baum_i_saved {
   baum_i_saved_identity identity;
 };
 
-/* A plain struct, of which the first numbers are counters. */
+/* Add a plain struct whose first numbers are counters. */
 void baum_i_saved_add(baum_i_saved *list, void *place, size_t size, int counters);
 
-/* `count` of them, no more and no less. */
+/* Add exactly `count` of them. */
 void baum_i_saved_add_all(baum_i_saved *list, void *place, size_t unit, int count);
 void baum_i_saved_add_array(baum_i_saved *list, double *values, int count);
 void baum_i_saved_add_state(baum_i_saved *list, const baum_mechanism *m, baum_i_state *state);
 
-/* The first `count` of a list that has room for `most`, or all of these where there were more. */
+/* Add the first `count` of a list with room for `most`; all of these if there were more. */
 void baum_i_saved_add_some(baum_i_saved *list, void *place, size_t unit, int64_t count,
                            int64_t most);
 
-/* save.c: all of a run. */
+/* save.c: list all parts of a run. */
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);
 
-/* Bytes that the list takes at most; written, it ends where that returns. */
+/* Largest size of the list in bytes. Writing it returns the actual end. */
 size_t baum_i_saved_size(const baum_i_saved *list);
 unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to);
 
@@ -74,8 +73,8 @@ typedef struct baum_i_saved_places {
   int64_t count[BAUM_I_SAVED_PARTS];
 } baum_i_saved_places;
 
-/* NULL, or what is wrong with these bytes: they have to be the parts of the list and nothing
- * else. */
+/* Find the parts of the list in a buffer, which must hold nothing else. Returns NULL, or what is
+ * wrong. */
 const char *baum_i_saved_find(const baum_i_saved *list, const unsigned char *from, size_t size,
                               baum_i_saved_places *out);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Making and ending a run, and what can be read of it at any time. */
+/* Creates and destroys a run, and gives its present state. */
 #include <math.h>
 #include <string.h>
 
@@ -33,8 +33,8 @@ static baum_status make_states(baum_simulation *run)
 
 /* ---- equations ---- */
 
-/* The equations at the start: fastest rate, then gains.
- * A start that cannot be solved is refused here. */
+/* Find the equations at the start: the fastest rate, then the gains. A start that cannot be solved
+ * is refused here. */
 static baum_status choose_problem(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -79,14 +79,14 @@ static baum_status warn_redundancy(baum_simulation *run)
     BAUM_I_TRY(baum_i_redundancy_text(w, names, sizeof names));
     baum_i_run_warn(run, BAUM_WARNING_REDUNDANT_ROWS, start->t, BAUM_I_NO_JOINT,
                     "%d redundant constraint %s among %s: accelerations are right, multipliers and "
-                    "reactions of these joints are not unique and given with least norm",
+                    "reactions of these joints are not unique and have least norm",
                     r->count, r->count == 1 ? "row" : "rows", names);
   }
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
     baum_i_run_warn(
       run, BAUM_WARNING_SINGULAR_START, start->t, BAUM_I_NO_JOINT,
-      "the start configuration is singular, or all but singular: %d independent constraint "
-      "rows, %d nearby",
+      "the start configuration is singular, or nearly so: %d independent constraint rows, %d "
+      "nearby",
       r->rank_at_start, r->rank);
   }
   return BAUM_OK;
@@ -108,23 +108,24 @@ static void warn_settings(baum_simulation *run)
 {
   double noise = baum_i_difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
-    baum_i_run_warn(
-      run, BAUM_WARNING_NOISY_DERIVATIVES, run->trial.t, BAUM_I_NO_JOINT,
-      "rtol %.1g is below %.1g, about the error of derivatives by differences of user "
-      "constraints: give jacobian and gamma, or a larger rtol",
-      run->options.rtol, noise);
+    baum_i_run_warn(run, BAUM_WARNING_NOISY_DERIVATIVES, run->trial.t, BAUM_I_NO_JOINT,
+                    "rtol %.1g is below %.1g, about the error of the finite differences of user "
+                    "constraints; provide jacobian() and gamma(), or take a larger rtol",
+                    run->options.rtol, noise);
   }
   bool variable = !baum_i_run_has_fixed_step(run);
   if (run->options.formulation == BAUM_FORMULATION_INDEX3 && variable) {
-    baum_i_run_warn(run, BAUM_WARNING_INDEX3, run->trial.t, BAUM_I_NO_JOINT,
-                    "index 3 is for comparison: its velocities are outside of the error test and "
-                    "the motion error is far above rtol");
+    baum_i_run_warn(
+      run, BAUM_WARNING_INDEX3, run->trial.t, BAUM_I_NO_JOINT,
+      "index 3 is meant for comparison: its velocities are not in the error test, and "
+      "the error of the motion is far above rtol; take ggl");
   }
 }
 
 /* ---- create ---- */
 
-/* At the start configuration: which rows to omit, and whether blocks suit what is left. */
+/* Find the rows to omit at the start configuration, and whether the block solver suits the
+ * others. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
@@ -209,7 +210,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   return BAUM_OK;
 }
 
-/* A function of the user that it is calling wants its end; it may be half-built. */
+/* Is the run calling a function of the user? It may be half-built. */
 static bool is_in_use(const baum_simulation *run)
 {
   bool asks = run->workspace && run->workspace->point.asking;

@@ -7,8 +7,8 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Of the last solution. Where blocks have refused, the pivot is that of another solver, and
- * larger. */
+/* Does the last solution belong to a singular configuration? If the block solver has refused, the
+ * pivot is that of another solver, which is larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -16,7 +16,7 @@ static bool is_in_pose(const baum_simulation *run, double pivot)
   return pivot < (refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE);
 }
 
-/* Of the usual one, of the last solution. */
+/* Smallest pivot of the last solution, relative to the usual one. */
 static double find_pivot(const baum_simulation *run)
 {
   return baum_i_smallest_pivot(run->workspace, NULL) / run->crossings->usual;
@@ -32,28 +32,24 @@ static bool is_beyond_rounding(const baum_simulation *run, double h)
   return pivot < 1e-4 && pivot * error < DBL_EPSILON;
 }
 
-/* Where the projection is beyond rounding, it may not converge either. */
-static bool stays_unprojected(const baum_simulation *run, baum_status status, double h)
-{
-  if (status == BAUM_ERR_CONVERGENCE) {
-    return is_in_pose(run, find_pivot(run));
-  }
-  return status == BAUM_OK && is_beyond_rounding(run, h);
-}
-
 baum_status baum_i_run_project(baum_simulation *run, double t)
 {
   baum_i_state *trial = &run->trial;
   baum_i_run_copy(run, trial, &run->spare);
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
-  if (run->crossings && stays_unprojected(run, status, t - run->state.t)) {
-    baum_i_run_copy(run, &run->spare, trial);
-    return BAUM_OK;
+  bool skips = false;
+  if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
+    skips = is_in_pose(run, find_pivot(run)); /* where it is beyond rounding, it may not converge */
+  } else if (run->crossings && status == BAUM_OK) {
+    skips = is_beyond_rounding(run, t - run->state.t);
   }
-  return status;
+  if (skips) {
+    baum_i_run_copy(run, &run->spare, trial);
+  }
+  return skips ? BAUM_OK : status;
 }
 
-/* Of the present state, which has mostly just been noted. */
+/* The same at the present state, which has mostly just been noted. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -61,7 +57,7 @@ static double find_present_pivot(const baum_simulation *run)
   return last && last->t == run->state.t ? last->pivot : find_pivot(run);
 }
 
-/* Methods may read the workspace at the start of a step: it is left as it was. */
+/* Methods may read the workspace at the start of a step, so it is restored. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The start of a run, or of its continuation from a given state. */
+/* Starts a run, or continues it from a given state. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +9,9 @@
 #include "simulate/crossing.h"
 #include "simulate/events.h"
 
-/* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
- * radians. A design configuration further off is more likely to be mounted on a branch that its
- * author did not mean. */
+/* Largest displacement that assembly may make: of lengths relative to the characteristic length, of
+ * angles in radians. A design configuration further off is likely to be assembled on an unintended
+ * branch. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
 static const double EXACT = 1e-9; /* of the scales */
@@ -26,7 +26,7 @@ static bool is_angle(const baum_i_body *body, int coordinate)
   return coordinate >= body->v + first;
 }
 
-/* User coordinates have units of their own. */
+/* Coordinates of user bodies have units of their own. */
 static const char *unit_of(const baum_i_body *body, int coordinate)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
@@ -54,14 +54,15 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   char label[BAUM_I_LABEL_SIZE];
   char joint[BAUM_I_LABEL_SIZE];
   name_worst_joint(run, run->trial.t, drawn, joint);
-  return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
-                     "design configuration fits least in %s; give it closer to the assembled one",
-                     run->trial.t, baum_i_label(&body->element, label), fabs(moved),
-                     unit_of(body, coordinate), limit * scale, unit_of(body, coordinate), joint);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
+    "design configuration is furthest off in %s; give it closer to the assembled one",
+    run->trial.t, baum_i_label(&body->element, label), fabs(moved), unit_of(body, coordinate),
+    limit * scale, unit_of(body, coordinate), joint);
 }
 
-/* Largest displacement of all into `largest`. */
+/* Find the largest displacement, and refuse one that is too large. */
 static baum_status check_displacement(baum_simulation *run, const double *drawn, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -122,14 +123,16 @@ static baum_status check_exact(baum_simulation *run)
 
 /* ---- velocities against ill-conditioned rows ---- */
 
-/* Rows may agree with velocities to their last digits and still not tell them: two pins a nanometre
- * apart are met within a nanometre per second by any rate between their bodies. Accelerations are
- * then open by as much as projection would change the velocities. */
-static const double OPEN = 1e-6;        /* of their size; more of it is told, */
-static const double CONTRADICTS = 1e-3; /* and of this is refused */
-static const double ROUNDING = 1e-13;   /* of the rows at these velocities, likewise */
+/* Velocities may satisfy ill-conditioned rows to their last digits without being determined by
+ * them: two pins a nanometre apart are satisfied within a nanometre per second at any angular
+ * velocity between their bodies. Accelerations are then uncertain by as much as projection would
+ * change the velocities. */
+static const double OPEN = 1e-6; /* change relative to the velocities: above it the run warns, */
+static const double CONTRADICTS = 1e-3; /* and above this it refuses the start */
+static const double ROUNDING = 1e-13;   /* of the rows, relative to the velocities */
 
-/* Share of the size by which the row is off that is off the most; 0 where nothing moves. */
+/* Find the row with the largest velocity violation, relative to the size of the velocities; 0 if
+ * nothing moves. */
 static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
 {
   double nu = baum_i_row_sizes(w, w->nu, row);
@@ -138,7 +141,8 @@ static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int 
   return *size > baum_i_rest_rate(w->mechanism) ? worst / *size : 0.0;
 }
 
-static baum_status tell_open(baum_simulation *run, int row, double rate, double change)
+static baum_status report_loose_velocities(baum_simulation *run, int row, double rate,
+                                           double change)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   char label[BAUM_I_LABEL_SIZE];
@@ -146,19 +150,20 @@ static baum_status tell_open(baum_simulation *run, int row, double rate, double 
   if (change > CONTRADICTS) {
     return baum_i_fail(BAUM_ERR_INCONSISTENT,
                        "t = %.9g s: the given velocities and the constraints contradict each "
-                       "other in %s: it is off by %.3g per s, and holds so hardly that the "
-                       "velocities would be open within %.1e of their size",
+                       "other in %s, which is violated by %.3g per s and so ill-conditioned that "
+                       "it would leave the velocities uncertain by %.1e of their size",
                        run->trial.t, label, rate, change);
   }
   baum_i_run_warn(run, BAUM_WARNING_LOOSE_VELOCITIES, run->trial.t, baum_i_row_joint(m, row),
-                  "t = %.9g s: %s is off by %.3g per s at the given velocities, and holds so "
-                  "hardly that these are open within %.1e of their size, and accelerations too",
+                  "t = %.9g s: %s is violated by %.3g per s at the given velocities, and is so "
+                  "ill-conditioned that velocities and accelerations are uncertain by %.1e of "
+                  "their size",
                   run->trial.t, label, rate, change);
   return BAUM_OK;
 }
 
-/* Share of their size by which projection would change the velocities; all, where it does not get
- * along. A configuration that has lost rows altogether asks for none. */
+/* Find by which share projection would change the velocities; 1 if it fails. In a configuration
+ * where the rows have lost rank altogether it changes nothing. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -187,12 +192,12 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
   double rate = fabs(w->phi_rate[row]);
   double change = 0.0;
   BAUM_I_TRY(find_change(w, trial, size, &change));
-  return change > OPEN ? tell_open(run, row, rate, change) : BAUM_OK;
+  return change > OPEN ? report_loose_velocities(run, row, rate, change) : BAUM_OK;
 }
 
 /* ---- the whole ---- */
 
-/* Take a state as it is, free velocities zero. */
+/* Take a state as given, with free velocities set to zero. */
 static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -204,28 +209,25 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-/* Fixed bodies are where they are, whatever was given of them. */
+/* Put fixed bodies in their place, whatever was given for them. */
 static void place_fixed_bodies(baum_simulation *run)
 {
   baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
   baum_i_rest_fixed_bodies(run->workspace->mechanism, run->trial.v);
 }
 
-static baum_status start(baum_simulation *run, const double *q, const double *v)
-{
-  if (run->options.start == BAUM_START_ASSEMBLE) {
-    memcpy(run->spare.q, run->trial.q, (size_t)run->workspace->mechanism->nq * sizeof *q);
-    return start_assembled(run, run->spare.q, v);
-  }
-  run->workspace->point.t = run->trial.t; /* for the message */
-  BAUM_I_TRY(baum_i_check_sizes(run->workspace, "velocity", run->trial.v));
-  return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
-}
-
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
 {
+  baum_workspace *w = run->workspace;
   start_as_given(run, t, q, v);
-  BAUM_I_TRY(start(run, q, v));
+  if (run->options.start == BAUM_START_ASSEMBLE) {
+    memcpy(run->spare.q, run->trial.q, (size_t)w->mechanism->nq * sizeof *q);
+    BAUM_I_TRY(start_assembled(run, run->spare.q, v));
+  } else {
+    w->point.t = t; /* for the message */
+    BAUM_I_TRY(baum_i_check_sizes(w, "velocity", run->trial.v));
+    BAUM_I_TRY(run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK);
+  }
   place_fixed_bodies(run);
   return BAUM_OK;
 }
@@ -269,7 +271,7 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* q near enough to the manifold to be meant to be on it. */
+/* Check that q is so close to the manifold that it is meant to be on it. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -305,8 +307,8 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* Whether a whole state violates the constraints no more than this run has already done, as one of
- * its own does: then it is taken as it is, so that a run can be put back to where it was. */
+/* Does a state without free velocities violate the constraints no more than this run already has?
+ * Then it is taken as it is, so that a run can be put back to where it was. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
@@ -324,7 +326,7 @@ static bool is_of_this_run(baum_simulation *run, double t, const double *q, cons
   return phi <= run->counters.max_phi && phi_rate <= run->counters.max_phi_rate;
 }
 
-/* The trial state becomes the given one, which the run may go on from: what may fail of that. */
+/* Make the given state the trial state and do everything that can fail. */
 static baum_status prepare(baum_simulation *run, double t, const double *q, const double *v,
                            double *energy)
 {
@@ -341,7 +343,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   }
   baum_i_run_choose_rows_anew(run, &run->trial);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    /* the last, for it cannot be undone */
+    /* last, because it cannot be undone */
     BAUM_I_TRY(run->integrator->restart(run->self, &run->problem, &run->trial));
     run->counters.restarts++;
   }

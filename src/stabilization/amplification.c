@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What one step makes of a violation.
+/* Amplification of a constraint violation by one step.
  *
  *   Phi'' + 2 alpha Phi' + beta^2 Phi = 0                                            (6)
  *   s^2 + 2 alpha s + beta^2 = 0                                                     (17)
@@ -12,16 +12,15 @@
  *                       z^2 + (B + 2 A - 2) z + (1 - 2 A) = 0,
  *                       with w = z - 1:  w^2 + 2 (A + B/2) w + B = 0,
  *                       which is explicit Euler at (A + B/2, B): the same triangle, sheared.
- * Adams-Bashforth:      z^k = z^(k-1) + mu sum_j b_j z^(k-1-j) for each mu: k roots, of which one
- *                       begins as exp(mu) and the others near 0. Schur and Cohn's test says whether
- *                       all are inside of a circle; bisection gives the largest |z|, and Newton's
- *                       method in w = z - 1 its last digits.
+ * Adams-Bashforth:      z^k = z^(k-1) + mu sum_j b_j z^(k-1-j) for each mu: k roots, one of which
+ *                       starts as exp(mu) and the others near 0. The test of Schur and Cohn tells
+ *                       whether all lie inside a circle; bisection gives the largest |z|, and
+ *                       Newton's method in w = z - 1 its last digits.
  *
- * Numbers: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
- * keeps its digits where gains are small and |z| is close to 1. Where A^2 - B is zero up to the
- * rounding of alpha h and beta h it is taken as zero, else a double root on the circle, as explicit
- * Euler has at (2, 4), would be torn apart by 1e-8 and called unstable.
- */
+ * Rounding: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
+ * stays accurate where gains are small and |z| is close to 1. A^2 - B counts as zero where it is
+ * zero up to the rounding of alpha h and beta h. Otherwise a double root on the circle, as explicit
+ * Euler has at (2, 4), would split by 1e-8 and be called unstable. */
 #include "stabilization/amplification.h"
 
 #include <float.h>
@@ -30,19 +29,19 @@
 
 #include "stabilization/schur_cohn.h"
 
-/* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times
- * over. */
+/* Values of | |z| - 1 | up to this count as on the circle: about a hundred times the rounding of
+ * gains and step. */
 static const double MARGIN = 1e-12;
 
-/* Of A^2 - B, relative to A^2: some roundings of alpha h and beta h, squared. */
+/* Of A^2 - B, relative to A^2: a few roundings of alpha h and beta h, squared. */
 static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
 
-/* The radius of a double root is known to some 1e-16^(1/3) only, see schur_cohn.h. */
+/* The radius of a double root is known only to about 1e-16^(1/3), see schur_cohn.h. */
 static const double ROOT_TOLERANCE = 1e-4;
 
-/* Of a test on the circle, relative: below this Schur and Cohn's test is not asked. */
+/* Relative margin of the test of Schur and Cohn below which its result is not used. */
 static const double UNDECIDED = 1e-12;
 
 enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
@@ -55,7 +54,8 @@ typedef struct number {
   double im;
 } number;
 
-/* Roots of mu^2 + 2 A mu + B = 0; the smaller real one from the product, free of cancellation. */
+/* Computes the roots of mu^2 + 2 A mu + B = 0; the smaller real one from the product, which avoids
+ * cancellation. */
 static void characteristic_roots(double A, double B, number mu[2])
 {
   double square = A * A - B;
@@ -78,7 +78,7 @@ static number times(number a, number b)
   return (number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-/* w = R(mu) - 1, by Horner's rule. */
+/* w = R(mu) - 1 by Horner's rule. */
 static number polynomial_increment(const baum_i_method *method, number mu)
 {
   number w = {0.0, 0.0};
@@ -142,7 +142,7 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* |p| on the circle of this radius, in direction k. */
+/* Returns |p| on the circle of this radius, in direction k. */
 static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -152,7 +152,7 @@ static double size_on_circle(const baum_i_method *method, number mu, double radi
   return hypot(value.re, value.im);
 }
 
-/* The root that Newton's method reaches from there. */
+/* Returns the root that Newton's method reaches from there. */
 static number polish(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -163,8 +163,9 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
   return w;
 }
 
-/* w of the largest |z|: of the roots that are reached from where |p| is least on the circle of the
- * largest |z|, the one that is on it; others may be near, but inside. */
+/* Finds w of the largest |z|. Newton's method starts where |p| is least on the circle of the
+ * largest |z|; of the roots that it reaches, the one on the circle is returned. Others may be near,
+ * but inside. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);
@@ -198,7 +199,7 @@ static number increment(const baum_i_method *method, number mu)
 
 /* ---- Both modes ----------------------------------------------------------- */
 
-/* |1 + w| - 1; infinite when it is beyond double. */
+/* |1 + w| - 1; infinite beyond double. */
 static double excess(number w)
 {
   double size = hypot(1.0 + w.re, w.im);
@@ -214,7 +215,7 @@ static void find_modes(const baum_i_method *method, double A, double B, number m
   characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
 }
 
-/* Both w, the one of larger |1 + w| first. */
+/* Computes both w, the one of larger |1 + w| first. */
 static void increments(const baum_i_method *method, double A, double B, number w[2])
 {
   bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;

@@ -7,16 +7,15 @@
  *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
  *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
- * With a pair of different zeros one step takes the whole violation away, with a double zero two
- * steps do; therefore RK3's pair and not its real zero (1.596, 2.547). Of several pairs the one of
- * least |mu|: least gains. It needs Re mu < 0, or alpha would be negative.
+ * With a pair of different zeros one step removes the whole violation, with a double zero two steps
+ * do. RK3's pair is therefore chosen and not its real zero (1.596, 2.547). Of several pairs the one
+ * of least |mu| has the least gains. Re mu < 0 is required, or alpha would be negative.
  *
- * Adams-Bashforth methods remember, so they have no such point. Their least radius over the plane
- * is at complex mu: of two real ones the worse decides, and it does as well twice. There it is
- * looked for in the chart, on a lattice that closes in on the best point so far, that of critical
- * damping to begin with. The largest of several |z| has valleys with a sharp
- * bottom, along which a search by descent would stall; a lattice does not mind.
- */
+ * Adams-Bashforth methods have memory and so no such point. Their least radius over the plane is at
+ * complex mu: of two real ones the worse decides, and it does as well as a double root. The point
+ * is searched in the chart, on a lattice that closes in on the best point so far, beginning with
+ * that of critical damping. The largest of several |z| has valleys with a sharp bottom, in which a
+ * descent method would stall; a lattice does not. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -26,7 +25,7 @@ static const double PI = 3.14159265358979323846;
 static const double ZERO = 1e-10;  /* |R| of a zero, and |Im mu| of a real one */
 static const double EQUAL = 1e-12; /* of radii, where AB2 has a plateau */
 static const double CLOSE_IN = 0.6;
-static const double FARTHEST = 1e3; /* of the lattice for a region without end */
+static const double FARTHEST = 1e3; /* extent of the lattice for an unbounded region */
 enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 30 };
 
 /* ---- Dead-beat ------------------------------------------------------------ */
@@ -61,8 +60,8 @@ static bool is_better_zero(const double mu[2], const double best[2])
   return pair != best_is_pair ? pair : size < best_size * (1.0 - 1e-6);
 }
 
-/* The best zero of R with Re mu < 0; false when there is none. Every zero is reached from one of
- * the starts: they go round 0 at distances of up to the degree, and no zero of a method is
+/* Finds the best zero of R with Re mu < 0; false where there is none. Every zero is reached from
+ * one of the starts: they surround 0 at distances up to the degree, and no zero of a method is
  * farther. */
 static bool find_zero(const baum_i_method *method, double best[2])
 {
@@ -95,7 +94,7 @@ typedef struct search {
   double point[2];
 } search;
 
-/* Most points are seen to be worse without their radius being computed. */
+/* The cheap test rejects most points before their radius is computed. */
 static void try_point(search *best, double s, double m)
 {
   double point[2];
@@ -127,7 +126,7 @@ static void search_window(search *best, const baum_i_chart_window *w, int cells)
   }
 }
 
-/* From a window that holds the best point, LEVELS times closer. */
+/* Closes in from a window with the best point, LEVELS times. */
 static void close_in(search *best, baum_i_chart_window window)
 {
   search_window(best, &window, LATTICE);

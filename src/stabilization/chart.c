@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far a region reaches. A bound that holds for sure is too wide to draw in:
+/* Extent of a region. A guaranteed bound is too wide for drawings:
  *
  *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k, which grows once it is positive
- *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k (for k =
- *   1
- *                    the root is 1 + mu b_0)
+ *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k
+ *                    (for k = 1 the root is 1 + mu b_0)
  *
- * so the region is looked for from there inwards.
- */
+ * so the search for the region goes inwards from it. */
 #include "stabilization/chart.h"
 
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
-static const double FARTHEST = 1e6; /* what reaches farther has no end */
+static const double FARTHEST = 1e6; /* regions that reach farther count as unbounded */
 enum { COLUMNS = 48, ROWS = 512 };
 
 void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
@@ -53,7 +51,7 @@ void baum_i_chart_edge(const baum_i_method *method, double growth, int bisection
   }
 }
 
-/* Is |R| > radius everywhere from m on? */
+/* Tells whether |R| > radius everywhere from m on. */
 static bool polynomial_is_beyond(const baum_i_method *method, double m, double radius)
 {
   double power = 1.0;
@@ -99,7 +97,7 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      return most * (k + 3) / ROWS; /* there may be a top between the columns */
+      return most * (k + 3) / ROWS; /* a top may lie between the columns */
     }
   }
   return 0.0;

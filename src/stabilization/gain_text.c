@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Messages about gains.
  *
- * Near the edge: of (6) the slower mode decays by exp(-p), p = Re of A - sqrt(A^2 - B) per step. A
- * method that is consistent does the same but for O(p^2), so small gains never come near this
- * warning; one whose radius is above 0.95 and that damps less than a quarter of p is where its
- * region ends.
- */
+ * Near the edge of a region: in (6) the slower mode decays by exp(-p) per step, p = Re of A -
+ * sqrt(A^2 - B). A consistent method does the same up to O(p^2), so small gains never cause this
+ * warning. A method with a radius above 0.95 that damps less than a quarter of p is at the edge of
+ * its region. */
 #include "stabilization/gain_text.h"
 
 #include <math.h>
@@ -13,14 +12,14 @@
 #include "base/text.h"
 
 static const double BDF_DAMPING_RATIO = 0.618;
-static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95: what a refusal offers has 0.9 */
-static const double EDGE_SHARE = 0.25;   /* of the damping that (6) promises */
+static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals offer 0.9 */
+static const double EDGE_SHARE = 0.25;   /* of the damping of (6) */
 
 enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
 
 /* ---- numbers ---- */
 
-/* A radius that is not mistaken for 1. */
+/* Prints a radius so that it is not mistaken for 1. */
 static void print_radius(double radius, char text[RADIUS_SIZE])
 {
   double growth = radius - 1.0;
@@ -31,7 +30,8 @@ static void print_radius(double radius, char text[RADIUS_SIZE])
   }
 }
 
-/* alpha h up to which the ray through a point is stable; NaN where it is no ray of its own. */
+/* Returns alpha h up to which the ray through a point is stable; NaN where it is not a ray of its
+ * own. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -107,7 +107,7 @@ static const char *const class_text[] = {
 
 static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
 
-/* Of the slower mode of (6), per step. */
+/* Damping of the slower mode of (6), per step. */
 static double promised_damping(const baum_i_gain_draft *gains)
 {
   double A = gains->alpha_h;
@@ -121,7 +121,7 @@ static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_d
   return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
 }
 
-/* True when the clause warns. */
+/* Returns true when the clause warns. */
 static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                              const baum_amplification *amplification, char text[CLAUSE_SIZE])
 {
@@ -145,8 +145,8 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
   return !stable || undamped || near_edge;
 }
 
-/* True when the clause warns. The error test keeps explicit and Adams methods where violations
- * decay; BDF may take order and step where they do not (statement.c). */
+/* Returns true when the clause warns. The error test keeps explicit and Adams methods where
+ * violations decay; BDF may use orders and steps where they do not (statement.c). */
 static bool print_variable_step(baum_i_method_family family, const baum_i_gain_draft *gains,
                                 double max_step, char text[CLAUSE_SIZE])
 {

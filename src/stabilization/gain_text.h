@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is said about gains: why they were chosen, or refused. */
+/* Messages about gains: why they were chosen, or refused. */
 #ifndef BAUM_I_STABILIZATION_GAIN_TEXT_H
 #define BAUM_I_STABILIZATION_GAIN_TEXT_H
 
@@ -7,7 +7,7 @@
 
 enum { BAUM_I_GAIN_NOTE_SIZE = 128 };
 
-/* Gains in both scales, and what is worth saying about them. */
+/* Gains in both scales, and a note on them. */
 typedef struct baum_i_gain_draft {
   double alpha;
   double beta;
@@ -16,15 +16,17 @@ typedef struct baum_i_gain_draft {
   char note[BAUM_I_GAIN_NOTE_SIZE];
 } baum_i_gain_draft;
 
-/* Write why and doubtful of a choice whose numbers are there. */
+/* Writes why and doubtful of a choice with known numbers. */
 void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
                          const baum_i_gain_draft *gains, baum_i_gain_choice *choice);
 
-/* BAUM_ERR_UNSTABLE: region, the point asked for, and the nearest good one. */
+/* Fails with BAUM_ERR_UNSTABLE; the message has the region, the requested point and the nearest
+ * good one. */
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
 
-/* BAUM_ERR_UNSUPPORTED: why a method has no dead-beat point, and its best one. */
+/* Fails with BAUM_ERR_UNSUPPORTED; the message tells why a method has no dead-beat point, and its
+ * best point. */
 baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, double alpha_h,
                                         double beta2_h2, double radius);
 

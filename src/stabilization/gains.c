@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From a gain rule to numbers. One row of the table `rules` per rule.
+/* Gains from a rule, one row of the table `rules` per rule.
  *
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               as given, of the step
@@ -7,21 +7,20 @@
  *   frequency  beta = 2 pi f,  alpha = zeta beta                s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
  *   best       scaled, with the point of least spectral radius
- *   auto       alpha = beta = c x rate, h alpha <= 0.3          cost and order are kept up to there
+ *   auto       alpha = beta = c x rate, h alpha <= 0.3          keeps cost and order up to there
  *
- * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was
- * meant.
+ * A and B are kept beside alpha and beta, so that a rule of the step is judged exactly at its
+ * point.
  *
- * auto: where freedom is left the violation pulls at the motion, and does so most at the rate of
- * the motion itself. Below, c takes off as much of the drift as a run of some tens of radians
- * leaves time for. Measured, of 12 decades of constant gains: docs/theory/gain_rules.md. Where
- * drivers take all freedom, the violation is the whole error, and c is as far as the method pays
- * nothing.
+ * auto: where degrees of freedom remain, stabilization disturbs the motion, most at the rate of the
+ * motion itself. Below it, c removes as much of the drift as a run of some tens of radians has time
+ * for. It was measured over 12 decades of constant gains: docs/theory/gain_rules.md. Where drivers
+ * take all degrees of freedom the violation is the whole error, and c is as large as costs the
+ * method nothing.
  *
- * Variable steps: the step of an explicit method is capped where (alpha h, beta^2 h^2) leaves its
+ * Variable steps: the step of an explicit method is limited where (alpha h, beta^2 h^2) leaves its
  * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
- * cosine of the angle of s, is at least cos 51.84 = 0.618.
- */
+ * cosine of the angle of s, is at least cos 51.84 = 0.618. */
 #include "stabilization/gains.h"
 
 #include <math.h>
@@ -31,8 +30,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* auto, of the rate. With a fixed step of a Runge-Kutta method, of order 2 and above, and of other
- * methods; with steps of their own, for CVODE and IDA and for explicit methods; without degrees of
+/* Factors of auto on the rate: for fixed steps of Runge-Kutta methods, of order 2 and above, and of
+ * other methods; for variable steps of CVODE and IDA, and of explicit methods; without degrees of
  * freedom for all these. */
 static const double AUTO_FIXED = 0.35;
 static const double AUTO_FIXED_ORDER_2 = 0.05;
@@ -46,7 +45,7 @@ static const double AUTO_CAP = 0.3;      /* alpha h up to which nothing is lost 
 static const double AUTO_AT_REST = 0.01; /* alpha h when nothing moves */
 static const double REST = 1e-9;         /* rate h below this is rounding, not motion */
 static const double DEAD = 1e-6;         /* spectral radius of a dead-beat point, at most */
-static const double WITHIN_REGION = 0.9; /* of the largest step that is stable */
+static const double WITHIN_REGION = 0.9; /* of the largest stable step */
 static const double OVERDAMPED = 1e9;    /* alpha / beta where beta is 0 */
 
 typedef void apply_rule(const double value[2], const baum_i_gain_context *context,
@@ -55,9 +54,9 @@ typedef void apply_rule(const double value[2], const baum_i_gain_context *contex
 typedef struct rule_type {
   const char *name;
   apply_rule *apply;
-  bool needs_step;       /* h itself, not only to judge by */
+  bool needs_step;       /* needs h itself, not only to judge stability */
   bool positive;         /* value[] > 0, else >= 0 */
-  const char *number[2]; /* what value[] is, NULL where there is none */
+  const char *number[2]; /* names of value[], NULL where there is none */
   const char *unit[2];
 } rule_type;
 
@@ -154,7 +153,7 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
                context->driven ? "; no freedom is left" : "");
 }
 
-/* Half of the limit keeps well inside also where 0.3 would not. */
+/* Half of the limit stays well inside where 0.3 would not. */
 static double auto_with_step(const baum_i_gain_context *context, double wanted,
                              baum_i_gain_draft *out)
 {
@@ -214,7 +213,7 @@ static baum_status check_step(const baum_i_gain_context *context)
   return BAUM_OK;
 }
 
-/* NULL with a message when there is no such rule. */
+/* Returns NULL and sets a message where there is no such rule. */
 static const rule_type *find_rule(int32_t number)
 {
   if (number > BAUM_GAINS_DEFAULT && number < RULE_COUNT) {
@@ -240,7 +239,7 @@ static baum_status check_numbers(const rule_type *rule, const double value[2])
   return BAUM_OK;
 }
 
-/* Whether the rule finds what it depends on. */
+/* Checks that the rule has what it depends on. */
 static baum_status check_needs(const rule_type *rule, const baum_i_gain_context *context)
 {
   if (rule->needs_step && !has_step(context)) {
@@ -257,16 +256,6 @@ static baum_status check_needs(const rule_type *rule, const baum_i_gain_context 
   return BAUM_OK;
 }
 
-static baum_status check_draft(const rule_type *rule, const baum_i_gain_draft *gains)
-{
-  if (isfinite(gains->alpha) && isfinite(gains->beta)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "gains %s: alpha = %g 1/s, beta = %g 1/s is beyond the numbers of double",
-                     rule->name, gains->alpha, gains->beta);
-}
-
 /* ---- Choice --------------------------------------------------------------- */
 
 static baum_status make_draft(const rule_type *rule, const double value[2],
@@ -275,7 +264,12 @@ static baum_status make_draft(const rule_type *rule, const double value[2],
   BAUM_I_TRY(check_numbers(rule, value));
   BAUM_I_TRY(check_needs(rule, context));
   rule->apply(value, context, out);
-  return check_draft(rule, out);
+  if (!isfinite(out->alpha) || !isfinite(out->beta)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "gains %s: alpha = %g 1/s, beta = %g 1/s is beyond the range of double",
+                       rule->name, out->alpha, out->beta);
+  }
+  return BAUM_OK;
 }
 
 static bool is_without_step(const baum_i_gain_context *context)
@@ -283,7 +277,8 @@ static bool is_without_step(const baum_i_gain_context *context)
   return context->method->kind == BAUM_I_METHOD_ONE_STEP && !has_step(context);
 }
 
-/* Largest step with which an explicit method that chooses its own stays in its region. */
+/* Returns the largest step with which an explicit method that chooses its steps stays in its
+ * region. */
 static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
 {
   if (!is_without_step(context) || !(gains->alpha > 0.0)) {
@@ -291,16 +286,6 @@ static double largest_step(const baum_i_gain_context *context, const baum_i_gain
   }
   double ratio = gains->beta > 0.0 ? gains->alpha / gains->beta : OVERDAMPED;
   return WITHIN_REGION * baum_i_stability_limit(context->method, ratio) / gains->alpha;
-}
-
-/* A rule that aims at a point which the method does not have. */
-static baum_status check_deadbeat(const baum_i_gain_context *context,
-                                  const baum_i_gain_draft *gains, double radius)
-{
-  if (radius <= DEAD) {
-    return BAUM_OK;
-  }
-  return baum_i_gain_refuse_deadbeat(context, gains->alpha_h, gains->beta2_h2, radius);
 }
 
 static void amplify(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
@@ -326,11 +311,12 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
   amplify(context, &numbers, &choice.amplification);
   choice.rule = (baum_gain_rule)(rule - rules);
   choice.max_step = largest_step(context, &numbers);
-  if (choice.rule == BAUM_GAINS_DEADBEAT) {
-    BAUM_I_TRY(check_deadbeat(context, &numbers, choice.amplification.spectral_radius));
+  double radius = choice.amplification.spectral_radius;
+  if (choice.rule == BAUM_GAINS_DEADBEAT && !(radius <= DEAD)) {
+    return baum_i_gain_refuse_deadbeat(context, numbers.alpha_h, numbers.beta2_h2, radius);
   }
   if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
-    return baum_i_gain_refuse(context, &numbers, choice.amplification.spectral_radius);
+    return baum_i_gain_refuse(context, &numbers, radius);
   }
   baum_i_gain_explain(rule->name, context, &numbers, &choice);
   *out = choice;
@@ -339,42 +325,37 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
 
 /* ---- Constructors --------------------------------------------------------- */
 
-static baum_gains make(baum_gain_rule rule, double first, double second)
-{
-  return (baum_gains){(int32_t)rule, {first, second}};
-}
-
 baum_gains baum_gains_fixed(double alpha, double beta)
 {
-  return make(BAUM_GAINS_FIXED, alpha, beta);
+  return (baum_gains){BAUM_GAINS_FIXED, {alpha, beta}};
 }
 
 baum_gains baum_gains_scaled(double alpha_h, double beta2_h2)
 {
-  return make(BAUM_GAINS_SCALED, alpha_h, beta2_h2);
+  return (baum_gains){BAUM_GAINS_SCALED, {alpha_h, beta2_h2}};
 }
 
 baum_gains baum_gains_taylor(void)
 {
-  return make(BAUM_GAINS_TAYLOR, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_TAYLOR, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_frequency(double hertz, double damping_ratio)
 {
-  return make(BAUM_GAINS_FREQUENCY, hertz, damping_ratio);
+  return (baum_gains){BAUM_GAINS_FREQUENCY, {hertz, damping_ratio}};
 }
 
 baum_gains baum_gains_deadbeat(void)
 {
-  return make(BAUM_GAINS_DEADBEAT, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_DEADBEAT, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_auto(void)
 {
-  return make(BAUM_GAINS_AUTO, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_AUTO, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_best_damping(void)
 {
-  return make(BAUM_GAINS_BEST_DAMPING, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_BEST_DAMPING, {0.0, 0.0}};
 }

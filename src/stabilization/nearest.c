@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nearest good point. The edge of the good region (spectral radius <= 0.9) is crossed by the
- * lines of a lattice in the chart, where the region has no tips that a lattice would miss. Around
- * the crossing that is nearest in the plane the lattice closes in. The region may have any shape
- * and any number of parts.
- */
+/* The nearest good point. The lines of a lattice in the chart, where regions have no tips that a
+ * lattice would miss, cross the edge of the good region (spectral radius <= 0.9). Around the
+ * crossing nearest in the plane the lattice closes in. The region may have any shape and any number
+ * of parts. */
 #include <math.h>
 #include <stdbool.h>
 
 #include "stabilization/chart.h"
 
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
-static const double FARTHEST = 1e3;     /* of the lattice for a region without end */
+static const double FARTHEST = 1e3;     /* extent of the lattice for an unbounded region */
 static const double AROUND = 2.0;       /* cells that the next lattice reaches */
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
@@ -25,7 +24,8 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-/* Between a node and the one before it in direction d, of which one is good. */
+/* Considers the crossing between a node and the one before it in direction d, one of which is good.
+ */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
   double before[2] = {node[0], node[1]};
@@ -45,14 +45,14 @@ static void try_crossing(lattice *l, const double node[2], bool good, int d)
   }
 }
 
-static bool look(const lattice *l, int i, int j, double at[2])
+static bool is_good_node(const lattice *l, int i, int j, double at[2])
 {
   at[0] = l->origin[0] + i * l->step[0];
   at[1] = l->origin[1] + j * l->step[1];
   return baum_i_chart_within(l->method, at, GOOD_GROWTH);
 }
 
-/* One node beyond the lattice on every side, so that the border of the chart is an edge too. */
+/* One node beyond the lattice on every side makes the border of the chart an edge, too. */
 static void cross_all(lattice *l)
 {
   bool column[CELLS + 3] = {false}; /* the one before */
@@ -60,7 +60,7 @@ static void cross_all(lattice *l)
     bool below = false;
     for (int j = -1; j <= l->cells + 1; j++) {
       double at[2];
-      bool good = look(l, i, j, at);
+      bool good = is_good_node(l, i, j, at);
       if (i >= 0 && good != column[j + 1]) {
         try_crossing(l, at, good, 0);
       }

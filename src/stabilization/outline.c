@@ -64,7 +64,7 @@ static void put(baum_i_outline *out, const double point[2])
   out->count++;
 }
 
-/* Where a curve comes in through an edge. */
+/* Finds where a curve enters through an edge. */
 static void cross(const march *m, const int square[2], int edge, double point[2])
 {
   double inside[2];
@@ -79,7 +79,7 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 
 /* ---- Curves --------------------------------------------------------------- */
 
-/* Two corners that are inside opposite to each other hang together when the middle is inside. */
+/* Two opposite corners inside are connected when the middle is inside. */
 static int leave(const march *m, const int square[2], int edge)
 {
   bool opposite = is_inside(m, square, edge + 2);
@@ -93,7 +93,7 @@ static int leave(const march *m, const int square[2], int edge)
   return (edge + turn) & 3;
 }
 
-static void follow(march *m, const int start[2])
+static void follow_curve(march *m, const int start[2])
 {
   static const int ACROSS[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
   int square[2] = {start[0], start[1]};
@@ -136,7 +136,7 @@ void baum_i_stability_outline(const baum_i_method *method, double growth, baum_i
         if (out->count > 0) {
           put(out, (const double[2]){(double)NAN, (double)NAN});
         }
-        follow(&m, square);
+        follow_curve(&m, square);
       }
     }
   }

@@ -23,7 +23,7 @@ static double square(const double c[2])
   return c[0] * c[0] + c[1] * c[1];
 }
 
-/* Of largest coefficient 1: what matters is their ratio. */
+/* Scales to a largest coefficient of 1; only ratios matter. */
 static void scale(baum_i_polynomial *p, double radius)
 {
   double power = 1.0;

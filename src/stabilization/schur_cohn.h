@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the roots of a polynomial with complex coefficients lie, without looking for the roots. */
+/* Where the roots of a polynomial with complex coefficients lie, without finding the roots. */
 #ifndef BAUM_I_STABILIZATION_SCHUR_COHN_H
 #define BAUM_I_STABILIZATION_SCHUR_COHN_H
 
@@ -11,13 +11,13 @@ typedef struct baum_i_polynomial {
   double c[BAUM_I_SCHUR_COHN_DEGREE + 1][2];
 } baum_i_polynomial;
 
-/* Positive: all roots have |z| < radius. Else some root has |z| >= radius. The smaller its size,
- * the nearer is a root to the circle; below some 1e-12 rounding decides. radius > 0. */
+/* Positive: all roots have |z| < radius. Otherwise some root has |z| >= radius. The smaller its
+ * size, the nearer a root is to the circle; below about 1e-12 rounding decides. radius > 0. */
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
-/* The largest |z|, within 1e-9 of itself where no other root is as large, within some
- * 1e-16^(1/(m+1)) for a root of multiplicity m: the test divides by how far the last one was
- * passed. Infinite when it is beyond double. c[degree] = 1. */
+/* Returns the largest |z|, within 1e-9 of itself where no other root is as large, and within about
+ * 1e-16^(1/(m+1)) for a root of multiplicity m, because the test divides by the distance to the
+ * last root. Infinite beyond double. c[degree] = 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

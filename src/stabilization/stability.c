@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Along a ray alpha = zeta beta of the plane (A, B) = (|alpha h|, (beta h)^2): A = zeta b, B = b^2.
  *
- * The roots mu grow in proportion to b, so changes between stable and unstable are looked for on a
- * geometric scale and then bisected. The smallest limits are those of weakly damped rays with
- * methods that are unstable on the imaginary axis: b = 2 zeta for explicit Euler. Nothing explicit
- * is stable beyond |mu| of about twice the degree.
- */
+ * The roots mu grow in proportion to b, so changes between stable and unstable are searched on a
+ * geometric scale and then bisected. The smallest limits belong to weakly damped rays with methods
+ * that are unstable on the imaginary axis: b = 2 zeta for explicit Euler. Nothing explicit is
+ * stable beyond |mu| of about twice the degree. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
@@ -14,8 +13,8 @@
 static const double SCAN_RATIO = 1.01; /* of neighbouring b */
 static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
 static const double OVERDAMPED = 1e9;  /* zeta beyond which nothing changes any more */
-static const double LEAST = 1e-18;     /* b: what is stable below alone is as good as nothing */
-static const double EQUAL = 1e-13;     /* of radii: rounding */
+static const double LEAST = 1e-18; /* b: a ray that is stable only below this counts as unstable */
+static const double EQUAL = 1e-13; /* of radii: rounding */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
 static bool is_stable(const baum_i_method *method, double damping_ratio, double b)
@@ -23,7 +22,7 @@ static bool is_stable(const baum_i_method *method, double damping_ratio, double 
   return baum_i_amplification_within(method, damping_ratio * b, b * b, 0.0);
 }
 
-/* The last b between the two that is as `from` is. */
+/* Returns the last b between the two that has the stability of `from`. */
 static double bisect(const baum_i_method *method, double damping_ratio, double from, double to)
 {
   bool stable = !is_stable(method, damping_ratio, to);
@@ -52,7 +51,7 @@ static ray make_ray(double damping_ratio)
   return (ray){damping_ratio, begin, SCAN_END / steepest};
 }
 
-/* Where from b on, which is stable or not as told, this changes; infinite when it does not. */
+/* Returns where the stability given at b changes; infinite where it does not. */
 static double next_change(const baum_i_method *method, const ray *r, double b, bool stable)
 {
   while (b < r->end) {
@@ -103,7 +102,7 @@ typedef struct lowest {
   double b;
 } lowest;
 
-/* Most points are seen to be worse without their radius being computed. */
+/* The cheap test rejects most points before their radius is computed. */
 static void try_point(const baum_i_method *method, double damping_ratio, double b, lowest *best)
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {

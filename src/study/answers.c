@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What entries say: front, cost at an error, recommendation.
+/* Front, cost at an error, and recommendation.
  *
- * Between two entries of a method error and cost are taken to lie on straight lines over the
- * logarithm of step or rtol. A recommendation for the error E asks for
+ * Between two entries of a method, error and cost are interpolated linearly over the logarithm of
+ * step or rtol. A recommendation for the error E requires
  *
  *   error_validated x margin <= E
  *
- * of an entry and the next finer one: a lucky entry does not count. The margin is what MORE_WORK
- * buys with the method. Where there is none, error <= E of both.
- */
+ * of an entry and of the next finer one, so that a lucky entry does not count. The margin is what
+ * MORE_WORK buys with the method. Where no entry fulfils this, error <= E of both suffices. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,9 +19,9 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MORE_WORK = 1.15;        /* what a margin may cost */
+static const double MORE_WORK = 1.15;        /* factor on work that a margin may cost */
 static const double MARGINS[2] = {2.0, 4.0}; /* least and largest */
-static const double SPEED_MARGIN = 1.25;     /* on times, which vary from run to run */
+static const double SPEED_MARGIN = 1.25;     /* of times, which vary from run to run */
 
 /* ---- front ---- */
 
@@ -31,8 +30,8 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
   return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Is there an entry that is as good in both and better in one? Of equal entries the first is the
- * better. */
+/* Tells whether another entry is at least as good in both and better in one. Of equal entries the
+ * first is the better. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -61,14 +60,14 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* Entries from cheap to expensive, as many as there is room for. */
+/* Entries from cheap to expensive, as many as fit. */
 typedef struct list {
   int32_t *entries;
   int capacity;
   int count; /* may be more than the capacity */
 } list;
 
-/* What is more expensive moves up, and out beyond the capacity. */
+/* Moves more expensive entries up, beyond the capacity out of the list. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
   double c = cost_of(study->entries[k], cost);
@@ -106,12 +105,12 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- a place on the ladder of a method ---- */
 
-/* Between two entries; the same twice is on one. */
+/* A place between two entries; twice the same entry is a place on it. */
 typedef struct place {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
-  double share;  /* of the way from coarse to fine, in logarithms */
-  double margin; /* that is left for other starts and spans; 1: none */
+  double share;  /* from coarse to fine, in logarithms */
+  double margin; /* for other starts and spans; 1: none */
 } place;
 
 static double between(double a, double b, double share)
@@ -129,7 +128,7 @@ static double place_error(const place *p)
   return between(p->coarse->out.error, p->fine->out.error, p->share);
 }
 
-/* Where a quantity that is `coarse` at one end and `fine` at the other is `wanted`. */
+/* Returns the share at which a quantity that goes from `coarse` to `fine` is `wanted`. */
 static double share_at(double coarse, double fine, double wanted)
 {
   return coarse == fine ? 1.0 : log(coarse / wanted) / log(coarse / fine);
@@ -137,7 +136,7 @@ static double share_at(double coarse, double fine, double wanted)
 
 /* ---- cost at an error ---- */
 
-/* The line may go on by one setting at both ends. */
+/* Finds the place with this error; the line may be extended by one setting at both ends. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, place *out)
 {
   for (int k = 0; k + 1 < count; k++) {
@@ -153,7 +152,7 @@ static bool find_error(const baum_i_entry *const *entries, int count, double err
   return false;
 }
 
-/* Costs of some methods at an error. */
+/* A comparison of costs at an error. */
 typedef struct levelled {
   const baum_study *study;
   double error;
@@ -225,8 +224,8 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* What an error is expected to be at most: for twice the span and starts nearby, or as measured. An
- * entry that has not been validated does as one beside it of the same method has done. */
+/* Returns the largest expected error: for twice the span and nearby starts, or as measured. An
+ * entry without validation is assumed to grow as `beside`, of the same method, did. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -239,7 +238,7 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* What a little more work buys at an entry: much with high orders, little with low ones. */
+/* Returns what a little more work buys at an entry: much at high order, little at low order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -250,7 +249,8 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* The coarsest place of a method where the error is kept; the next finer entry keeps it too. */
+/* Finds the coarsest place of a method that keeps the error; the next finer entry must keep it too.
+ */
 static bool find_place(const baum_i_entry *const *entries, int count, double error,
                        bool with_margin, place *out)
 {
@@ -272,15 +272,15 @@ static bool find_place(const baum_i_entry *const *entries, int count, double err
   return false;
 }
 
-/* What is asked of a place. */
+/* The requirements on a place. */
 typedef struct question {
   double error;
   baum_study_cost cost;
   bool with_margin;
-  const baum_integrator *without; /* this one is left out; NULL: none */
+  const baum_integrator *without; /* this one is excluded; NULL: none */
 } question;
 
-/* The cheapest place of all methods. */
+/* Finds the cheapest place of all methods. */
 static bool find_best(const baum_study *study, const question *q, place *best)
 {
   *best = (place){.coarse = NULL};
@@ -299,7 +299,7 @@ static bool find_best(const baum_study *study, const question *q, place *best)
   return best->fine != NULL;
 }
 
-/* Two digits, and steps that fit the span. */
+/* Rounds to two digits, and steps to divide the span. */
 static double rounded(const baum_study *study, double setting, bool fixed)
 {
   if (fixed) {
@@ -328,7 +328,7 @@ static void name_options(const baum_simulation_options *o, char *text, size_t si
   baum_i_name_setting(o, text, size);
 }
 
-/* The best with another integrator, to compare with. */
+/* Appends the best other integrator for comparison. */
 static void add_rival(const baum_study *study, const place *best, question q, char *why,
                       size_t size)
 {
@@ -367,23 +367,23 @@ static void add_margin(const baum_study *study, const place *p, const question *
                        size_t size)
 {
   if (!q->with_margin) {
-    baum_i_append(why, size, "; nothing is left for other starts or a longer span");
+    baum_i_append(why, size, "; no margin remains for other starts or a longer span");
     return;
   }
   baum_i_append(
     why, size,
     "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
-    "of %.2g is left",
+    "of %.2g remains",
     p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_validated, p->margin);
   add_rival(study, p, *q, why, size);
 }
 
-/* Within the span of the entries it may well be the cheapest. */
+/* Warns of a formulation that may well be the cheapest within the span of the entries. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
     baum_i_append(why, size,
-                  "; nothing holds the constraints: their violation grows with the span");
+                  "; constraints are not stabilized: their violation grows with the span");
   }
 }
 
@@ -458,7 +458,7 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* More exact, or as exact and quicker? */
+/* Tells whether a place is more exact, or as exact and faster. */
 static bool beats(const place *p, const place *other)
 {
   if (!other->fine) {
@@ -469,7 +469,7 @@ static bool beats(const place *p, const place *other)
   return e[0] < e[1] || (e[0] == e[1] && c[0] < c[1]);
 }
 
-/* The most exact place of a method whose time is within the budget. */
+/* Finds the most exact place of a method within the time budget. */
 static void find_affordable(const baum_i_entry *const *entries, int count, double seconds,
                             place *best)
 {
@@ -488,7 +488,7 @@ static void find_affordable(const baum_i_entry *const *entries, int count, doubl
   }
 }
 
-/* The same of all methods; returns the least time of any entry. */
+/* Does so for all methods; returns the least time of any entry. */
 static double find_most_exact(const baum_study *study, double seconds, place *best)
 {
   double quickest = (double)INFINITY;
@@ -530,7 +530,8 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   baum_simulation_options o = options_of(study, &p);
   if (why && size > 0) {
     explain(&p, &o, why, size);
-    baum_i_append(why, size, "; a fifth of %.3g ms is left, for times vary", 1e3 * seconds);
+    baum_i_append(why, size, "; a fifth of %.3g ms is in reserve because times vary",
+                  1e3 * seconds);
     add_drift(&o, why, size);
   }
   return deliver(study, &o, best, caller_size);

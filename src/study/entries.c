@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Settings that are added, and what can be read of their entries. */
+/* Adding settings, and reading their entries. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -8,8 +8,8 @@
 #include "study/fields.h"
 #include "study/study.h"
 
-/* What is found out, not known. */
-static void clear(baum_study_entry *entry)
+/* Marks results as not known. */
+static void clear_results(baum_study_entry *entry)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {
     if (f->filed && f->kind == BAUM_I_NUMBER) {
@@ -18,8 +18,8 @@ static void clear(baum_study_entry *entry)
   }
 }
 
-/* The formulation that DEFAULT stands for. */
-static baum_formulation meant(const baum_simulation_options *o)
+/* Returns the formulation, resolving DEFAULT. */
+static baum_formulation resolve_formulation(const baum_simulation_options *o)
 {
   return o->formulation == BAUM_FORMULATION_DEFAULT ? o->integrator->formulations[0]
                                                     : o->formulation;
@@ -28,7 +28,7 @@ static baum_formulation meant(const baum_simulation_options *o)
 static void describe(baum_i_entry *entry)
 {
   baum_simulation_options *o = &entry->options;
-  o->formulation = meant(o);
+  o->formulation = resolve_formulation(o);
   o->progress = NULL;
   o->user = NULL;
   baum_i_name_method(o, entry->name, sizeof entry->name);
@@ -39,7 +39,7 @@ static void describe(baum_i_entry *entry)
                                   .gains = o->gains,
                                   .step = o->step,
                                   .rtol = o->rtol};
-  clear(&entry->out);
+  clear_results(&entry->out);
 }
 
 static baum_status copy_row_gains(baum_i_entry *entry)
@@ -55,8 +55,8 @@ static baum_status copy_row_gains(baum_i_entry *entry)
   return BAUM_OK;
 }
 
-/* Last, for the entry is the study's from here on. */
-static baum_status keep(baum_study *study, baum_i_entry *entry)
+/* Must come last: from here on the study owns the entry. */
+static baum_status append_entry(baum_study *study, baum_i_entry *entry)
 {
   size_t wanted = (size_t)study->entry_count + 1;
   /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers. */
@@ -73,8 +73,8 @@ static baum_status keep(baum_study *study, baum_i_entry *entry)
   return BAUM_OK;
 }
 
-static baum_status take(const baum_study *study, const baum_simulation_options *options,
-                        baum_simulation_options *out)
+static baum_status copy_options(const baum_study *study, const baum_simulation_options *options,
+                                baum_simulation_options *out)
 {
   const char *call = "baum_study_add";
   if (!study || !options) {
@@ -89,7 +89,7 @@ static baum_status take(const baum_study *study, const baum_simulation_options *
 baum_status baum_study_add(baum_study *study, const baum_simulation_options *options)
 {
   baum_simulation_options taken;
-  BAUM_I_TRY(take(study, options, &taken));
+  BAUM_I_TRY(copy_options(study, options, &taken));
   baum_i_entry *entry = baum_i_alloc(1, sizeof *entry);
   if (!entry) {
     return baum_i_fail_memory();
@@ -99,7 +99,7 @@ baum_status baum_study_add(baum_study *study, const baum_simulation_options *opt
   baum_status status = copy_row_gains(entry);
   if (status == BAUM_OK) {
     describe(entry);
-    status = keep(study, entry);
+    status = append_entry(study, entry);
   }
   if (status != BAUM_OK) {
     baum_i_free(entry->row_gains);

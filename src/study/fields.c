@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is known of entries, methods and the reference, under names that stay. */
+/* Fields of entries, methods and the reference, under names that never change. */
 #include "study/fields.h"
 
 #include <math.h>

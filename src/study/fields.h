@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Members of structs under their names: what stands of them in study files, CSV, JSON and on the
- * page. Those of an entry come from BAUM_STUDY_ENTRY_LIST. */
+/* Members of structs by name, for study files, CSV, JSON and the page. Those of an entry come from
+ * BAUM_STUDY_ENTRY_LIST. */
 #ifndef BAUM_I_STUDY_FIELDS_H
 #define BAUM_I_STUDY_FIELDS_H
 
@@ -12,7 +12,7 @@ typedef enum baum_i_kind {
   BAUM_I_FORMULATION,
   BAUM_I_STATE,
   BAUM_I_STATUS,
-  BAUM_I_LAST_TEXT = BAUM_I_STATUS, /* those before are texts in reports */
+  BAUM_I_LAST_TEXT = BAUM_I_STATUS, /* kinds up to here are texts in reports */
   BAUM_I_NUMBER,
   BAUM_I_COUNT, /* int64_t */
   BAUM_I_INDEX, /* int32_t */
@@ -20,20 +20,20 @@ typedef enum baum_i_kind {
 } baum_i_kind;
 
 typedef struct baum_i_field {
-  const char *key; /* never to be changed */
+  const char *key; /* must never change */
   const char *unit;
   const char *meaning;
   baum_i_kind kind;
-  bool when_done; /* a figure of entries that are done */
-  bool filed;     /* in study files, too */
+  bool when_done; /* known only for entries that are done */
+  bool filed;     /* written to study files, too */
   size_t place;   /* in the struct */
 } baum_i_field;
 
-/* An entry with what a report says of it besides. */
+/* An entry, and what a report adds to it. */
 typedef struct baum_i_report_entry {
-  baum_study_entry entry; /* first, so that its fields are those of an entry alone */
+  baum_study_entry entry; /* first, so that fields of an entry apply */
   const char *gains;      /* rule; NULL: none */
-  double gain[2];         /* its numbers; NaN: it has none */
+  double gain[2];         /* its numbers; NaN: none */
   bool front[2];          /* by baum_study_cost */
 } baum_i_report_entry;
 
@@ -42,18 +42,18 @@ typedef struct baum_i_report_method {
   char label[192]; /* its name, with "by step" or "by rtol" where the integrator takes both */
 } baum_i_report_method;
 
-/* Each ends with a field whose key is NULL. */
+/* Each list ends with a field whose key is NULL. */
 extern const baum_i_field baum_i_entry_fields[];     /* of baum_i_report_entry */
 extern const baum_i_field baum_i_method_fields[];    /* of baum_i_report_method */
 extern const baum_i_field baum_i_reference_fields[]; /* of baum_study_reference */
 
-/* A text; NULL: not known. */
+/* Returns a text; NULL: not known. */
 const char *baum_i_field_text(const baum_i_field *field, const void *object);
 
-/* A number of any kind; NaN: not known. */
+/* Returns a number of any kind; NaN: not known. */
 double baum_i_field_number(const baum_i_field *field, const void *object);
 
-/* Members of all kinds but texts as they are, enums and flags among them; 0 for double. */
+/* Returns any member but texts and doubles, enums and flags included; 0 for double. */
 int64_t baum_i_field_whole(const baum_i_field *field, const void *object);
 
 #endif

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries by method, and what one more digit costs with it.
+/* Entries by method, and what one more digit costs.
  *
- * Errors of a method fall as a power of its step or rtol, error = C h^p, until they meet the
- * reference or rounding; cost rises as a power of it. Lines are fitted to the logarithms of the
- * entries before: from the coarsest on, that of the least error and those whose error is at least
- * FLOOR times that.
- */
+ * Errors of a method fall as a power of its step or rtol, error = C h^p, until they reach the
+ * uncertainty of the reference or rounding. Cost rises as a power of it. Lines are fitted to the
+ * logarithms of the entries before that: from the coarsest one to the one of least error, those
+ * whose error is at least FLOOR times the least, and that one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -70,7 +69,7 @@ int baum_i_study_usable(const baum_study *study, int method,
   return count;
 }
 
-/* Slope of a least-squares line; NaN from less than two points or without width. */
+/* Returns the slope of a least-squares line; NaN for less than two points or without width. */
 static double slope_of(const double *x, const double *y, int count)
 {
   double mx = 0.0;
@@ -88,7 +87,7 @@ static double slope_of(const double *x, const double *y, int count)
   return count >= 2 && xx > 0.0 ? xy / xx : (double)NAN;
 }
 
-/* Slopes over the entries between coarse and floor. */
+/* Fits slopes over the entries between coarse and floor. */
 static void fit(const baum_i_entry *const *entries, int count, baum_study_method *out)
 {
   double setting[BAUM_I_METHOD_ENTRIES];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Settings in words, and by numbers that tell them apart. */
+/* Names of settings, and keys that distinguish them. */
 #include <math.h>
 
 #include "base/digest.h"
@@ -70,7 +70,7 @@ double baum_i_setting(const baum_simulation_options *options)
   return isnan(options->rtol) ? 0.0 : options->rtol;
 }
 
-/* NaNs of all kinds are one. */
+/* All NaNs count as one. */
 static void add_number(baum_i_digest *digest, double value)
 {
   double number = isnan(value) ? (double)NAN : value;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One run of a study: through the samples for its errors, or to the end for its cost. */
+/* One run of a study: through the samples for its errors, or to the end of the span for its cost.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <time.h>
@@ -9,7 +10,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double LOOK = 0.005; /* [s] of wall time between two looks at the deadline */
+static const double LOOK = 0.005; /* [s] of wall time between checks of the deadline */
 
 static double seconds(clockid_t clock)
 {
@@ -36,10 +37,11 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline)
 
 void baum_i_say_too_long(double limit, char *text, size_t size)
 {
-  baum_i_print(text, size, "it takes more than %g s", limit);
+  baum_i_print(text, size, "it takes more than %g s; raise entry_limit or use a coarser setting",
+               limit);
 }
 
-static int look(const baum_simulation *simulation, double t, void *user)
+static int check_deadline(const baum_simulation *simulation, double t, void *user)
 {
   (void)simulation;
   (void)t;
@@ -48,14 +50,14 @@ static int look(const baum_simulation *simulation, double t, void *user)
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* Those of the entry, with what is the study's. */
+/* The options of the entry, completed by those of the study. */
 static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
   baum_simulation_options o = *task->options;
   o.start_time = study->t0;
   o.check_derivatives = false;
-  o.progress = look;
+  o.progress = check_deadline;
   o.progress_interval = LOOK;
   o.user = deadline;
   o.energy_account =
@@ -85,7 +87,7 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   return rest == BAUM_OK ? status : rest;
 }
 
-/* Kinematics solves poses at the times asked for: these are its cost. */
+/* Kinematics solves configurations at the times asked for, so these are its cost. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
   const baum_i_samples *samples = task->samples;
@@ -100,7 +102,7 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-/* The first warning that doubts the motion, or the first one of all. */
+/* Copies the first warning that doubts the motion, or else the first one. */
 static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
                          size_t size)
 {

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What runs are compared with: given samples, a solution by formulas, or a reference of the study's
+/* What runs are compared with: given samples, a closed-form solution, or a reference of the study's
  * own.
  *
- * Its own is made by two formulations that have nothing in common but the equations of motion, one
- * of them with projection, each at a tight tolerance and at half of it: four runs, of which the
- * first formulation's tighter one is the reference and the largest difference of the others from it
- * the uncertainty. Where they cannot be run, or differ by more than CLOSE, looser tolerances and
- * implicit methods are tried too, and those that agree best are taken. Past singular
- * configurations, where violations are blown up, the last of them goes: RK4 with STEPS and twice as
- * many steps.
- */
+ * The study's own reference comes from two formulations that share only the equations of motion,
+ * one of them with projection. Each runs at a tight tolerance and at half of it. Of these four runs
+ * the first formulation's tighter one is the reference; the largest difference of the others from
+ * it is the uncertainty. Where runs fail or differ by more than CLOSE, looser tolerances and
+ * implicit methods are tried too, and the attempt that agrees best is used. The last attempt, RK4
+ * with STEPS and twice as many steps, succeeds past singular configurations, where constraint
+ * violations grow strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,9 +19,9 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double CLOSE = 1e-9;     /* a difference with which nothing else is tried */
-static const double TRUSTED = 1e-3;   /* the largest with which a reference is trusted */
-static const double ROUNDING = 1e-15; /* nothing is known better than that */
+static const double CLOSE = 1e-9;     /* with this difference nothing else is tried */
+static const double TRUSTED = 1e-3;   /* the largest difference of a trusted reference */
+static const double ROUNDING = 1e-15; /* nothing is known better than this */
 static const double PATIENCE = 5.0;   /* entry limits that a run of the reference may take */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
@@ -45,14 +44,14 @@ static const attempt ATTEMPTS[] = {
   {{baum_rk8, baum_rk4}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_PROJECTION}, 1e-10},
 };
 
-/* Where drivers leave no freedom: poses solved to rounding, and integrated. */
+/* Where drivers leave no degree of freedom: configurations solved to rounding, and integrated. */
 static const attempt WITHOUT_FREEDOM[] = {
   {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
 };
 
 /* ---- an attempt ---- */
 
-/* What came of one. */
+/* The result of an attempt. */
 typedef struct found {
   double *values; /* of the reference, or NULL */
   baum_i_differences most;
@@ -102,9 +101,9 @@ static void describe_failure(const baum_simulation_options *o, const baum_i_outc
                  outcome->message);
 }
 
-/* One run into values; the first becomes the reference to the others. */
-static baum_status join(baum_study *study, const baum_simulation_options *o,
-                        baum_i_deadline *deadline, double *values, found *out)
+/* Runs once into values; the first run becomes the reference of the others. */
+static baum_status compare_run(baum_study *study, const baum_simulation_options *o,
+                               baum_i_deadline *deadline, double *values, found *out)
 {
   baum_i_outcome outcome;
   const baum_i_task task = {study, o, &study->reference.samples, false};
@@ -138,8 +137,9 @@ static void describe(const baum_study *study, const attempt *a, found *out)
                names[1], a->rtol);
 }
 
-/* Four runs, the reference first. Leaves study->reference.values as it was. */
-static baum_status try(baum_study *study, const attempt *a, baum_i_deadline *deadline, found *out)
+/* Makes four runs, the reference first. Leaves study->reference.values as it was. */
+static baum_status run_attempt(baum_study *study, const attempt *a, baum_i_deadline *deadline,
+                               found *out)
 {
   baum_i_samples *r = &study->reference.samples;
   size_t size = (size_t)r->n * (size_t)baum_i_study_layout(study).width;
@@ -150,7 +150,7 @@ static baum_status try(baum_study *study, const attempt *a, baum_i_deadline *dea
   for (int k = 0; k < RUNS && status == BAUM_OK && !out->failed; k++) {
     baum_simulation_options o = setting(study, a, k / 2, k % 2 == 0);
     if (k % 2 == 0 || !o.integrator->without_freedom) {
-      status = join(study, &o, deadline, values[k > 0], out);
+      status = compare_run(study, &o, deadline, values[k > 0], out);
     }
   }
   if (!out->failed) {
@@ -169,7 +169,7 @@ static baum_status try(baum_study *study, const attempt *a, baum_i_deadline *dea
 
 /* ---- the study's own ---- */
 
-static bool better(const found *a, const found *b)
+static bool is_better(const found *a, const found *b)
 {
   if (!a->values || !b->values) {
     return a->values != NULL;
@@ -177,7 +177,7 @@ static bool better(const found *a, const found *b)
   return a->singular != b->singular ? b->singular : a->most.error[0] < b->most.error[0];
 }
 
-static void settle(baum_study *study, const found *best)
+static void set_outcome(baum_study *study, const found *best)
 {
   baum_i_study_reference *r = &study->reference;
   baum_study_reference *out = &r->out;
@@ -199,13 +199,13 @@ static void settle(baum_study *study, const found *best)
   baum_i_append(r->text, sizeof r->text, " agree to %.1f digits", out->digits);
   if (best->singular) {
     baum_i_append(r->text, sizeof r->text,
-                  "; not to be trusted: the motion passes near a singular configuration");
+                  "; not trusted: the motion passes near a singular configuration");
   } else if (!out->trusted) {
-    baum_i_append(r->text, sizeof r->text, "; not to be trusted");
+    baum_i_append(r->text, sizeof r->text, "; not trusted: they differ too much");
   }
 }
 
-/* The attempts that suit the mechanism. */
+/* Returns the attempts that suit the mechanism. */
 static const attempt *attempts_for(const baum_mechanism *mechanism, int *count)
 {
   baum_mobility mobility;
@@ -225,8 +225,8 @@ static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
   baum_status status = BAUM_OK;
   for (int k = 0; k < count && !done && status == BAUM_OK; k++) {
     found now;
-    status = try(study, &attempts[k], deadline, &now);
-    bool take = status == BAUM_OK && (k == 0 || better(&now, &best));
+    status = run_attempt(study, &attempts[k], deadline, &now);
+    bool take = status == BAUM_OK && (k == 0 || is_better(&now, &best));
     baum_i_free(take ? best.values : now.values);
     best = take ? now : best;
     done = best.values && !best.singular && best.most.error[0] <= CLOSE;
@@ -235,7 +235,7 @@ static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
   if (status != BAUM_OK) {
     return status;
   }
-  settle(study, &best);
+  set_outcome(study, &best);
   return best.values ? baum_i_study_weigh(study) : BAUM_OK;
 }
 
@@ -251,13 +251,13 @@ static bool all_known(const double *values, int count)
   return true;
 }
 
-/* Channels that velocities do not matter to. */
-static bool is_of_pose(baum_quantity quantity)
+/* Tells whether a channel does not depend on velocities. */
+static bool is_of_position(baum_quantity quantity)
 {
   return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
 }
 
-/* Energy and the user's channels of a sample whose q, v and lambda are there. */
+/* Computes energy and the user's channels of a sample whose q, v and lambda are known. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_simulation *probe,
                           double t, double *sample)
 {
@@ -281,7 +281,7 @@ static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_
   }
   double *next = sample + l->user;
   for (int k = 0; k < study->channel_count && status == BAUM_OK; k++) {
-    if (has_v || is_of_pose(study->channels[k].quantity)) {
+    if (has_v || is_of_position(study->channels[k].quantity)) {
       status = baum_i_output(probe, &at, &study->channels[k], 1, next);
     }
     next += baum_channels_width(study->mechanism, &study->channels[k], 1);
@@ -331,7 +331,7 @@ static void trust_given(baum_study *study)
   r->out.digits = r->digits;
   r->out.trusted = true;
   baum_i_print(r->text, sizeof r->text, "%s, trusted to %.1f digits",
-               r->solution ? "a solution by formulas" : "given", r->digits);
+               r->solution ? "a closed-form solution" : "given", r->digits);
 }
 
 static baum_status take_given(baum_study *study)

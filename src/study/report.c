@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The forms of a report, into memory and into files. */
+/* Writes reports in their forms, into memory and into files. */
 #include "study/report.h"
 
 #include <string.h>
@@ -10,9 +10,9 @@ static report_fn *const FORMS[] = {baum_i_report_text, baum_i_report_csv, baum_i
                                    baum_i_report_page};
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
-/* The report in *out, which is to be cleared. */
-static baum_status make(const baum_study *study, baum_report_form form, const char *title,
-                        const char *call, baum_i_buffer *out)
+/* Makes the report in *out, which the caller clears. */
+static baum_status make_report(const baum_study *study, baum_report_form form, const char *title,
+                               const char *call, baum_i_buffer *out)
 {
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
@@ -38,7 +38,7 @@ baum_status baum_study_write(const baum_study *study, baum_report_form form, con
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: path is NULL or empty", call);
   }
   baum_i_buffer report = {0};
-  baum_status status = make(study, form, title, call, &report);
+  baum_status status = make_report(study, form, title, call, &report);
   if (status == BAUM_OK) {
     status = baum_i_write_file(path, report.text, report.used);
   }
@@ -54,7 +54,7 @@ baum_status baum_study_print(const baum_study *study, baum_report_form form, con
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: text is NULL and capacity is not 0", call);
   }
   baum_i_buffer report = {0};
-  baum_status status = make(study, form, title, call, &report);
+  baum_status status = make_report(study, form, title, call, &report);
   if (status == BAUM_OK && report.text && capacity > 0) {
     size_t kept = report.used < capacity ? report.used : capacity - 1;
     memcpy(text, report.text, kept);

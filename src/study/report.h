@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports from the inside: what is read from a study, once, and what each form makes of it. */
+/* Reports: a snapshot of a study, and the forms that are made from it. */
 #ifndef BAUM_I_STUDY_REPORT_H
 #define BAUM_I_STUDY_REPORT_H
 
@@ -10,22 +10,22 @@
 #include "study/fields.h"
 #include "study/report_buffer.h"
 
-/* Errors that are asked for: 1e-2, 1e-4, ... 1e-10. */
+/* Errors of the recommendations: 1e-2, 1e-4, ... 1e-10. */
 enum { BAUM_I_ADVICE = 5, BAUM_I_COSTS = 2 };
 
-/* What is recommended for an error. */
+/* The recommendation for an error. */
 typedef struct baum_i_advice {
   double error;
   baum_status status;
-  baum_simulation_options options; /* those of the setting, if the status is not an error */
-  char setting[256];               /* in words; "" without */
+  baum_simulation_options options; /* of the setting, if the status is not an error */
+  char setting[256];               /* its name; "" without one */
   char why[BAUM_I_MESSAGE_SIZE];   /* or why there is none */
 } baum_i_advice;
 
 /* Where a report was made. */
 typedef struct baum_i_environment {
   const char *baum;     /* version */
-  const char *sundials; /* likewise; "none" */
+  const char *sundials; /* version, or "none" */
   const char *compiler;
   char cpu[128];
   char date[32]; /* ISO 8601, UTC */
@@ -34,7 +34,7 @@ typedef struct baum_i_environment {
 typedef struct baum_i_snapshot {
   const baum_study *study;
   const char *title;
-  const char *error; /* what it means */
+  const char *error; /* what error means */
   double t0;
   double t1;
   baum_study_options options;
@@ -49,11 +49,11 @@ typedef struct baum_i_snapshot {
   baum_i_environment environment;
 } baum_i_snapshot;
 
-/* Read a study; to be cleared, also after a failure. */
+/* Reads a study; the caller clears the snapshot, also after a failure. */
 baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out);
 void baum_i_snapshot_clear(baum_i_snapshot *snapshot);
 
-/* Such as "best_damping"; NULL for an unknown value. */
+/* Returns a name such as "best_damping"; NULL for an unknown value. */
 const char *baum_i_gain_rule_name(int rule);
 
 void baum_i_environment_read(baum_i_environment *out);
@@ -67,13 +67,14 @@ void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 
 /* ---- files ---- */
 
-/* Is there something that is no regular file, such as a pipe? Links are followed. */
+/* Tells whether the path is something other than a regular file, such as a pipe. Links are
+ * followed. */
 bool baum_i_is_no_file(const char *path);
 
-/* All of it or nothing, see baum_study_write(). */
+/* Writes all of it or nothing, see baum_study_write(). */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
 
-/* What was flushed reaches the disk; 0, or the reason (errno) why not. */
+/* Brings flushed data to the disk; 0, or the reason (errno) why not. */
 int baum_i_sync_file(FILE *file);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length, put together piece by piece, and numbers as text. */
+/* Texts of any length, built piece by piece, and numbers as text. */
 #include "study/report_buffer.h"
 
 #include <locale.h>
@@ -19,8 +19,8 @@ void baum_i_buffer_clear(baum_i_buffer *buffer)
   *buffer = (baum_i_buffer){0};
 }
 
-/* A place for so many more and their zero; NULL without. */
-static char *place(baum_i_buffer *buffer, size_t more)
+/* Makes room for this many more characters and the terminating zero; NULL without memory. */
+static char *make_room(baum_i_buffer *buffer, size_t more)
 {
   size_t wanted = buffer->used + more + 1;
   if (!buffer->failed && wanted > buffer->room) {
@@ -34,7 +34,7 @@ static char *place(baum_i_buffer *buffer, size_t more)
 
 static void put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
 {
-  char *to = place(buffer, count);
+  char *to = make_room(buffer, count);
   if (to) {
     memcpy(to, bytes, count);
     to[count] = '\0';
@@ -54,7 +54,7 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...)
   va_start(arguments, format);
   va_copy(again, arguments);
   int count = baum_i_format(NULL, 0, format, arguments);
-  char *to = count < 0 ? NULL : place(buffer, (size_t)count);
+  char *to = count < 0 ? NULL : make_room(buffer, (size_t)count);
   if (to) {
     (void)baum_i_format(to, (size_t)count + 1, format, again);
     buffer->used += (size_t)count;
@@ -71,7 +71,7 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width)
 
 /* ---- texts of users ---- */
 
-/* Bytes of the character that begins here; 0 when it is no UTF-8 (RFC 3629). */
+/* Returns the bytes of the character that begins here; 0 where it is not UTF-8 (RFC 3629). */
 static size_t character(const unsigned char *s)
 {
   if (s[0] < 0x80) {
@@ -101,7 +101,7 @@ int baum_i_length(const char *text)
   return count;
 }
 
-/* What stands for a character; NULL: the character itself. */
+/* Returns the escape of a character; NULL: the character itself. */
 static const char *escape(char c, baum_i_quoting quoting)
 {
   if (quoting == BAUM_I_PLAIN) {
@@ -113,7 +113,7 @@ static const char *escape(char c, baum_i_quoting quoting)
   switch (c) {
   case '"': return "\\\"";
   case '\\': return "\\\\";
-  case '<': return "\\u003c"; /* so that no text ends the script that it stands in */
+  case '<': return "\\u003c"; /* so that no text ends the script around it */
   default: return NULL;
   }
 }

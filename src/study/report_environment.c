@@ -17,7 +17,7 @@
 #define COMPILER "not known"
 #endif
 
-/* As Linux tells it. */
+/* Reads the processor's name as Linux gives it. */
 static void read_cpu(char *cpu, size_t size)
 {
   char line[512];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A file that is there as a whole or not at all: it is written beside the old one, which it then
- * replaces. */
+/* Writes a file as a whole or not at all: as a new file beside the old one, which it then replaces.
+ */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -24,8 +24,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Is the name all that the file has? Replacing would lose devices, pipes, links, other names and
- * another owner. */
+/* Tells whether the path is all that the file has. Replacing would lose devices, pipes, links,
+ * other names and another owner. */
 static bool is_replaceable(const struct stat *found)
 {
   return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
@@ -37,7 +37,7 @@ int baum_i_sync_file(FILE *file)
   return done ? 0 : errno;
 }
 
-/* The reason of the first failure, or 0. Closes the file in any case. */
+/* Returns the reason of the first failure, or 0. Always closes the file. */
 static int write_bytes(FILE *file, const char *bytes, size_t size)
 {
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
@@ -57,8 +57,7 @@ static baum_status write_in_place(const char *path, const char *bytes, size_t si
   return reason ? fail(path, "written", reason) : BAUM_OK;
 }
 
-/* Create a file in the folder of `path`, the first `folder` characters of it, under a name that
- * nothing has. */
+/* Creates a file with an unused name in the folder of `path`, its first `folder` characters. */
 static FILE *create_part(const char *path, size_t folder, mode_t mode, char *part, size_t capacity)
 {
   for (int k = 0; k < TRIES; k++) {
@@ -74,7 +73,7 @@ static FILE *create_part(const char *path, size_t folder, mode_t mode, char *par
   return NULL;
 }
 
-/* The new name reaches the disk with the folder; nothing is lost where that cannot be asked for. */
+/* Brings the new name to the disk with the folder; nothing is lost where that is not possible. */
 static void sync_folder(const char *folder)
 {
   int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -84,9 +83,9 @@ static void sync_folder(const char *folder)
   }
 }
 
-/* `old` is the file that is replaced, or NULL. `part` has room for the name of the new one. */
-static baum_status replace(const char *path, const struct stat *old, const char *bytes, size_t size,
-                           char *part, size_t capacity)
+/* Replaces `old`, or nothing where it is NULL. `part` has room for the name of the new file. */
+static baum_status replace_file(const char *path, const struct stat *old, const char *bytes,
+                                size_t size, char *part, size_t capacity)
 {
   const char *slash = strrchr(path, '/');
   size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
@@ -123,7 +122,7 @@ baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
   if (!part) {
     return baum_i_fail_memory();
   }
-  baum_status status = replace(path, exists ? &found : NULL, bytes, size, part, capacity);
+  baum_status status = replace_file(path, exists ? &found : NULL, bytes, size, part, capacity);
   baum_i_free(part);
   return status;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study for programs (RFC 8259). Keys stay as they are; "version" counts changes of meaning. */
+/* A study as JSON (RFC 8259). Keys never change; "version" counts changes of meaning. */
 #include <math.h>
 
 #include "study/report.h"
 
 enum { VERSION = 2 };
 
-/* A member comes after others unless the text ends with the brace of its object. */
+/* A member follows others unless the text ends with the brace of its object. */
 static void put_key(baum_i_buffer *out, const char *key)
 {
   bool first = out->used > 0 && out->text[out->used - 1] == '{';
@@ -64,7 +64,7 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   put_number(out, "entry_limit", snapshot->options.entry_limit);
 }
 
-/* Of every key whose value has one. */
+/* Puts the units of all keys that have one. */
 static void put_units(baum_i_buffer *out)
 {
   const baum_i_field *const lists[] = {baum_i_entry_fields, baum_i_method_fields,
@@ -81,7 +81,7 @@ static void put_units(baum_i_buffer *out)
   }
 }
 
-/* Of the keys of entries. */
+/* Puts the meanings of the keys of entries. */
 static void put_meanings(baum_i_buffer *out)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {

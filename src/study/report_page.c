@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as one HTML page: the template report.html with the data that its script draws. These are
- * the report as JSON, and for each integrator of fixed step with gains its region of stability:
- * its rule of gains, its point of best damping, and level lines of the spectral radius. */
+/* A study as one HTML page: the template report.html with the data that its script draws. The data
+ * are the report as JSON and, for each fixed-step integrator with gains, its region of stability:
+ * its gain rule, its point of best damping, and level lines of the spectral radius. */
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +20,7 @@ static bool has_gains(const baum_study_entry *entry)
   return entry->formulation == BAUM_FORMULATION_BAUMGARTE && !isnan(entry->step);
 }
 
-/* Entry k is the first with gains of its integrator. */
+/* Tells whether entry k is the first with gains of its integrator. */
 static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
   const baum_study_entry *entry = &snapshot->entries[k].entry;
@@ -33,7 +33,7 @@ static bool is_first(const baum_i_snapshot *snapshot, int k)
   return has_gains(entry);
 }
 
-/* Points (alpha h, beta^2 h^2); null between the curves. */
+/* Puts points (alpha h, beta^2 h^2), and null between curves. */
 static void put_outline(const baum_integrator *integrator, double radius, double *points,
                         baum_i_buffer *out)
 {

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study for a screen: what to take, the front, the price of accuracy, all entries, what was said
- * of them. */
+/* A study as text for a screen: recommendations, front, cost of accuracy, all entries, messages. */
 #include <math.h>
 #include <string.h>
 
 #include "study/report.h"
 
-/* Widest name, at least that of a title. */
+/* Returns the widest name, at least that of the title. */
 static int name_width(const baum_i_snapshot *snapshot)
 {
   int width = baum_i_length("setting");
@@ -17,7 +16,7 @@ static int name_width(const baum_i_snapshot *snapshot)
   return width;
 }
 
-/* Entries in that state. */
+/* Counts the entries in a state. */
 static int count_in(const baum_i_snapshot *snapshot, baum_study_state state)
 {
   int count = 0;
@@ -44,14 +43,14 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   }
   baum_i_putf(out, "\nerror      %s\n", snapshot->error);
   baum_i_putf(out, "reference  %s digits%s; %s\n", baum_i_short(r->digits, 3).text,
-              r->trusted ? "" : ", NOT TO BE TRUSTED", r->text ? r->text : "not made");
+              r->trusted ? "" : ", NOT TRUSTED", r->text ? r->text : "not made");
   baum_i_putf(out, "made by    baum %s, SUNDIALS %s, %s, %s, %s\n", e->baum, e->sundials,
               e->compiler, e->cpu, e->date);
 }
 
 static void put_advice(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nWhat to take for an error, cheapest by work\n");
+  baum_i_put(out, "\nRecommended settings by error, cheapest by work\n");
   for (int k = 0; k < BAUM_I_ADVICE; k++) {
     const baum_i_advice *advice = &snapshot->advice[BAUM_STUDY_WORK][k];
     baum_i_putf(out, "%7.0e  ", advice->error);
@@ -60,13 +59,13 @@ static void put_advice(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   }
 }
 
-/* A figure of so many digits in a column. */
+/* Puts a number of this many digits in a column. */
 static void put_figure(baum_i_buffer *out, double x, int digits, int width)
 {
   baum_i_putf(out, "  %*s", width, baum_i_short(x, digits).text);
 }
 
-/* One column of the tables of entries. */
+/* A column of the tables of entries. */
 typedef struct text_column {
   const char *key;
   const char *title;
@@ -154,7 +153,7 @@ static void put_front(const baum_i_snapshot *snapshot, int width, baum_i_buffer 
 
 static void put_methods(const baum_i_snapshot *snapshot, int width, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nThe price of accuracy: factors on the cost for one more digit\n");
+  baum_i_put(out, "\nMethods, with the factors on their cost for one more digit\n");
   baum_i_put_left(out, "method", width);
   baum_i_put(out, "  settings  usable  least error   slope     work      CPU  growth\n");
   for (int k = 0; k < snapshot->method_count; k++) {
@@ -173,7 +172,7 @@ static void put_methods(const baum_i_snapshot *snapshot, int width, baum_i_buffe
 
 static void put_messages(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nWhat was said\n");
+  baum_i_put(out, "\nFailures and warnings\n");
   for (int k = 0; k < snapshot->entry_count; k++) {
     const baum_study_entry *entry = &snapshot->entries[k].entry;
     if (entry->message[0]) {
@@ -197,8 +196,8 @@ void baum_i_report_text(const baum_i_snapshot *snapshot, baum_i_buffer *out)
     put_entry(&snapshot->entries[k], width, out);
   }
   put_messages(snapshot, out);
-  baum_i_put(out,
-             "\nfront: no setting is both cheaper and more exact.  floor: as good as the reference "
-             "can tell.\noff: another motion, an error above 0.1 of the scale or another branch.  "
-             "unstable: its gains do not damp with this step.\n");
+  baum_i_put(
+    out, "\nfront: no setting is both cheaper and more exact.  floor: at the uncertainty of the "
+         "reference.\noff: another motion, an error above 0.1 of the scale or another branch.  "
+         "unstable: its gains do not damp with this step.\n");
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Running a study: the reference, then all errors by several threads, then all times one after the
- * other. */
+/* Runs a study: the reference, then all errors in several threads, then all times one after the
+ * other, then validations. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,11 +8,11 @@
 #include "base/alloc.h"
 #include "study/study.h"
 
-static const double OFF = 0.1;           /* [-] error of positions of another motion */
-static const double VALIDATED_FOR = 5.0; /* entry limits */
-static const double TIMED_FOR = 0.2;     /* [s] an entry is not repeated beyond that */
+static const double OFF = 0.1;           /* [-] error of positions that belong to another motion */
+static const double VALIDATED_FOR = 5.0; /* entry limits that a validation may take */
+static const double TIMED_FOR = 0.2;     /* [s] an entry is not repeated beyond this */
 
-/* What the threads share. */
+/* Data that the threads share. */
 typedef struct workers {
   baum_study *study;
   baum_i_study_file *file;
@@ -21,7 +21,7 @@ typedef struct workers {
   baum_i_entry **order; /* (count) entries to be measured */
   int count;
   int next;
-  int done; /* entries measured, and entries timed or not to be */
+  int done; /* entries measured, plus entries timed or not to be timed */
   baum_status status;
   baum_i_kept_message message; /* of the status */
 } workers;
@@ -39,7 +39,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* The whole span and its end. Nothing is graded below what the reference is known to. */
+/* Sets the errors over the whole span and at its end. No error is graded below the uncertainty of
+ * the reference. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
@@ -110,14 +111,14 @@ static void note_failure(workers *c, baum_status status)
   }
 }
 
-/* For runs that take so many entry limits at most. */
+/* Deadline of runs that may take this many entry limits. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* As many threads as there are entries, or as the options say. */
+/* Uses as many threads as entries, or as the options say. */
 static void run_workers(workers *c, void (*work)(void *user, int k))
 {
   int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
@@ -126,8 +127,8 @@ static void run_workers(workers *c, void (*work)(void *user, int k))
   }
 }
 
-/* An entry has come a stage further. Called by one thread at a time. */
-static void report(workers *c)
+/* Reports the progress of an entry. Called by one thread at a time. */
+static void report_progress(workers *c)
 {
   c->done++;
   const baum_study_options *o = &c->study->options;
@@ -136,14 +137,14 @@ static void report(workers *c)
   }
 }
 
-/* A coarser setting of the method has reached the limit. */
+/* Tells whether a coarser setting of the method reached the entry limit. */
 static bool is_too_fine(const workers *c, const baum_i_entry *entry)
 {
   double setting = baum_i_setting(&entry->options);
   return setting > 0.0 && setting < c->study->methods[entry->out.method].too_fine;
 }
 
-static void pass_over(const workers *c, baum_i_entry *entry)
+static void mark_too_fine(const workers *c, baum_i_entry *entry)
 {
   entry->out.state = BAUM_STUDY_TIMED_OUT;
   entry->out.status = BAUM_STOP_CANCELLED;
@@ -153,7 +154,7 @@ static void pass_over(const workers *c, baum_i_entry *entry)
   entry->stage = BAUM_I_MEASURED;
 }
 
-/* The next entry, or NULL. */
+/* Returns the next entry, or NULL. */
 static baum_i_entry *next_entry(workers *c)
 {
   const baum_i_deadline deadline = deadline_of(c, 1.0);
@@ -173,7 +174,7 @@ static void finish_entry(workers *c, baum_i_entry *entry)
     *too_fine = fmax(*too_fine, baum_i_setting(&entry->options));
   }
   note_failure(c, baum_i_study_file_entry(c->file, entry));
-  report(c);
+  report_progress(c);
 }
 
 static void measure_entry(workers *c, baum_i_entry *entry, double *values)
@@ -193,7 +194,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
     note_failure(c, baum_i_fail_memory());
   } else if (!stopped) {
     if (passed) {
-      pass_over(c, entry);
+      mark_too_fine(c, entry);
     } else {
       take_outcome(c->study, &outcome, &deadline, values, entry);
     }
@@ -202,7 +203,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(&c->lock);
 }
 
-/* What is done to an entry; values: samples of one run to work in. */
+/* Work on one entry; values: room for the samples of one run. */
 typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
 
 static void run_entries(workers *c, entry_fn *work)
@@ -251,7 +252,7 @@ static void validate(void *self, int k)
   run_entries(self, validate_entry);
 }
 
-/* Those that are to be validated into the order; returns whether there are some. */
+/* Lists the entries that need validation; returns whether there are any. */
 static bool order_validations(workers *c)
 {
   const baum_study *study = c->study;
@@ -281,7 +282,7 @@ static void validate_all(workers *c)
 
 /* ---- order ---- */
 
-/* How many entries of its method are coarser. */
+/* Counts the coarser entries of its method. */
 static int rank_of(const baum_study *study, const baum_i_entry *entry)
 {
   int rank = 0;
@@ -293,7 +294,7 @@ static int rank_of(const baum_study *study, const baum_i_entry *entry)
   return rank;
 }
 
-/* An entry and its place. */
+/* An entry and its place in the order. */
 typedef struct place {
   baum_i_entry *entry;
   int rank;
@@ -308,7 +309,7 @@ static int by_rank(const void *a, const void *b)
                             : (x->k > y->k) - (x->k < y->k);
 }
 
-/* Coarse settings first, so that what is known when time is over is something of all methods. */
+/* Coarse settings come first, so that results of all methods exist when time runs out. */
 static baum_status set_order(workers *c)
 {
   const baum_study *study = c->study;
@@ -368,7 +369,7 @@ static baum_status time_entry(workers *c, baum_i_entry *entry)
     baum_i_outcome outcome;
     baum_i_study_run_one(&task, &deadline, NULL, &outcome);
     if (outcome.status < BAUM_OK) {
-      return baum_i_fail(outcome.status, "study: %s, when it was timed: %s", entry->name,
+      return baum_i_fail(outcome.status, "study: timing of %s failed: %s", entry->name,
                          outcome.message);
     }
     if (outcome.status == BAUM_STOP_CANCELLED) {
@@ -400,13 +401,13 @@ static void time_entries(workers *c)
     if (is_untimed(entry)) {
       note_failure(c, time_entry(c, entry));
     }
-    report(c);
+    report_progress(c);
   }
 }
 
 /* ---- all of it ---- */
 
-/* Entries without a result, or without the time of one. */
+/* Counts entries without a result or without its time. */
 static int waiting(const baum_study *study)
 {
   int count = 0;
@@ -417,8 +418,8 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-/* Entries to be measured, or that may have to be validated once they are timed, are compared with
- * it. */
+/* Tells whether entries will be compared with the reference: those to be measured, and those that
+ * validation may need once they are timed. */
 static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
@@ -486,8 +487,8 @@ static baum_status conclude(workers *c)
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
-/* Memory, samples, file and reference. */
-static baum_status begin(workers *c)
+/* Prepares memory, samples, file and reference. */
+static baum_status begin_study(workers *c)
 {
   baum_study *study = c->study;
   c->order = baum_i_alloc((size_t)study->entry_count, sizeof(baum_i_entry *));
@@ -507,12 +508,13 @@ baum_status baum_study_run(baum_study *study)
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_run: the study is NULL");
   }
   if (study->entry_count == 0) {
-    return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no entries; add settings");
+    return baum_i_fail(BAUM_ERR_STATE,
+                       "baum_study_run: the study has no entries; add settings first");
   }
   BAUM_I_TRY(baum_i_study_check_idle(study, "baum_study_run"));
   study->running = true;
   workers c = {.study = study, .wall_end = baum_i_wall_seconds() + study->options.time_budget};
-  baum_status status = begin(&c);
+  baum_status status = begin_study(&c);
   if (status == BAUM_OK) {
     run_all(&c);
   }

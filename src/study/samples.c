@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far samples of a run are from the reference.
+/* Differences of the samples of a run from the reference.
  *
- *   q       |dq_i| / s_i                               s: scales of the mechanism, L for lengths
- *   and 1 for angles
- *   v       |dv_i| / (s_i V)                           V: largest |v_j| / s_j over all samples of
- *   the reference [1/s]
- *   lambda  |dlambda_i| n_i / E                        n_i: displacement of row i for changes of q
- *   by s, E: largest
- *                                                      |lambda_j| n_j over all samples of the
- *                                                      reference [J]
+ *   q       |dq_i| / s_i             s: scales of the mechanism, L for lengths and 1 for angles
+ *   v       |dv_i| / (s_i V)         V: largest |v_j| / s_j over all samples of the reference [1/s]
+ *   lambda  |dlambda_i| n_i / E      n_i: displacement of row i for changes of q by s
+ *                                   E: largest |lambda_j| n_j over all samples [J]
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit, or as q
  *
- * Entries that the reference does not know are not compared; what a run does not have is infinitely
- * far.
- */
+ * Numbers that the reference does not know are not compared; a number that a run lacks counts as
+ * infinitely far. */
 #include <math.h>
 #include <string.h>
 
@@ -64,7 +59,7 @@ void baum_i_study_clear_samples(baum_i_samples *samples)
 
 /* ---- weights ---- */
 
-/* Displacements of the rows at the first sample. */
+/* Computes the displacements of the rows at the first sample. */
 static baum_status measure_rows(const baum_study *study, double *rows)
 {
   baum_workspace *w = NULL;
@@ -80,8 +75,7 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   return status;
 }
 
-/* Divide the weights of some columns by the largest weighed value of the reference in any of them.
- * */
+/* Divides the weights of some columns by their largest weighted value in the reference. */
 static void normalize(const baum_study *study, const baum_i_layout *l, int first, int count)
 {
   const baum_i_samples *samples = &study->reference.samples;
@@ -124,7 +118,7 @@ baum_status baum_i_study_weigh(baum_study *study)
 
 /* ---- differences ---- */
 
-static double far(double got, double wanted)
+static double distance(double got, double wanted)
 {
   double difference = fabs(got - wanted);
   if (isnan(wanted)) {
@@ -133,23 +127,24 @@ static double far(double got, double wanted)
   return isfinite(difference) ? difference : (double)INFINITY;
 }
 
-/* Largest weighed difference in some columns of one sample; NaN where none is known. */
+/* Returns the largest weighted difference in some columns of one sample; NaN where none is known.
+ */
 static double largest_of(const baum_study *study, const double *got, const double *wanted,
                          int first, int end)
 {
   double largest = (double)NAN;
   for (int i = first; i < end; i++) {
-    largest = fmax(largest, far(got[i], wanted[i]) * study->reference.weight[i]);
+    largest = fmax(largest, distance(got[i], wanted[i]) * study->reference.weight[i]);
   }
   return largest;
 }
 
 static double of_energy(const double *got, const double *wanted, int energy)
 {
-  return far(got[energy] + got[energy + 1], wanted[energy] + wanted[energy + 1]);
+  return distance(got[energy] + got[energy + 1], wanted[energy] + wanted[energy + 1]);
 }
 
-static void take(double of[2], double value)
+static void keep_largest(double of[2], double value)
 {
   of[0] = fmax(of[0], value);
   of[1] = value;
@@ -165,11 +160,12 @@ baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_sa
   for (int k = 0; k < samples->n; k++) {
     const double *got = values + (size_t)k * l.width;
     const double *wanted = samples->values + (size_t)k * l.width;
-    take(d.q, largest_of(study, got, wanted, 0, l.nq));
-    take(d.v, largest_of(study, got, wanted, l.v, l.v + l.nv));
-    take(d.lambda, largest_of(study, got, wanted, l.lambda, l.lambda + l.nc));
-    take(d.energy, of_energy(got, wanted, l.energy));
-    take(d.error, l.user < l.width ? largest_of(study, got, wanted, l.user, l.width) : d.q[1]);
+    keep_largest(d.q, largest_of(study, got, wanted, 0, l.nq));
+    keep_largest(d.v, largest_of(study, got, wanted, l.v, l.v + l.nv));
+    keep_largest(d.lambda, largest_of(study, got, wanted, l.lambda, l.lambda + l.nc));
+    keep_largest(d.energy, of_energy(got, wanted, l.energy));
+    keep_largest(d.error,
+                 l.user < l.width ? largest_of(study, got, wanted, l.user, l.width) : d.q[1]);
     if (fabs(samples->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
       d.error[2] = d.error[0];
     }

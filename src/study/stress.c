@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress settings for a mechanism of the user's. Decades, because what breaks does so between them.
- * */
+/* Stress settings for a user's mechanism. They are decades, because failures lie decades apart. */
 #include <math.h>
 
 #include "base/text.h"
@@ -9,7 +8,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Decades: steps of a period 10^-1 to 10^-9, rtol 10^-2 to 10^-14, gains 10^-6 to 10^12 1/s. */
+/* Decades: steps of 10^-1 to 10^-9 of the period, rtol 10^-2 to 10^-14, gains 10^-6 to 10^12 1/s.
+ */
 enum {
   FIRST_STEP = 1,
   LAST_STEP = 9,
@@ -51,7 +51,7 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* None, and alpha = beta through the decades, each with one step or tolerance that is moderate. */
+/* Adds no gains, and alpha = beta through the decades, each with one moderate step or tolerance. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Making a study, saying what is studied, and reading entries. */
+/* Creating a study, setting what is studied, and reading the reference. */
 #include <baum/study.h>
 
 #include <math.h>
@@ -19,7 +19,7 @@
 
 /* ---- making and ending ---- */
 
-enum { NAMED = 3 }; /* channels, in words */
+enum { NAMED = 3 }; /* channels named in the error text */
 
 static void describe_error(baum_study *study)
 {
@@ -77,7 +77,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-/* Free entries from `entries` on, and give up methods likewise. */
+/* Frees entries and methods from these numbers on. */
 static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {
@@ -88,7 +88,7 @@ static void truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
-/* Integrators of SUNDIALS are listed without it, too. */
+/* Integrators of SUNDIALS are listed even in builds without it. */
 static bool is_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;
@@ -145,8 +145,7 @@ void baum_study_cancel(baum_study *study)
 /* ---- options ---- */
 
 enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
-static const double MOST_NUMBERS =
-  1e8; /* q, v and lambda at all samples, which each thread keeps */
+static const double MOST_NUMBERS = 1e8; /* q, v and lambda at all samples; each thread keeps them */
 
 static int most_samples(const baum_mechanism *m)
 {
@@ -195,14 +194,16 @@ static baum_status check_options(const baum_study *study, const baum_study_optio
     }
   }
   if (o->file && o->file[0] == '\0') {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: file is empty; NULL stands for none");
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: file is empty; use NULL for no file");
   }
   return BAUM_OK;
 }
 
-static baum_status begun(const char *call, const char *what)
+static baum_status refuse_change(const char *call, const char *what)
 {
-  return baum_i_fail(BAUM_ERR_STATE, "%s: entries have been run, %s stays as it is", call, what);
+  return baum_i_fail(BAUM_ERR_STATE,
+                     "%s: entries have been run, so %s can no longer change; use a new study", call,
+                     what);
 }
 
 static bool same_file(const char *a, const char *b)
@@ -217,7 +218,7 @@ static baum_status check_begun(const baum_study *study, const baum_study_options
                      : o->energy_account != now->energy_account ? "energy_account"
                      : !same_file(o->file, now->file)           ? "file"
                                                                 : NULL;
-  return study->begun && what ? begun("baum_study_set_options", what) : BAUM_OK;
+  return study->begun && what ? refuse_change("baum_study_set_options", what) : BAUM_OK;
 }
 
 baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call)
@@ -231,14 +232,14 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
       "the default",
       call, given, size);
   }
-  memcpy(to, from, given); /* what an older version lacks has its default */
+  memcpy(to, from, given); /* members that an older version lacks keep their default */
   memcpy(to, &size, sizeof size);
   return BAUM_OK;
 }
 
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call)
 {
-  return study->running ? baum_i_fail(BAUM_ERR_STATE, "%s: baum_study_run() is under way", call)
+  return study->running ? baum_i_fail(BAUM_ERR_STATE, "%s: baum_study_run() is still running", call)
                         : BAUM_OK;
 }
 
@@ -298,7 +299,7 @@ baum_status baum_study_set_error(baum_study *study, const baum_channel *channels
   int width = 0;
   BAUM_I_TRY(baum_i_check_channels(study->mechanism, channels, count, &width));
   if (study->begun) {
-    return begun(call, "what error means");
+    return refuse_change(call, "what error means");
   }
   baum_channel *copy = baum_i_alloc((size_t)count, sizeof *copy);
   if (!copy) {
@@ -347,7 +348,7 @@ static baum_status check_sample_times(const baum_study *study, const double *tim
   return BAUM_OK;
 }
 
-/* Copies of what was given, or nothing. */
+/* Copies what was given; false when out of memory. */
 static bool copy_given(const baum_study *study, const double *times, int32_t n,
                        const double *const given[3], baum_i_study_reference *out)
 {
@@ -384,7 +385,7 @@ baum_status baum_study_set_reference(baum_study *study, const double *times, int
   BAUM_I_TRY(check_digits(call, digits));
   BAUM_I_TRY(check_sample_times(study, times, n));
   if (study->begun) {
-    return begun(call, "the reference");
+    return refuse_change(call, "the reference");
   }
   baum_i_study_reference r = {
     .samples = {.n = n}, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
@@ -410,7 +411,7 @@ baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *s
   }
   BAUM_I_TRY(check_digits(call, digits));
   if (study->begun) {
-    return begun(call, "the reference");
+    return refuse_change(call, "the reference");
   }
   const baum_i_study_reference r = {
     .solution = solution, .user = user, .digits = digits, .out = {.origin = BAUM_STUDY_SOLUTION}};

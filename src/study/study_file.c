@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The study file: lines of text, each written at once when its result is known.
+/* The study file: lines of text, each written as soon as its result is known.
  *
  *   baum-study 3 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX
  *   reference HEX #SUM
@@ -7,11 +7,10 @@
  *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
  * STAGE is 1: measured, 2: timed, or 3: validated. KEY is a sum over the options of an entry, so
- * that entries may be added in any order. SUM is over the line before it and, but for the first
- * line, what that one has: a line that is cut off, damaged or of another study is not a result, and
- * its entry is run again. An entry has a line for each stage, with all that is known by then. Of
- * two lines of one stage the first counts that has not run out of time.
- */
+ * entries may be added in any order. SUM is over the line before it and, in all lines but the
+ * first, over the first line. A line that is cut off, damaged or of another study is therefore no
+ * result, and its entry is run again. An entry has a line for each stage, with everything known by
+ * then. Of two lines of one stage the first that has not timed out counts. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -43,20 +42,20 @@ struct baum_i_study_file {
 
 /* ---- lines ---- */
 
-static baum_status complain(const baum_i_study_file *file, const char *what)
+static baum_status fail_file(const baum_i_study_file *file, const char *what)
 {
   return baum_i_fail(BAUM_ERR_FILE, "study: file %s cannot be %s: %s", file->path, what,
                      strerror(errno));
 }
 
-/* A line at once, so that a process that ends here leaves whole lines. */
+/* Writes a line at once, so that a process that ends leaves whole lines. */
 static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed)
 {
   baum_i_study_seal(line, seed);
   size_t size = strlen(line);
   errno = 0;
   if (fwrite(line, 1, size, file->stream) != size || fflush(file->stream) != 0) {
-    return complain(file, "written");
+    return fail_file(file, "written");
   }
   return BAUM_OK;
 }
@@ -154,10 +153,10 @@ static baum_status refuse(const baum_i_study_file *file, const char *why)
 static baum_status check_head(const baum_i_study_file *file, const baum_study *study, char *line)
 {
   if (strncmp(line, HEAD, strlen(HEAD)) != 0 || !baum_i_study_unseal(line, 0)) {
-    return refuse(file, "is no study file");
+    return refuse(file, "is not a study file");
   }
   if (strncmp(line, VERSION, strlen(VERSION)) != 0 || line[strlen(VERSION)] != ' ') {
-    return refuse(file, "is of another version of the format");
+    return refuse(file, "has another version of the format; use another file");
   }
   mark marks[MARKS];
   mark_study(study, marks);
@@ -165,7 +164,8 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
     char wanted[64] = "";
     baum_i_append(wanted, sizeof wanted, " %s %016" PRIx64, marks[k].name, marks[k].value);
     if (!strstr(line, wanted)) {
-      return baum_i_fail(BAUM_ERR_BUFFER, "study: file %s is of another study: %s differ%s",
+      return baum_i_fail(BAUM_ERR_BUFFER,
+                         "study: file %s belongs to another study: %s differ%s; use another file",
                          file->path, marks[k].what, k < 2 || k == 3 ? "" : "s");
     }
   }
@@ -174,13 +174,13 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
 
 /* ---- reading ---- */
 
-/* What is behind " | "; NULL where that is not there. */
+/* Returns the text behind " | "; NULL where that is missing. */
 static const char *text_at(const char *rest)
 {
   return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-/* STAGE LIMIT FIELDS | MESSAGE of an entry. */
+/* Reads STAGE LIMIT FIELDS | MESSAGE of an entry. */
 static void take_entry(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   baum_study_entry out = entry->out;
@@ -228,7 +228,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   } else if (strncmp(line, ENTRY, strlen(ENTRY)) == 0) {
     char *rest = NULL;
     uint64_t key = strtoull(line + strlen(ENTRY), &rest, 16);
-    for (int k = 0; k < study->entry_count; k++) { /* several may be the same */
+    for (int k = 0; k < study->entry_count; k++) { /* several may be equal */
       if (study->entries[k]->key == key) {
         take_entry(study, study->entries[k], rest);
       }
@@ -236,7 +236,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   }
 }
 
-/* It ended before its head was written: nothing is lost. */
+/* Tells whether the file ended before its head was written: nothing is lost. */
 static bool is_begun_head(const baum_i_study_file *file, const baum_study *study, const char *line)
 {
   char head[LINE];
@@ -247,7 +247,7 @@ static bool is_begun_head(const baum_i_study_file *file, const baum_study *study
          ftell(file->stream) == (long)size;
 }
 
-/* All lines; `whole` says whether the last one has its end. */
+/* Reads all lines; `whole` tells whether the last one is complete. */
 static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is_new, bool *whole)
 {
   char *line = baum_i_alloc(LINE, 1);
@@ -270,7 +270,7 @@ static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is
     *is_new = false;
   }
   if (status == BAUM_OK && ferror(file->stream)) {
-    status = complain(file, "read");
+    status = fail_file(file, "read");
   }
   baum_i_free(line);
   return status;
@@ -278,7 +278,7 @@ static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is
 
 /* ---- opening and closing ---- */
 
-/* What is there already. A file that is not there is a new one. */
+/* Reads an existing file. A missing file is a new one. */
 static baum_status take_present(baum_i_study_file *file, baum_study *study, bool *is_new,
                                 bool *whole)
 {
@@ -290,7 +290,7 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
   errno = 0;
   file->stream = fopen(file->path, "r");
   if (!file->stream) {
-    return errno == ENOENT ? BAUM_OK : complain(file, "opened");
+    return errno == ENOENT ? BAUM_OK : fail_file(file, "opened");
   }
   baum_status status = read_all(file, study, is_new, whole);
   (void)fclose(file->stream);
@@ -303,18 +303,18 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
   errno = 0;
   file->stream = fopen(file->path, is_new ? "w" : "a");
   if (!file->stream) {
-    return complain(file, "opened");
+    return fail_file(file, "opened");
   }
   if (is_new) {
     char line[LINE];
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* What was cut off becomes a line of its own, which is no result. */
-  return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : complain(file, "written");
+  /* A line that was cut off becomes a line of its own, which is no result. */
+  return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 
-/* What is known but not in the file, which may have been full. */
+/* Writes what is known but not in the file, whose disk may have been full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   for (int k = 0; k < study->entry_count; k++) {
@@ -364,7 +364,7 @@ baum_status baum_i_study_file_close(baum_i_study_file *file)
     int reason = baum_i_sync_file(file->stream);
     if (fclose(file->stream) != 0 || reason != 0) {
       errno = reason ? reason : errno;
-      status = complain(file, "written");
+      status = fail_file(file, "written");
     }
   }
   baum_i_free(file);

@@ -5,23 +5,23 @@
 
 #include "study/fields.h"
 
-enum { BAUM_I_STUDY_LINE = 4096 }; /* characters of a line at most, with its zero */
+enum { BAUM_I_STUDY_LINE = 4096 }; /* most characters of a line, with its zero */
 
-/* Add those of the fields that are filed, in their order. */
+/* Appends the fields that are written to study files, in their order. */
 void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
                                const baum_i_field *fields);
 
-/* Returns where the fields end; NULL where one is missing or has no such value, the object being
- * half-read then. */
+/* Reads fields. Returns where they end, or NULL where one is missing or invalid; the object is then
+ * partly read. */
 const char *baum_i_study_read_fields(const char *text, void *object, const baum_i_field *fields);
 
-/* Add " | TEXT", without what would end a line. */
+/* Appends " | TEXT", without characters that end a line. */
 void baum_i_study_write_text(char line[BAUM_I_STUDY_LINE], const char *text);
 
-/* Add the sum, which is over the line and `seed`, and the end of the line. */
+/* Appends the sum over the line and `seed`, and ends the line. */
 void baum_i_study_seal(char line[BAUM_I_STUDY_LINE], uint64_t seed);
 
-/* Cut the sum off a line that agrees with it. */
+/* Removes the sum from a line that agrees with it; false for others. */
 bool baum_i_study_unseal(char *line, uint64_t seed);
 
 #endif

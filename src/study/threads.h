@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The threads of a study. */
+/* Threads and locks of a study. */
 #ifndef BAUM_I_STUDY_THREADS_H
 #define BAUM_I_STUDY_THREADS_H
 
@@ -15,8 +15,8 @@ void baum_i_lock_end(baum_i_lock *lock);
 void baum_i_lock_take(baum_i_lock *lock);
 void baum_i_lock_give(baum_i_lock *lock);
 
-/* Call work(user, k) for k = 0 to count - 1, each in a thread of its own, the first in this one;
- * those for which there is no thread are left out. Returns when all are back. */
+/* Calls work(user, k) for k = 0 to count - 1, each in a thread of its own, the first in this one.
+ * Calls for which no thread can be created are omitted. Returns when all have ended. */
 void baum_i_threads_run(int count, void (*work)(void *user, int k), void *user);
 
 #endif

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What becomes of errors over twice the span and from other starts.
- *
- * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they
- * may grow hundredfold. So entries that may be recommended are run again over twice the span, from
- * the start as designed and from two others whose velocities differ by NUDGE of their size, or,
- * where all is at rest, of the rate of the motion. There is a reference for each, by the setting of
- * the study's own. Entries that cost more than NEAR times another one that is as exact are left
- * out.
- */
+/* Errors over twice the span and from other starts. How fast errors grow depends on the motion and
+ * on the method: from one revolution to the next they may grow by a factor of 100. Entries that may
+ * be recommended are therefore run again over twice the span, from the design configuration and
+ * from two other starts whose velocities differ by NUDGE of their size or, at rest, of the rate of
+ * the motion. Each start has a reference, by the setting of the study's own. Entries that cost more
+ * than NEAR times another one that is as exact are not validated. */
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +32,7 @@ static baum_status allocate(const baum_study *study, baum_i_samples *samples)
                                                                        : baum_i_fail_memory();
 }
 
-/* Start as designed, nudged by a share of the velocities. */
+/* Sets the start, nudged by a share of the velocities. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_samples *samples)
 {
   const baum_mechanism *m = study->mechanism;
@@ -71,7 +68,7 @@ static baum_simulation_options reference_options(const baum_study *study)
   return o;
 }
 
-/* One motion; its values are given up where it cannot be made. */
+/* Makes one motion; its values become NULL where it cannot be made. */
 static baum_status make_one(const baum_study *study, double nudge, baum_i_deadline *deadline,
                             baum_i_samples *samples)
 {
@@ -108,7 +105,7 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Could it be recommended? */
+/* Tells whether the entry could be recommended. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

@@ -60,8 +60,8 @@ static bool reached_the_end(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* The k-th pair of integrator, in a way to step, and formulation that this build offers; false when
- * there are no more. */
+/* The k-th combination of integrator, kind of step and formulation that this build offers; false
+ * when there are no more. */
 static bool find_pair(int k, baum_simulation_options *o)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {

@@ -380,13 +380,13 @@ static void what_an_element_is_tied_to_must_stay(void **state)
                    BAUM_OK);
   pin.body_b = parts.tool;
   ASSERT_SAYS(baum_mechanism_set_planar_revolute(parts.mechanism, joint, &pin), BAUM_ERR_ARGUMENT,
-              "\"pin\": its bodies must stay");
+              "\"pin\": its bodies cannot change");
   baum_coordinates_def masses;
   assert_int_equal(
     baum_mechanism_get_coordinates(parts.mechanism, parts.masses, &masses, sizeof masses), BAUM_OK);
   masses.size = 1;
   ASSERT_SAYS(baum_mechanism_set_coordinates(parts.mechanism, parts.masses, &masses),
-              BAUM_ERR_ARGUMENT, "\"masses\": its size is 2 and must stay");
+              BAUM_ERR_ARGUMENT, "\"masses\": its size is 2 and cannot change");
   check_size(parts.mechanism, EVERY_NV, EVERY_NC);
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -428,7 +428,7 @@ static void gravity_and_scale_out_of_range_are_refused(void **state)
   const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
   for (int k = 0; k < 4; k++) {
     ASSERT_SAYS(baum_mechanism_set_characteristic_length(mechanism, bad[k]), BAUM_ERR_ARGUMENT,
-                "length scale is | m, must be finite and > 0");
+                "characteristic length is | m, must be finite and > 0");
   }
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_STATE, "the mechanism has no body");
   assert_false(baum_mechanism_is_frozen(mechanism));
@@ -461,7 +461,7 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* It lay on `point` when the slot was added; where it is drawn now, freezing can tell. */
+/* It was at `point` when the slot was added; freezing sees where it is designed now. */
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;
@@ -483,7 +483,7 @@ static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state
   for (int again = 0; again < 2; again++) {
     ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
                 "joint 1 \"slot\": point is (0, 0) m, must be at the particle body 1 \"bead\", "
-                "drawn at (0.5, 0) m");
+                "at (0.5, 0) m");
     assert_false(baum_mechanism_is_frozen(mechanism));
     assert_int_equal(baum_mechanism_sizes(mechanism, NULL, NULL, &nc), BAUM_ERR_STATE);
     assert_int_equal(nc, -1);

@@ -429,7 +429,7 @@ static void targets_that_are_none_change_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void sample_times_that_do_not_go_one_way_change_nothing(void **state)
+static void sample_times_that_are_not_monotone_change_nothing(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -445,7 +445,7 @@ static void sample_times_that_do_not_go_one_way_change_nothing(void **state)
                            {0.06, 0.07, (double)INFINITY}};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     ASSERT_SAYS(baum_simulation_sample(run, bad[k], 3, &energy, 1, rows, &done), BAUM_ERR_ARGUMENT,
-                "baum_simulation_sample: times[| s|must be finite and go one way");
+                "baum_simulation_sample: times[| s|must be finite and monotonic");
     assert_int_equal(done, 0);
     assert_true(rows[0] == 7.0);
   }
@@ -576,7 +576,7 @@ int main(void)
     cmocka_unit_test(unstable_gains_are_refused_and_the_nearest_good_pair_runs),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_warn),
     cmocka_unit_test(targets_that_are_none_change_nothing),
-    cmocka_unit_test(sample_times_that_do_not_go_one_way_change_nothing),
+    cmocka_unit_test(sample_times_that_are_not_monotone_change_nothing),
     cmocka_unit_test(a_state_that_is_none_changes_nothing),
     cmocka_unit_test(channels_that_do_not_fit_are_refused),
     cmocka_unit_test(a_point_of_a_channel_that_is_not_finite_is_refused),

@@ -34,7 +34,7 @@ static void check_refused(const baum_mechanism *mechanism, const baum_simulation
   assert_null(run);
 }
 
-/* ---- a bead on a rod about the origin, drawn at (x, y), with a velocity ---- */
+/* ---- a bead on a rod about the origin, designed at (x, y), with a velocity ---- */
 
 typedef struct bead_def {
   double x;
@@ -88,7 +88,7 @@ static void check_bead_refused(const bead_def *def, baum_start start, const char
   baum_mechanism_destroy(mechanism);
 }
 
-static void exact_refuses_a_pose_that_is_not(void **state)
+static void exact_refuses_a_configuration_that_is_not(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -156,7 +156,7 @@ static void a_held_body_out_of_place_is_named(void **state)
   check_bead_refused(&def, BAUM_START_ASSEMBLE, "constraints and held bodies|\"rod\"");
 }
 
-static void a_drawing_too_far_off_is_refused(void **state)
+static void a_design_too_far_off_is_refused(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -167,7 +167,7 @@ static void a_drawing_too_far_off_is_refused(void **state)
     "\"rod\"|closer");
 }
 
-static void a_rough_drawing_is_assembled_and_reported(void **state)
+static void a_rough_design_is_assembled_and_reported(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -186,7 +186,7 @@ static void a_rough_drawing_is_assembled_and_reported(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void as_given_takes_what_is_drawn(void **state)
+static void as_given_takes_the_design(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -276,7 +276,7 @@ static void check_fault_on_the_way(step_mode mode, int f)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void a_function_that_fails_on_the_way_leaves_the_last_good_step(void **state)
+static void a_function_that_fails_during_a_call_leaves_the_last_good_step(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -371,16 +371,16 @@ static void whichever_call_fails_the_run_can_go_on(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(exact_refuses_a_pose_that_is_not),
+    cmocka_unit_test(exact_refuses_a_configuration_that_is_not),
     cmocka_unit_test(exact_refuses_velocities_that_are_not),
     cmocka_unit_test(given_velocities_that_conflict_are_named),
     cmocka_unit_test(given_velocities_that_fit_are_held_exactly),
     cmocka_unit_test(joints_that_contradict_each_other_are_named),
     cmocka_unit_test(a_held_body_out_of_place_is_named),
-    cmocka_unit_test(a_drawing_too_far_off_is_refused),
-    cmocka_unit_test(a_rough_drawing_is_assembled_and_reported),
-    cmocka_unit_test(as_given_takes_what_is_drawn),
-    cmocka_unit_test(a_function_that_fails_on_the_way_leaves_the_last_good_step),
+    cmocka_unit_test(a_design_too_far_off_is_refused),
+    cmocka_unit_test(a_rough_design_is_assembled_and_reported),
+    cmocka_unit_test(as_given_takes_the_design),
+    cmocka_unit_test(a_function_that_fails_during_a_call_leaves_the_last_good_step),
     cmocka_unit_test(a_function_that_fails_at_create_is_named),
     cmocka_unit_test(whichever_call_fails_the_run_can_go_on),
   };

@@ -233,7 +233,7 @@ static void what_overflows_is_told(void **state)
   baum_channel channels[2] = {baum_channel_of(BAUM_Q),
                               baum_channel_of_body(BAUM_BODY_VELOCITY, parts.crank)};
   assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-  channels[1].point[0] = -1.79e308; /* it turns with 2 rad/s */
+  channels[1].point[0] = -1.79e308; /* it rotates at 2 rad/s */
   ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_NOT_FINITE,
               "channel 1|of the velocity is -inf");
   baum_simulation_destroy(run);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows that are chosen again on the way, and put back by restoring: every allocation may
- * fail. */
+/* The omitted rows change during a run and are put back by restoring: every allocation may fail. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -16,7 +15,7 @@
 
 static unsigned char buffer[1 << 16];
 
-/* A quarter of a turn; saved before and behind a choice, and put back to where it was. */
+/* A quarter of a revolution, saved before and after a change of the omitted rows, and restored. */
 static baum_status simulate(void *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();

@@ -17,7 +17,7 @@
 
 enum { STEPS = 10000 }; /* between two looks at the pace */
 
-/* A link of 1 kg and 1 m, level, that turns in a grease of this rate [1/s] of decay. */
+/* A link of 1 kg and 1 m, level, that rotates in grease with this rate of decay [1/s]. */
 static baum_mechanism *greased_link(double rate)
 {
   baum_mechanism *m = NULL;
@@ -73,7 +73,7 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
     baum_simulation *run = open_run(m, explicit[k], 1e-6);
     assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_ERR_STEP);
     const char *message = baum_simulation_message(run);
-    assert_non_null(strstr(message, "creeps: 10000 steps"));
+    assert_non_null(strstr(message, "creeps: each of the last 10000 steps"));
     assert_non_null(strstr(message, "\"pin\" bears the largest load"));
     assert_true(steps_of(run) == STEPS);
     assert_true(baum_simulation_time(run) > 0.0); /* where its last step ended */
@@ -96,7 +96,7 @@ static void short_steps_that_lead_on_are_taken(void **state)
 }
 
 /* Next to a flat configuration BDF may get stuck; whatever comes of such a run, it comes soon. */
-static void a_run_next_to_a_singular_pose_ends(void **state)
+static void a_run_next_to_a_singular_configuration_ends(void **state)
 {
   (void)state;
   need_sundials();
@@ -120,7 +120,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_explicit_method_that_a_stiff_force_holds_up_says_so),
     cmocka_unit_test(short_steps_that_lead_on_are_taken),
-    cmocka_unit_test(a_run_next_to_a_singular_pose_ends),
+    cmocka_unit_test(a_run_next_to_a_singular_configuration_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

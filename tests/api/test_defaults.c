@@ -57,17 +57,9 @@ static const char *find_struct(const char *headers, const char *name, const char
   return begin + strlen(opening);
 }
 
-/* The next declaration from `from` on: its name and the Default of its comment, "" for none. The
- * comment stands before the declaration or behind it. NULL when there is no more. */
-static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
-                              char text[TEXT_SIZE])
+/* The name that a declaration ends with, before its semicolon. */
+static void name_of(const char *semicolon, char name[TEXT_SIZE])
 {
-  const char *comment = from + strspn(from, " \n");
-  bool before = strncmp(comment, "/**", 3) == 0;
-  const char *semicolon = strchr(before ? strstr(comment, "*/") : from, ';');
-  if (!semicolon || semicolon >= end) {
-    return NULL;
-  }
   const char *last = semicolon;
   if (last[-1] == ']') {
     do {
@@ -82,15 +74,35 @@ static const char *next_field(const char *from, const char *end, char name[TEXT_
     first--;
   }
   (void)snprintf(name, TEXT_SIZE, "%.*s", (int)(last - first), first);
-  comment = before ? comment : semicolon;
-  const char *comment_end = strstr(comment, "*/");
-  assert_non_null(comment_end);
+}
+
+/* What follows "Default: " in a comment; "" without it. */
+static void default_of(const char *comment, const char *comment_end, char text[TEXT_SIZE])
+{
   const char *given = strstr(comment, "Default: ");
   text[0] = '\0';
   if (given && given < comment_end) {
     given += strlen("Default: ");
     (void)snprintf(text, TEXT_SIZE, "%.*s", (int)(comment_end - given), given);
   }
+}
+
+/* The next declaration from `from` on: its name and the Default of its comment, "" for none. The
+ * comment stands before the declaration or behind it. NULL when there is no more. */
+static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
+                              char text[TEXT_SIZE])
+{
+  const char *comment = from + strspn(from, " \n");
+  bool before = strncmp(comment, "/**", 3) == 0;
+  const char *semicolon = strchr(before ? strstr(comment, "*/") : from, ';');
+  if (!semicolon || semicolon >= end) {
+    return NULL;
+  }
+  name_of(semicolon, name);
+  comment = before ? comment : semicolon;
+  const char *comment_end = strstr(comment, "*/");
+  assert_non_null(comment_end);
+  default_of(comment, comment_end, text);
   return before ? semicolon + 1 : comment_end + 2;
 }
 

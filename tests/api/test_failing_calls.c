@@ -169,7 +169,7 @@ static const double DRAWN[2] = {0.48, 0.64};
 typedef struct variant {
   int hoops;
   bool constant_mass;
-  bool lifted; /* no freedom is left */
+  bool lifted; /* no degree of freedom is left */
 } variant;
 
 static baum_mechanism *make_bead(variant of, fault *f)
@@ -362,7 +362,7 @@ static void check_ask(baum_workspace *w, fault *f, int which)
   assert_true(calls > 0);
 }
 
-/* By blocks, by either solver of the whole, and with a row that is left out. */
+/* By blocks, by both solvers of the whole system, and with an omitted row. */
 static void a_workspace_passes_on_every_failing_call(void **state)
 {
   (void)state;
@@ -407,7 +407,7 @@ static bool is_of_fault(baum_status status, int k)
   return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].message);
 }
 
-/* Whether the run was made; it is at the end then, though a call may have failed on the way. */
+/* Whether the run was created; it is then at the end, though a call may have failed before. */
 static bool check_run(const baum_mechanism *m, const baum_simulation_options *o, fault *f, int k)
 {
   baum_simulation *run = NULL;

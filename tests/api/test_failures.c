@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every way in which a run can end before its time: a message with time, step, joint or body, and
- * advice; the last good step stays readable; and another run goes on from there.
- */
+/* All causes that end a run early: a message with time, step, joint or body, and advice; the
+ * last good step stays readable; and another run goes on from there. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -98,7 +97,7 @@ static baum_mechanism *pendulum(fault *user)
   return m;
 }
 
-/* A crank that turns on and on, with a rod too short for it. */
+/* A crank that keeps rotating, with a rod too short for it. */
 static baum_mechanism *locking_crank(void)
 {
   const drive motor = {.angle = 0.4, .rate = 1.0};
@@ -325,7 +324,7 @@ static void inputs_and_laws_go_on_too(void **state)
   for (int k = 0; k < 2; k++) {
     assert_true(reached(baum_simulation_advance_to(runs[k], 0.05)));
   }
-  /* assembled on the way, to rounding */
+  /* assembled at the start, to rounding */
   assert_true(fabs(baum_simulation_q(runs[1])[2] - baum_simulation_q(runs[0])[2]) < 1e-9);
   double driven = 0.5403 + 0.03 * (2.006 + 0.03 * 2.5);
   const baum_channel angle = baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.pin);

@@ -42,8 +42,8 @@ static model make_crank(bool redundant)
   return m;
 }
 
-/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then, and blocks the rows to
- * leave out; with KLU these are looked at again and again. */
+/* The crank makes one revolution in 0.04 s. By then KLU has chosen its pivots, and the blocks
+ * the rows to omit; with KLU these are checked again and again. */
 static void steps_and_outputs_allocate_nothing(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU};

@@ -542,7 +542,7 @@ static void evaluations_of_a_fixed_step_method_are_its_stages(void **state)
   }
 }
 
-static void turning_round_restarts_multistep_methods_only(void **state)
+static void reversing_restarts_multistep_methods_only(void **state)
 {
   (void)state;
   for (int k = 0; mode_at(k).integrator; k++) {
@@ -583,7 +583,7 @@ int main(void)
     cmocka_unit_test(a_run_explains_itself),
     cmocka_unit_test(counters_fit_what_was_done),
     cmocka_unit_test(evaluations_of_a_fixed_step_method_are_its_stages),
-    cmocka_unit_test(turning_round_restarts_multistep_methods_only),
+    cmocka_unit_test(reversing_restarts_multistep_methods_only),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

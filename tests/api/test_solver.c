@@ -221,9 +221,9 @@ static void explain_names_the_solver(void **state)
   (void)state;
   static const char *const lines[] = {
     "\nsolver        blocks, 5 nodes, 5 couplings; klu and qr where pivots are bad\n",
-    "\nsolver        klu on the whole system: another solver is asked for\n",
-    "\nsolver        qr on the whole system: another solver is asked for\n",
-    "\nsolver        blocks, 5 nodes, 5 couplings; and nothing else\n",
+    "\nsolver        klu on the whole system: another solver was chosen\n",
+    "\nsolver        qr on the whole system: another solver was chosen\n",
+    "\nsolver        blocks, 5 nodes, 5 couplings, no other solver\n",
   };
   model m;
   model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};
@@ -318,11 +318,11 @@ static void nets_that_blocks_would_fill_are_told(void **state)
   baum_mechanism *m = make_net();
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
-                 "solver is block|the joints are so much of a net that blocks would fill");
+                 "solver is block|the joints form a dense net, so blocks would fill");
   baum_mechanism_destroy(m);
 }
 
-static void masses_that_are_not_known_as_drawn_are_told(void **state)
+static void masses_unknown_in_the_design_configuration_are_reported(void **state)
 {
   (void)state;
   baum_mechanism *m = make_late();
@@ -346,7 +346,7 @@ static void masses_that_are_not_known_as_drawn_are_told(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void blocks_alone_stop_close_to_a_singular_pose(void **state)
+static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
 {
   (void)state;
   model m;
@@ -354,7 +354,8 @@ static void blocks_alone_stop_close_to_a_singular_pose(void **state)
   check(model_slider_crank_build(data, &m));
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   o.start = BAUM_START_AS_GIVEN;
-  assert_refused(m.mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|pivots by blocks are too small");
+  assert_refused(m.mechanism, &o, BAUM_ERR_SINGULAR,
+                 "t = 0 s|pivots of the block solver are too small");
   o.solver = BAUM_SOLVER_AUTO;
   baum_simulation *run = start(m.mechanism, &o);
   baum_counters counters;
@@ -398,8 +399,8 @@ int main(void)
     cmocka_unit_test(many_joints_below_that_are_fine),
     cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
     cmocka_unit_test(nets_that_blocks_would_fill_are_told),
-    cmocka_unit_test(masses_that_are_not_known_as_drawn_are_told),
-    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_pose),
+    cmocka_unit_test(masses_unknown_in_the_design_configuration_are_reported),
+    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_configuration),
     cmocka_unit_test(no_joints_are_no_nodes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation may fail of what test_allocation.c does not come by: bodies that are left out
- * because they cannot move, dense mass matrices with rows, break times, and the solver that is made
- * when a configuration is singular.
- */
+/* Every allocation may fail that test_allocation.c does not reach: fixed bodies, dense mass
+ * matrices with rows, break times, and the solver that is made when a configuration is singular. */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -120,7 +118,7 @@ static baum_status run(const baum_mechanism *m)
   o.step = 1e-3;
   baum_status status = baum_simulation_create(m, &o, &s);
   if (status == BAUM_OK) {
-    assert_non_null(strstr(baum_simulation_explain(s), "1 fixed body left out"));
+    assert_non_null(strstr(baum_simulation_explain(s), "1 fixed body omitted"));
     status = baum_simulation_step(s, 3);
   }
   baum_simulation_destroy(s);
@@ -169,7 +167,7 @@ static baum_status solve_singular(void *context)
   return status;
 }
 
-static void so_does_a_singular_pose(void **state)
+static void so_does_a_singular_configuration(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -186,7 +184,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(fixed_bodies_survive_every_failing_allocation),
-    cmocka_unit_test(so_does_a_singular_pose),
+    cmocka_unit_test(so_does_a_singular_configuration),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -213,16 +213,16 @@ static int change_all(const baum_study *study, int32_t done, int32_t total, void
   const baum_simulation_options o = rk4(0.02);
   const baum_study_options options = baum_study_options_default();
   const baum_channel q = baum_channel_of(BAUM_Q);
-  ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is under way");
-  ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is under way");
-  ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is under way");
-  ASSERT_SAYS(baum_study_add_stress(under_way, NULL), BAUM_ERR_STATE, "is under way");
-  ASSERT_SAYS(baum_study_set_options(under_way, &options), BAUM_ERR_STATE, "is under way");
-  ASSERT_SAYS(baum_study_set_error(under_way, &q, 1, 1.0), BAUM_ERR_STATE, "stays as it is");
+  ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is still running");
+  ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is still running");
+  ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is still running");
+  ASSERT_SAYS(baum_study_add_stress(under_way, NULL), BAUM_ERR_STATE, "is still running");
+  ASSERT_SAYS(baum_study_set_options(under_way, &options), BAUM_ERR_STATE, "is still running");
+  ASSERT_SAYS(baum_study_set_error(under_way, &q, 1, 1.0), BAUM_ERR_STATE, "can no longer change");
   return 0;
 }
 
-static void progress_cannot_change_what_is_under_way(void **state)
+static void progress_cannot_change_a_running_study(void **state)
 {
   baum_study *study = make(*state);
   const baum_simulation_options o = rk4(0.01);
@@ -312,7 +312,7 @@ static void what_entries_depend_on_stays_once_they_are_run(void **state)
   o.threads = 2;
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   o.samples++;
-  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STATE, "samples stays as it is");
+  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STATE, "samples can no longer change");
   ASSERT_SAYS(baum_study_set_error(study, &q, 1, 1.0), BAUM_ERR_STATE, "what error means");
   const double t = 1.0;
   const double place[2] = {0.0, -1.0};
@@ -511,7 +511,7 @@ int main(void)
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
     cmocka_unit_test(sizes_that_cannot_be_meant_are_refused_with_their_limit),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
-    cmocka_unit_test(progress_cannot_change_what_is_under_way),
+    cmocka_unit_test(progress_cannot_change_a_running_study),
     cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
     cmocka_unit_test(what_error_means_is_told_by_name),
     cmocka_unit_test(what_is_not_known_yet_is_refused),

@@ -83,7 +83,7 @@ static void a_text_names_every_entry_and_what_was_said(void **state)
   }
   assert_true(count(text, "refused") >= 3); /* of the counts, of its entry, of what was said */
   assert_true(count(text, "unstable") >= 1);
-  assert_int_equal(count(text, "What to take"), 1);
+  assert_int_equal(count(text, "Recommended settings"), 1);
   assert_int_equal(count(text, "\n  1e-10  "), 1);
   assert_int_equal(count(text, "\t") + count(text, "\xff"), 0);
   free(text);

@@ -1,22 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_page.py FOLDER
 
-Makes the page of a study, under a title that tries to be a program, and uses it in headless
-Chromium as a reader would: on a desk and on a telephone, by day and by night. Leaves the page and
-pictures of it in FOLDER. Fails with a list of what is wrong.
+Makes the pages of studies, under a title that tries to be a program, and uses them in headless
+Chromium as a reader would: on a desk, on a telephone and on paper, in light and in dark. Breaks a
+page in several ways, to see that the checks notice. Leaves the pages and pictures of them in FOLDER.
+Fails with a list of what is wrong.
 """
 
+import json
 import os
+import re
 import sys
 
 import baum
 from chromium import Chromium
 
-TITLE = "</title><script>window.taken = 1</script> <img src=x onerror=\"window.taken = 1\">"
-SIZES = [(1280, 900, False), (400, 800, True)]
+TITLE = "</title><script>window.taken = 1</script> <img src=x onerror=\"window.taken = 1\"> & 曲柄"
+NAME = '<b onclick="window.taken = 1">A</b> & \'B\' Ä曲柄 ' + "long" * 30
+SIZES = [(1280, 900, False), (420, 800, True)]
+PAPER = (718, 1000)  # A4 between its margins
 CHARTS, MAPS = 4, 4
 TEXT, GRAPHICS = 4.5, 3.0  # least contrasts, WCAG 2.1 level AA
 LEAST_TEXT = 9.0  # [px] height of the letters of a chart with what is above and below them
+LEAST_GAP = 6.0  # [px] between marks of one kind in a map
+SABOTAGE = {  # a part of the page, and what breaks it
+    "  texts();\n": "  texts(); undefinedFunction();\n",
+    "max-width: 1320px": "min-width: 1400px",
+    ".scroll { overflow-x: auto;": ".scroll { min-width: 1300px;",
+    "find('rows').append(head(columns), make('tbody', null, ...rows));":
+        "find('rows').append(head(columns), make('tbody', null, ...rows.slice(1)));",
+    "element.append(...inside)": "element.innerHTML = inside.map(x => x.outerHTML || x).join('')",
+    "const NEAR = 9": "const NEAR = 1",
+    "const TICKS = 7": "const TICKS = 40",
+    "    ['cpu', 'CPU [ms]', ms],": "    ['cpu', 'CPU [ms]', x => x + ' ms or a little more than that, but not much'],",
+    "const share = a === b ? 1 :": "const share = a === b ? 1 : 2 *",
+}
 
 
 def slider_crank():
@@ -25,30 +43,36 @@ def slider_crank():
                           angular_velocity=150)
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(0.306, 0))
     slider = m.planar_body("slider", mass=0.076, inertia=2.7e-6, position=(0.459, 0.05))
-    m.revolute('<b onclick="window.taken = 1">A</b>', m.ground, crank, point_a=(0, 0),
-               point_b=(-0.0765, 0))
+    m.revolute(NAME, m.ground, crank, point_a=(0, 0), point_b=(-0.0765, 0))
     m.revolute("B", crank, rod, point_a=(0.0765, 0), point_b=(-0.153, 0))
     m.revolute("C", rod, slider, point_a=(0.153, 0), point_b=(0, 0))
     m.translational("guide", m.ground, slider, axis=(1, 0), point_a=(0, 0.05), point_b=(0, 0))
     return m.freeze()
 
 
-def make_study():
-    """Nine methods and more, so that some are grey; entries that are refused or fail are among them."""
-    study = baum.study(slider_crank(), 0, 0.1, repeats=1, entry_limit=0.05, validate=False)
+def make_studies(mechanism):
+    """The first has more methods than colours; the others are a stress test, one entry, and one that waits."""
+    grid, stress, single, waiting = (
+        baum.study(mechanism, 0, 0.1, repeats=1, entry_limit=0.05, validate=False) for _ in range(4))
     for name in ("euler", "rk4", "ab3", "rk8"):
-        study.add_standard(name, settings=4, constants=2)
-    return study.run()
+        grid.add_standard(name, settings=4, constants=2)
+    stress.add_stress("rk4")
+    single.add("rk4", step=1e-3)
+    waiting.add("rk4", step=1e-3)
+    return {"grid": grid.run(), "stress": stress.run(), "single": single.run(), "waiting": waiting}
 
 
 class Checks:
-    def __init__(self):
+    def __init__(self, quiet=False):
         self.wrong = []
+        self.where = ""
+        self._quiet = quiet
 
     def expect(self, fine, what):
         if not fine:
             self.wrong.append(what)
-            print(f"wrong: {what}")
+            if not self._quiet:
+                print(f"wrong: {self.where}: {what}")
 
 
 def luminance(colour):
@@ -68,18 +92,75 @@ def check_quiet(browser, checks):
     checks.expect(browser.requests() == [], f"the page asked for {browser.requests()}")
     checks.expect(browser.run("window.taken") is None, "a name was run as a program")
     checks.expect(browser.run("document.title") == TITLE, "the title is not what was given")
+    checks.expect(count(browser, "main b, main img, header img") == 0, "a name has become markup")
+
+
+# Boxes [left, top, right, bottom] of elements of a kind inside of each chart or map.
+BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map'), svg =>
+  Array.from(svg.querySelectorAll(selector), element => {
+    const at = element.getBoundingClientRect();
+    return [at.left, at.top, at.right, at.bottom]; })))"""
+
+# Cells whose contents are wider than they are, and figures in more than one line.
+BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
+  const lines = document.createRange();
+  lines.selectNodeContents(cell);
+  const tops = new Set(Array.from(lines.getClientRects(), line => Math.round(line.top)));
+  return cell.scrollWidth > cell.clientWidth + 1 || ('v' in cell.dataset && tops.size > 1);
+}).map(cell => cell.textContent)"""
 
 
 def check_layout(browser, checks):
+    """Nothing is wider than the window, no cell is cut or wraps its figure, and no texts overlap."""
     width, room = browser.run(
         "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
     checks.expect(width <= room, f"{width} px wide in a window of {room} px")
-    heights = browser.run(
-        "Array.from(document.querySelectorAll('svg.chart > text, svg.map > text'))"
-        ".map(text => text.getBoundingClientRect().height)"
-    )
-    checks.expect(min(heights) >= LEAST_TEXT, f"letters of {min(heights)} px in a chart")
+    wide = browser.run("Array.from(document.querySelectorAll('.scroll'))"
+                       ".filter(box => box.scrollWidth > box.clientWidth).map(box => box.ariaLabel)")
+    checks.expect(wide == [], f"tables of {wide} are too wide")
+    bad = browser.run(BAD_CELLS)
+    checks.expect(bad == [], f"{len(bad)} cells are cut or wrap: {bad[:3]}")
+    for boxes in browser.run(f"{BOXES}('text')"):
+        heights = [bottom - top for _, top, _, bottom in boxes]
+        checks.expect(min(heights) >= LEAST_TEXT, f"letters of {min(heights)} px in a chart")
+        overlaps = sum(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+                       for k, a in enumerate(boxes) for b in boxes[:k])
+        checks.expect(overlaps == 0, f"{overlaps} texts of a chart overlap")
+    for kind in ("good", "off", "bad"):
+        for boxes in browser.run(f"{BOXES}('use.{kind}')"):
+            gap = min((abs(complex(a[0] - b[0], a[1] - b[1])) for k, a in enumerate(boxes) for b in boxes[:k]),
+                      default=LEAST_GAP)
+            checks.expect(gap >= LEAST_GAP, f"marks of a map are {gap} px apart")
+
+
+def check_entries(browser, study, checks):
+    """One row for each entry, with its name, and every message of one that did not end well."""
+    names = browser.run("Array.from(document.querySelectorAll('#rows tbody tr'), row =>"
+                        " `${row.cells[0].textContent}, ${row.cells[1].textContent}`)")
+    wanted = [entry.name for entry in study.entries]
+    checks.expect(names == wanted, f"{len(names)} rows of {len(wanted)} entries, or other names")
+    said = browser.run("document.getElementById('said').textContent")
+    failures = [entry for entry in study.entries if entry.state in ("failed", "refused", "timed_out")]
+    for entry in failures:
+        checks.expect(entry.name in said and entry.message in said, f"no message of {entry.name}")
+    pills = count(browser, "#rows tr:not([data-kinds~=done]):not([data-kinds~=waiting]) .remark.bad")
+    checks.expect(pills >= len(failures), f"{pills} remarks on {len(failures)} failures")
+
+
+def check_advice(browser, checks):
+    """What recommended settings cost is what the library says, but for the rounding of the setting."""
+    advice = json.loads(browser.run("document.getElementById('data').textContent"))["report"]["recommendations"]
+    why = {each["setting"]: each["why"] for each in advice if each["setting"]}
+    rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"
+                       " [row.querySelector('summary').textContent,"
+                       "  ...Array.from(row.querySelectorAll('[data-v]'), cell => cell.dataset.v)])")
+    checks.expect({row[0] for row in rows} == set(why), "recommended settings")
+    for name, *figures in rows:
+        said = re.search(r"error (\S+) for a work of (\S+) and (\S+) ms", why[name]).groups()
+        for got, wanted, factor in zip(figures, said, (1, 1, 1e3)):
+            checks.expect(got and abs(float(got) * factor / float(wanted) - 1) < 0.1,
+                          f"{name}: {got} for {wanted}")
 
 
 def check_charts(browser, study, checks):
@@ -112,18 +193,17 @@ def check_maps(browser, study, checks):
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")
-    checks.expect(len(known) <= len(titles) <= len(candidates), f"{len(titles)} gains are drawn")
+    drawn = sum(title.count("αh") for title in titles)
+    checks.expect(len(known) <= drawn <= len(candidates), f"{drawn} gains are drawn")
     for entry in known:
-        drawn = any(title.startswith(f"{entry.name}\nαh") for title in titles)
+        drawn = any(f"{entry.name}\nαh" in title for title in titles)
         checks.expect(drawn, f"the gains of {entry.name} are not drawn")
 
 
 def check_parts(browser, study, checks):
     """Everything else that the page shows is there, as often as the study has it."""
-    said = {entry.message for entry in study.entries if entry.message}
-    wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#advice tbody": 5,
-              "#methods tbody tr": len(study.methods), "#methods svg": 8, "#rows tbody tr": len(study),
-              "#said tbody tr": len(said), "#environment dd": 6}
+    wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#environment dd": 6,
+              "#methods tbody tr": len(study.methods), "#methods svg": 8}
     for selector, number in wanted.items():
         got = count(browser, selector)
         checks.expect(got == number, f"{got} of {selector}, not {number}")
@@ -166,13 +246,21 @@ def check_table(browser, study, checks):
     checks.expect(is_sorted(cells(browser, column), False), "Enter does not sort")
 
 
+def select(browser, kind):
+    browser.run(f"(() => {{ const menu = document.getElementById('kind'); menu.value = {kind!r};"
+                " menu.dispatchEvent(new Event('input', {bubbles: true})); })()")
+    return len(cells(browser, 2))
+
+
 def check_filters(browser, study, checks):
     front = set(study.front("work")) | set(study.front("cpu"))
-    browser.click("#front")
-    shown = len(cells(browser, 2))
+    shown = select(browser, "front")
     checks.expect(shown == len(front), f"{shown} entries on a front, not {len(front)}")
-    browser.click("#front")
-    browser.click(".chips button:nth-child(1)")
+    for state in ("done", "failed", "refused", "timed_out"):
+        wanted = sum(entry.state == state for entry in study.entries)
+        checks.expect(select(browser, state) == wanted, f"{wanted} entries are {state}")
+    select(browser, "all")
+    browser.click("#integrators input")
     shown = browser.run(
         "Array.from(document.querySelectorAll('svg.chart g.line[data-i=euler]'))"
         ".filter(line => getComputedStyle(line).display !== 'none').length"
@@ -180,8 +268,13 @@ def check_filters(browser, study, checks):
     checks.expect(shown == 0, f"{shown} lines of euler are shown without it")
     others = sum(entry.integrator != "euler" for entry in study.entries)
     checks.expect(len(cells(browser, 2)) == others, "entries without euler")
-    browser.click(".chips button:nth-child(1)")
+    browser.click("#integrators input")
     checks.expect(len(cells(browser, 2)) == len(study), "all entries again")
+    browser.click("#all")
+    hidden = browser.run("Array.from(document.querySelectorAll('#rows th, #rows td'))"
+                         ".filter(cell => getComputedStyle(cell).display === 'none').length")
+    checks.expect(hidden == 0, f"{hidden} cells are hidden among all columns")
+    browser.click("#all")
 
 
 def check_colours(browser, checks):
@@ -198,28 +291,69 @@ def check_colours(browser, checks):
             checks.expect(got >= least, f"contrast of {name} on {ground} is {got:.1f}")
 
 
+def check_everywhere(browser, page, study, checks):
+    """What holds for every study, at each size, in each scheme, and on paper."""
+    for width, height, phone in SIZES:
+        for scheme in ("light", "dark"):
+            checks.where = f"{os.path.basename(page)}, {width} px, {scheme}"
+            browser.size(width, height, phone, scheme)
+            browser.open(page)
+            browser.screenshot(page.replace(".html", f"_{width}_{scheme}.png"))
+            check_layout(browser, checks)
+            check_entries(browser, study, checks)
+            check_advice(browser, checks)
+            check_quiet(browser, checks)
+            yield
+    checks.where = f"{os.path.basename(page)}, paper"
+    browser.size(*PAPER, media="print")
+    browser.open(page)
+    check_layout(browser, checks)
+
+
+def check_grid(browser, study, checks):
+    check_charts(browser, study, checks)
+    check_maps(browser, study, checks)
+    check_parts(browser, study, checks)
+    check_colours(browser, checks)
+    check_table(browser, study, checks)
+    check_filters(browser, study, checks)
+    check_quiet(browser, checks)
+
+
+def check_sabotage(browser, page, study, checks):
+    """Each way to break the page is noticed."""
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    broken = page.replace(".html", "_broken.html")
+    for part, other in SABOTAGE.items():
+        checks.where = "sabotage"
+        checks.expect(text.count(part) == 1, f"the page has {text.count(part)} of {part!r}")
+        with open(broken, "w", encoding="utf-8") as file:
+            file.write(text.replace(part, other))
+        found = Checks(quiet=True)
+        try:
+            for _ in check_everywhere(browser, broken, study, found):
+                pass
+        except (RuntimeError, ValueError):  # what the checks look at is not even there
+            found.wrong.append("no page")
+        checks.expect(found.wrong, f"nobody notices {other!r}")
+        print(f"noticed: {found.wrong[0] if found.wrong else 'nothing'}"[:150])
+
+
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    page = os.path.join(folder, "study.html")
-    study = make_study()
-    study.write(page, TITLE)
     checks = Checks()
+    studies = make_studies(slider_crank())
     with Chromium() as browser:
-        for width, height, phone in SIZES:
-            for scheme in ("light", "dark"):
-                print(f"{width} px, {scheme}")
-                browser.size(width, height, phone, scheme)
-                browser.open(page)
-                browser.screenshot(os.path.join(folder, f"study_{width}_{scheme}.png"))
-                check_layout(browser, checks)
-                check_charts(browser, study, checks)
-                check_maps(browser, study, checks)
-                check_parts(browser, study, checks)
-                check_colours(browser, checks)
-                check_table(browser, study, checks)
-                check_filters(browser, study, checks)
-                check_quiet(browser, checks)
+        for name, study in studies.items():
+            page = os.path.join(folder, f"{name}.html")
+            study.write(page, TITLE)
+            print(f"{name}, {len(study)} entries")
+            for _ in check_everywhere(browser, page, study, checks):
+                if name == "grid":
+                    check_grid(browser, study, checks)
+        check_sabotage(browser, os.path.join(folder, "grid.html"), studies["grid"], checks)
     print(f"pictures are in {folder}; {len(checks.wrong)} wrong")
     return 1 if checks.wrong else 0
 

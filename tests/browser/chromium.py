@@ -80,7 +80,7 @@ class Chromium:
             if "method" in answer:
                 self.events.append(answer)
 
-    def size(self, width, height, phone=False, scheme="light"):
+    def size(self, width, height, phone=False, scheme="light", media=""):
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,
@@ -89,7 +89,7 @@ class Chromium:
             mobile=phone,
         )
         features = [{"name": "prefers-color-scheme", "value": scheme}]
-        self.call("Emulation.setEmulatedMedia", features=features)
+        self.call("Emulation.setEmulatedMedia", media=media, features=features)
 
     def open(self, path):
         self.events.clear()

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_words.sh PROJECT
-# Terms of the field are used everywhere, and comments keep to the columns of the formatter.
+# Terms of the field are used everywhere, and comments and docstrings keep to the
+# columns of the formatter.
 set -eu
 cd "$1"
 columns=100
@@ -28,7 +29,8 @@ banned 'anew' 'again, or restart'
 banned 'dearer' 'more expensive'
 banned 'full nodes?' 'general node'
 
-wide=$(find include src examples tests -name '*.[ch]' -exec awk -v n=$columns \
+wide=$(find include src examples tests bindings/python \( -name '*.[ch]' -o -path 'examples/*.py' \
+  -o -path 'bindings/python/*.py' \) -exec awk -v n=$columns \
   'length > n { print FILENAME ":" FNR ": " length " columns" }' {} +)
 [ -z "$wide" ] || { echo "$wide"; failures=$((failures + 1)); }
 [ "$failures" -eq 0 ]

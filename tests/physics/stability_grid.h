@@ -216,7 +216,7 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   assert_true(t.stable > CELLS * CELLS / 10 && t.stable < CELLS * CELLS * 9 / 10);
 }
 
-/* Fixed-step integrators with gains; dp5 is left out, whose region is found as that of rk8. */
+/* Fixed-step integrators with gains; without dp5, whose region is found like that of rk8. */
 #define EVERY_INTEGRATOR(X)   \
   X(baum_euler)               \
   X(baum_semi_implicit_euler) \

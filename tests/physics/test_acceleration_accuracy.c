@@ -65,7 +65,7 @@ static errors measure(posed *p)
   return out;
 }
 
-/* ---- poses ---- */
+/* ---- configurations ---- */
 
 typedef posed pose_fn(uint64_t *seed, int size);
 
@@ -176,7 +176,7 @@ static void the_oracle_reads_the_same_system_in_both_ways(void **state)
   unpose(&p);
 }
 
-static void ordinary_poses_keep_twelve_digits(void **state)
+static void ordinary_configurations_keep_twelve_digits(void **state)
 {
   (void)state;
   static const struct {
@@ -230,7 +230,7 @@ static errors measure_flat(double gap)
   return measure(&p);
 }
 
-static void near_singular_poses_keep_what_their_condition_allows(void **state)
+static void near_singular_configurations_keep_what_their_condition_allows(void **state)
 {
   (void)state;
   table t = {0};
@@ -320,8 +320,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_oracle_finds_the_motion_of_the_n_four_bar),
     cmocka_unit_test(the_oracle_reads_the_same_system_in_both_ways),
-    cmocka_unit_test(ordinary_poses_keep_twelve_digits),
-    cmocka_unit_test(near_singular_poses_keep_what_their_condition_allows),
+    cmocka_unit_test(ordinary_configurations_keep_twelve_digits),
+    cmocka_unit_test(near_singular_configurations_keep_what_their_condition_allows),
     cmocka_unit_test(uneven_masses_keep_ten_digits),
     cmocka_unit_test(a_chain_of_100000_links_keeps_ten_digits_of_a),
   };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every kind of joint (support/joint_scenes.c) through every integrator of this build in every
- * formulation that it offers: half a second, in which each scene swings or rolls far. And, on the
- * way, its reactions: with action and reaction equal they explain the motion of every body, and do
- * no work.
- */
+ * formulation that it offers: half a second, in which each scene swings or rolls far. Reactions
+ * are tested as well: with action and reaction equal they explain the motion of every body, and
+ * do no work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -93,7 +92,7 @@ static double difference(const outcome *a, const double *q)
 
 /* ---- every method ---- */
 
-/* A way to integrate. */
+/* An integrator and its settings. */
 typedef struct method {
   step_mode mode;
   baum_formulation formulation;
@@ -177,7 +176,7 @@ static void every_method_carries_every_joint(void **state)
   }
 }
 
-static void scenes_have_their_freedoms_and_move_far(void **state)
+static void scenes_have_their_degrees_of_freedom_and_move_far(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -394,7 +393,7 @@ static void reactions_explain_the_motion_and_do_no_work(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_have_their_freedoms_and_move_far),
+    cmocka_unit_test(scenes_have_their_degrees_of_freedom_and_move_far),
     cmocka_unit_test(every_method_carries_every_joint),
     cmocka_unit_test(kinematics_carries_every_joint),
     cmocka_unit_test(reactions_explain_the_motion_and_do_no_work),

@@ -18,12 +18,12 @@
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
-/* Violation on the way back over that on the way out. Both are the method's local error, which
- * depends on the direction by a few tenths, and on the steps chosen. */
+/* Violation of the backward run over that of the forward run. Both are the method's local error,
+ * which depends on the direction by a few tenths, and on the steps chosen. */
 static const double MOST_VIOLATION = 4.0;
-/* Error at the start found again over that at the far end: errors of the speed made on the way out
- * act on the way back too, in the worst case all with one sign and for twice the time, hence
- * (1 + 2 + 1) for errors of the place; luck at the far end makes the rest. */
+/* Error at the start found again over that at the far end: velocity errors of the forward run
+ * act in the backward run, too, in the worst case with one sign and for twice the time, hence (1
+ * + 2 + 1) for position errors; luck at the far end explains the rest. */
 static const double MOST_ERROR = 20.0;
 /* Rounding of some 1e4 steps, for the driven crank, whose q is a function of time alone. */
 static const double ROUNDING = 1e-11;
@@ -37,7 +37,7 @@ typedef struct method {
 
 typedef struct journey {
   double error[2]; /* at the far end, at the start found again */
-  double phi[2];   /* largest on the way out, on the way back */
+  double phi[2];   /* largest forward, backward */
 } journey;
 
 static double scaled_error(const baum_mechanism *mechanism, const double *q, const double *want)

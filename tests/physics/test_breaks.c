@@ -160,7 +160,7 @@ static void motions_are_those_between_the_breaks(void **state)
 }
 
 /* There and back through all breaks, standing at each. */
-static void breaks_are_met_both_ways(void **state)
+static void breaks_are_met_forward_and_backward(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -343,7 +343,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(motions_are_those_between_the_breaks),
-    cmocka_unit_test(breaks_are_met_both_ways),
+    cmocka_unit_test(breaks_are_met_forward_and_backward),
     cmocka_unit_test(outputs_change_nothing),
     cmocka_unit_test(the_account_closes_over_breaks),
     cmocka_unit_test(kinematics_take_either_side),

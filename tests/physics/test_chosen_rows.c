@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows are chosen again on the way: two bars that two pins lock turn over and over,
- * through every integrator, formulation and solver, as if they were welded.
- */
+/* The omitted rows change during the motion: two bars locked by two pins make many revolutions,
+ * through every integrator, formulation and solver, as if they were welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -75,7 +74,7 @@ static bool is_asked(const baum_simulation_options *o)
 /* Of methods of order 3 with this step, and of this tolerance over some hundred steps. */
 static const double ERROR = 2e-4;
 
-static void bars_locked_by_two_pins_turn_as_if_welded(void **state)
+static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
 {
   (void)state;
   double exact[LOCKED_NV];
@@ -106,7 +105,7 @@ static void bars_locked_by_two_pins_turn_as_if_welded(void **state)
 
 /* RATTLE and generalized-alpha, whose matrices keep their pivots from step to step: not those of
  * other rows. */
-static void methods_of_index_3_turn_too(void **state)
+static void methods_of_index_3_rotate_too(void **state)
 {
   (void)state;
   const baum_integrator *const methods[] = {baum_rattle(), baum_generalized_alpha()};
@@ -176,8 +175,8 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(bars_locked_by_two_pins_turn_as_if_welded),
-    cmocka_unit_test(methods_of_index_3_turn_too),
+    cmocka_unit_test(bars_locked_by_two_pins_rotate_as_if_welded),
+    cmocka_unit_test(methods_of_index_3_rotate_too),
     cmocka_unit_test(a_restored_run_has_the_rows_of_the_saved_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

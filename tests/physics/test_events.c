@@ -355,7 +355,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
 }
 
 /* A run that turns on its event does not find it again by that. */
-static void turning_at_an_event_finds_it_once(void **state)
+static void reversing_at_an_event_finds_it_once(void **state)
 {
   (void)state;
   static const expected want[] = {{1, 0, -1}, {-1, 0, 1}};
@@ -465,7 +465,7 @@ int main(void)
     cmocka_unit_test(two_bodies_at_their_stops_are_one_stop),
     cmocka_unit_test(event_at_an_output_is_both),
     cmocka_unit_test(zero_at_the_start_is_left_and_met_again),
-    cmocka_unit_test(turning_at_an_event_finds_it_once),
+    cmocka_unit_test(reversing_at_an_event_finds_it_once),
     cmocka_unit_test(no_event_is_lost_in_random_cases),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,11 +19,11 @@ static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
   BAUM_FORMULATION_GGL,       BAUM_FORMULATION_INDEX2,
 };
 
-/* Most of the error at the end, lengths in metres and angles in radians, over rtol. The driven
- * crank is held on its way, where it is stabilized; of the others, errors add up over two turns or
- * a swing, and at index 3 velocities are not in the error test at all. Measured at most 0.7, 460,
- * 0.1, 0.04, 13 and 760, 800, 1.2e5, 3.1e3, 1.8e3; four- to tenfold is left for the luck of other
- * last digits. */
+/* Most of the error at the end, lengths in metres and angles in radians, over rtol.
+ * Stabilization keeps the driven crank on its path; the errors of the others add up over two
+ * revolutions or a swing, and at index 3 velocities are not in the error test at all. Measured
+ * at most 0.7, 460, 0.1, 0.04, 13 and 760, 800, 1.2e5, 3.1e3, 1.8e3; four- to tenfold is left
+ * for the luck of other last digits. */
 static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {5.0, 3e3, 1.0, 0.4, 1e2};
 static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e3, 5e3, 5e5, 2e4, 1e4};
 /* Beyond, rounding and the error of the reference count as well. */

@@ -118,7 +118,7 @@ static void it_is_projected(void **state)
   baum_simulation_destroy(run);
 }
 
-static void its_freedoms_are_counted(void **state)
+static void its_degrees_of_freedom_are_counted(void **state)
 {
   (void)state;
   model m = build_chain();
@@ -211,7 +211,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(it_is_frozen_and_runs_at_once),
     cmocka_unit_test(it_is_projected),
-    cmocka_unit_test(its_freedoms_are_counted),
+    cmocka_unit_test(its_degrees_of_freedom_are_counted),
     cmocka_unit_test(every_link_obeys_newton_and_euler),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

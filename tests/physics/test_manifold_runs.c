@@ -23,7 +23,7 @@ enum { SIZE = MANIFOLD_SIZE };
 
 static const double END = 0.5;
 
-/* A way to integrate. */
+/* An integrator and its settings. */
 typedef struct method {
   step_mode mode;
   baum_formulation formulation;

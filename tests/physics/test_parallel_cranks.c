@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks out of line turn freely, as the wheels of a locomotive do: one row is
- * redundant in every configuration, but whichever is left out, the others have singular
- * configurations. Every integrator with every formulation goes round as a pendulum of the same
- * inertia does, silently of singular configurations.
- */
+/* Three parallel cranks out of line rotate freely, like the wheels of a locomotive: one row is
+ * redundant in every configuration, but whichever row is omitted, the others have singular
+ * configurations. Every integrator with every formulation moves like a pendulum of the same
+ * inertia and reports no singular configuration. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -154,7 +153,7 @@ static void every_solver_goes_round(void **state)
 }
 
 /* Its rows are not among those to choose from. */
-static void a_body_that_cannot_move_stays_left_out(void **state)
+static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;
   model m = make(true);
@@ -223,7 +222,7 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return run;
 }
 
-/* Into a run that still leaves out the rows of the start. */
+/* Into a run that still omits the rows of its start. */
 static void a_restored_run_leaves_out_the_same_rows(void **state)
 {
   (void)state;
@@ -299,7 +298,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_stabilized_method_goes_round),
     cmocka_unit_test(every_solver_goes_round),
-    cmocka_unit_test(a_body_that_cannot_move_stays_left_out),
+    cmocka_unit_test(a_fixed_body_stays_out_of_the_motion),
     cmocka_unit_test(a_state_from_elsewhere_has_rows_of_its_own),
     cmocka_unit_test(a_violation_that_was_given_stays),
     cmocka_unit_test(a_restored_run_leaves_out_the_same_rows),

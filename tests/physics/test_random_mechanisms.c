@@ -15,8 +15,9 @@
 #include "quad_saddle.h"
 #include "random_judge.h"
 
-/* Errors are relative to the largest element. Chance gives a few poses in a thousand whose
- * condition costs a handful of digits; there the solver of the whole system may lose as many. */
+/* Errors are relative to the largest element. Chance gives a few configurations in a thousand
+ * whose condition number costs several digits; there the solver of the whole system may lose as
+ * many. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
 /* Phi, Phi' and gamma are sums of some dozen terms of size 10. */
@@ -62,7 +63,7 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* poses */
+  int solved; /* configurations */
   int singular;
   int projected;
   int by_blocks; /* mechanisms */

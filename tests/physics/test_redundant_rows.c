@@ -97,7 +97,7 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* The oracle agrees, with the rows left out that the workspace leaves out. */
+/* The oracle agrees, with the rows omitted that the workspace omits. */
 static void accelerations_are_those_of_quadruple_precision(void **state)
 {
   (void)state;
@@ -266,7 +266,7 @@ static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
 
 /* The cranks go on turning as one, th'' = -k cos th, with rows redundant, singular or both at the
  * start. */
-static void a_run_may_start_next_to_a_singular_pose(void **state)
+static void a_run_may_start_next_to_a_singular_configuration(void **state)
 {
   (void)state;
   for (int k = 0; k < TELL_APART_COUNT; k++) {
@@ -307,7 +307,7 @@ int main(void)
     cmocka_unit_test(motions_are_those_without_redundant_rows),
     cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
     cmocka_unit_test(permanent_and_momentary_are_told_apart_in_any_unit),
-    cmocka_unit_test(a_run_may_start_next_to_a_singular_pose),
+    cmocka_unit_test(a_run_may_start_next_to_a_singular_configuration),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

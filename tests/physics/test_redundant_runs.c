@@ -118,9 +118,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Of two choices of rows each drifts in its own way, or fails in its own way within IDA's
- * iteration: by parts of the method's error. A method with a step of its own has that error where
- * its tolerance is. */
+/* Two choices of rows drift differently, or fail differently within IDA's iteration: by
+ * fractions of the method's error. A method with a step of its own has that error where its
+ * tolerance is. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -166,7 +166,7 @@ static void redundant_rows_change_no_motion(void **state)
   model_destroy(&c.without);
 }
 
-/* ---- rows that were left out are looked after ---- */
+/* ---- omitted rows are monitored ---- */
 
 /* A link driven twice at its pin to the ground, by rate t and by rate t + acceleration t^2 / 2, and
  * another one that hangs on it. */
@@ -213,7 +213,7 @@ static void part(const method *with, void *context)
     check(baum_simulation_advance_to(run, END));
     check(baum_simulation_counters(run, &counters, sizeof counters));
     bool warned =
-      warns(run, counters.warnings, "motor\" that was left out as redundant is violated", "t = ");
+      warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "motors that part are told of", k);
     /* off by the method's own violation, 1e-2 at first order; the last of its own steps may go
      * beyond END */
@@ -223,7 +223,7 @@ static void part(const method *with, void *context)
   }
 }
 
-static void rows_left_out_are_looked_after(void **state)
+static void omitted_rows_are_monitored(void **state)
 {
   (void)state;
   baum_mechanism *mechanisms[2] = {driven_twice(0.0), driven_twice(2.0 * ANGLE / (END * END))};
@@ -237,7 +237,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(redundant_rows_change_no_motion),
-    cmocka_unit_test(rows_left_out_are_looked_after),
+    cmocka_unit_test(omitted_rows_are_monitored),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -173,7 +173,7 @@ static void motions_are_those_between_the_jumps(void **state)
 }
 
 /* There and back through all jumps, standing at each: a jump has the value of after. */
-static void jumps_are_met_both_ways(void **state)
+static void jumps_are_met_forward_and_backward(void **state)
 {
   (void)state;
   static const double targets[] = {0.5,   1.0,    1.2345, 1.2361, 1.7,  1.2361,
@@ -434,7 +434,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(motions_are_those_between_the_jumps),
-    cmocka_unit_test(jumps_are_met_both_ways),
+    cmocka_unit_test(jumps_are_met_forward_and_backward),
     cmocka_unit_test(steps_stop_at_jumps),
     cmocka_unit_test(jumps_together_are_all_undone),
     cmocka_unit_test(a_schedule_may_be_given_late),

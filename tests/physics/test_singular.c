@@ -89,7 +89,7 @@ static void recommended_setting_is_accurate(void **state)
 /* The first flat configuration of the second start is 5e-7 rad from the end of a step: an
  * acceleration as the equations have it there, of no digit, made the run wrong by 1.1 rad. In the
  * ninth of 20 windows projection did not converge. Others are off by 4e-6. */
-static void fixed_steps_may_end_in_a_pose(void **state)
+static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
   static const struct {
@@ -321,7 +321,7 @@ static void a_light_rod_that_drifts_is_not_singular(void **state)
   }
 }
 
-static void mechanisms_away_from_singular_poses_are_silent(void **state)
+static void mechanisms_away_from_singular_configurations_are_silent(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -351,10 +351,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(recommended_setting_is_accurate),
-    cmocka_unit_test(fixed_steps_may_end_in_a_pose),
+    cmocka_unit_test(fixed_steps_may_end_in_a_singular_configuration),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
     cmocka_unit_test(drifting_runs_that_leave_their_branch_doubt_the_motion),
-    cmocka_unit_test(mechanisms_away_from_singular_poses_are_silent),
+    cmocka_unit_test(mechanisms_away_from_singular_configurations_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),
     cmocka_unit_test(a_light_rod_that_drifts_is_not_singular),
     cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),

@@ -94,8 +94,8 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* ---- slider-crank of equal links ---- */
 
-/* At pi/2 + off and 150 rad/s, the rod turning the other way. The angle of the rod must be given:
- * what follows from the sine of the crank's has lost half of its digits here. */
+/* At pi/2 + off and 150 rad/s, the rod rotating in the opposite direction. The angle of the rod
+ * must be given: what follows from the sine of the crank's has lost half of its digits here. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;

@@ -103,7 +103,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
 }
 
 /* Ground over a crossing of a flat configuration: branches cross there. */
-static void a_motion_past_a_singular_pose_has_no_trusted_reference(void **state)
+static void a_motion_past_a_singular_configuration_has_no_trusted_reference(void **state)
 {
   (void)state;
   model m;
@@ -356,7 +356,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(own_references_agree_with_those_of_the_catalogue),
-    cmocka_unit_test(a_motion_past_a_singular_pose_has_no_trusted_reference),
+    cmocka_unit_test(a_motion_past_a_singular_configuration_has_no_trusted_reference),
     cmocka_unit_test(a_driven_mechanism_is_compared_with_its_kinematics),
     cmocka_unit_test(errors_from_a_solution_by_formulas_are_those_of_the_method),
     cmocka_unit_test(two_threads_give_the_entries_of_one),

@@ -45,7 +45,7 @@ static void check_entry(const baum_study_entry *entry)
   }
 }
 
-static void no_entry_is_wrong_without_a_word(void **state)
+static void no_entry_is_silently_wrong(void **state)
 {
   static const struct {
     const baum_integrator *(*integrator)(void);
@@ -100,7 +100,7 @@ static int destroy_pendulum(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(no_entry_is_wrong_without_a_word),
+    cmocka_unit_test(no_entry_is_silently_wrong),
     cmocka_unit_test(what_cannot_be_added_adds_nothing),
   };
   return cmocka_run_group_tests(tests, build_pendulum, destroy_pendulum);

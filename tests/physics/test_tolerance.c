@@ -107,7 +107,7 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
   int fits = 0;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
-    /* No freedom: projected to rounding with any tolerance. */
+    /* No degree of freedom: projected to rounding with any tolerance. */
     if (which == DRIVEN_CRANK && formulation == BAUM_FORMULATION_PROJECTION) {
       continue;
     }

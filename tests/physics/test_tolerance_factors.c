@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* tolerance_q and tolerance_v: each governs the error alone where the other is out of the way, and
- * both together are as another rtol, for every method that chooses its steps.
- */
+/* tolerance_q and tolerance_v: each governs the error alone if the other is loose, and both
+ * together act like another rtol, for every method that chooses its steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -13,11 +13,11 @@
 #include "posed.h"
 
 static const double TURNS = 1e4;
-/* A turn in two parts, so that TURNS of them can be taken away to the last digit. */
+/* A revolution in two parts, so that TURNS of them can be subtracted to the last digit. */
 static const double TURN = 6.283185307179586;
 static const double TURN_REST = 2.4492935982947064e-16;
 
-/* As poses nearby: see test_acceleration_accuracy.c. */
+/* As for neighbouring configurations: see test_acceleration_accuracy.c. */
 static const double ORDINARY = 1e-12;
 
 enum { CASES = 5, STEPS = 200, LINKS = 10 };
@@ -35,7 +35,7 @@ static baum_status build_chain(double shift, model *m)
   return model_chain_build(&data, m);
 }
 
-/* In slider-cranks only the crank can turn. */
+/* In slider-cranks only the crank can rotate fully. */
 static posed pose_case(int which, double shift)
 {
   model m;
@@ -52,7 +52,7 @@ static posed pose_case(int which, double shift)
   return pose_model(status, m);
 }
 
-/* Take the turns out of all angles that are above half of them. */
+/* Subtract the revolutions from all angles that are above half of them. */
 static void turn_back(int count, double *q)
 {
   for (int i = 2; i < count; i += 3) {
@@ -62,7 +62,7 @@ static void turn_back(int count, double *q)
   }
 }
 
-static void turned_poses_keep_twelve_digits(void **state)
+static void configurations_after_many_revolutions_keep_twelve_digits(void **state)
 {
   (void)state;
   int failures = 0;
@@ -168,7 +168,7 @@ static void variable_steps_differ_by_their_tolerance(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(turned_poses_keep_twelve_digits),
+    cmocka_unit_test(configurations_after_many_revolutions_keep_twelve_digits),
     cmocka_unit_test(fixed_steps_differ_by_the_rounding_of_angles),
     cmocka_unit_test(variable_steps_differ_by_their_tolerance),
   };

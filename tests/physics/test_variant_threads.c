@@ -102,7 +102,7 @@ static double largest(const double *x, int count)
   return out;
 }
 
-/* 1e-12: two solutions of an ordinary pose. */
+/* 1e-12: two solutions in an ordinary configuration. */
 static void each_variant_has_its_own_mass(void **state)
 {
   const fixture *f = *state;

@@ -13,7 +13,7 @@ import numpy as np
 import baum
 from baum import _abi, callbacks
 from baum.adding import Adding
-from baum.definitions import HIDDEN, KINDS
+from baum.definitions import FIELDS, HIDDEN, KINDS
 from mechanisms import pendulum, rod_pendulum, slider_crank
 
 
@@ -124,8 +124,8 @@ class Building(unittest.TestCase):
 class Recorder(Adding):
     """Takes what the methods that add would hand on."""
 
-    def _add(self, kind, given):
-        return kind, given.keys() - {"self"}
+    def _add(self, made, kind, given):
+        return kind, {FIELDS.get(name, name) for name in given.keys() - {"self"}}
 
 
 class Arguments(unittest.TestCase):

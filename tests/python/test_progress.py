@@ -56,6 +56,43 @@ class Shown(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "progress: a function or False is wanted, not 1"):
             short_study(progress=1)
 
+    def test_a_run_has_a_bar_on_request(self):
+        m = rod_pendulum()
+        with mock.patch.object(sys, "stderr", Terminal()) as terminal:
+            m.simulate([0.5, 1.0], "rk4", step=1e-3)
+            self.assertEqual(terminal.getvalue(), "")
+            m.simulate([0.5, 1.0], "rk4", step=1e-3, progress=True, progress_interval=0)
+        self.assertRegex(terminal.getvalue(), r"^\rrun to t = 1 s: \[.*\d s *\n$")
+        with mock.patch.object(sys, "stderr", Terminal()) as terminal:
+            with m.simulation("rk4", step=1e-3) as s:
+                s.advance_to(1, progress=True)
+                s.step(1)
+        self.assertEqual(terminal.getvalue().count("\n"), 1)
+        with mock.patch.object(sys, "stderr", io.StringIO()) as file:
+            m.simulate(1.0, "rk4", step=1e-2, progress=True, progress_interval=0)
+        self.assertEqual(file.getvalue(), "")
+
+    def test_a_notebook_shows_the_bar_of_a_run(self):
+        notebook = types.SimpleNamespace(get_ipython=lambda: types.SimpleNamespace(kernel=1))
+        with mock.patch.dict(sys.modules, IPython=notebook):
+            with mock.patch.object(sys, "stdout", io.StringIO()) as out:
+                rod_pendulum().simulate(1.0, "rk4", step=1e-2, progress=True, progress_interval=0)
+        self.assertIn("run to t = 1 s", out.getvalue())
+
+    def test_a_bar_is_filled_from_left_to_right(self):
+        out, now = io.StringIO(), [0.0]
+        with mock.patch.object(progress.time, "monotonic", lambda: now[0]):
+            line = progress.RunLine(out, 2.0, 12.0)
+            for t in (2.0, 4.5, 7.0):
+                now[0] = t
+                line(t)
+        shown = out.getvalue().replace(" ", "").split("\r")[1:]
+        self.assertEqual(shown, [
+            "runtot=12s:[....................]0%",
+            "runtot=12s:[#####...............]25%,about14sleft",
+            "runtot=12s:[##########..........]50%,about7sleft",
+        ])
+
     def test_nothing_is_shown_where_nobody_watches(self):
         with mock.patch.object(sys, "stderr", io.StringIO()) as file:
             short_study().add("rk4", step=0.01).run()
@@ -72,7 +109,7 @@ class Shown(unittest.TestCase):
     def test_the_time_left_follows_from_costs_that_double(self):
         out, now = io.StringIO(), [0.0]
         with mock.patch.object(progress.time, "monotonic", lambda: now[0]):
-            line = progress.Line(out, [0, 0, 0, 1, 1, 1])  # 1 1 2 2 4 4, then 1 2 4 1 2 4
+            line = progress.StudyLine(out, [0, 0, 0, 1, 1, 1])  # 1 1 2 2 4 4, then 1 2 4 1 2 4
             for done, t in (1, 1.0), (2, 2.0), (6, 14.0), (12, 28.0):
                 now[0] = t
                 line(done, 12)
@@ -83,7 +120,7 @@ class Shown(unittest.TestCase):
 
     def test_a_stream_that_is_closed_ends_the_line_and_not_the_study(self):
         out = io.StringIO()
-        line = progress.Line(out, [0, 0])
+        line = progress.StudyLine(out, [0, 0])
         out.close()
         line._next = 0.0
         line(1, 4)

@@ -3,8 +3,10 @@
 
 import copy
 import pickle
+import sys
 import unittest
 import warnings
+from unittest import mock
 
 import numpy as np
 
@@ -63,6 +65,57 @@ class Pickled(unittest.TestCase):
             self.assertNotIn(key, run)
 
 
+class Units(unittest.TestCase):
+    """The unit of each column."""
+
+    def units(self, m, *channels, **options):
+        """Units of channels, as lists."""
+        options = options or {"step": 1e-3}
+        run = m.simulate([0, 1e-3], "rk4", record=channels, **options)
+        columns = run.columns
+        self.assertEqual(list(columns), list(run.to_dict()))
+        self.assertEqual(pickle.loads(pickle.dumps(run)).columns, columns)
+        return [[columns[name] for name in run._names(channel)] for channel in channels]
+
+    def test_of_planar_mechanisms(self):
+        m = slider_crank(omega=10.0)
+        force = ["N", "N", "N m"]
+        rates = ["m/s", "m/s", "rad/s"]
+        for channel, units in (
+            ("slider.acceleration", ["m/s^2", "m/s^2", "rad/s^2"]),
+            ("B.phi", ["m", "m"]),
+            ("guide.phi", ["m", "rad"]),
+            ("guide.phi_rate", ["m/s", "rad/s"]),
+            ("guide.multipliers", ["N", "N m"]),
+            ("guide.coordinate", ["m", "m/s"]),
+            ("A.coordinate", ["rad", "rad/s"]),
+            ("B.reaction", force),
+            ("motor.phi", ["rad"]),
+            ("motor.effort", ["N m"]),
+            ("energy", ["J", "J"]),
+            ("energy_account", ["J"] * 12),
+            ("a", ["m/s^2", "m/s^2", "rad/s^2"] * 3),
+            ("phi", ["m", "m"] * 3 + ["m", "rad", "rad"]),
+            ("lambda", ["N", "N"] * 3 + ["N", "N m", "N m"]),
+            ("phi_rate", ["m/s", "m/s"] * 3 + ["m/s", "rad/s", "rad/s"]),
+        ):
+            with self.subTest(channel):
+                found = self.units(m, channel, step=1e-3, energy_account=True)
+                self.assertEqual(found, [units])
+        run = m.simulate([0], "rk4", step=1e-3)
+        self.assertEqual(list(run.columns.values()), ["s", *["m", "m", "rad"] * 3, *rates * 3])
+
+    def test_where_functions_decide_there_are_none(self):
+        m = baum.Mechanism()
+        m.coordinates("free", 1, mass=lambda t, q: 1, force=lambda t, q, v: 0)
+        bob = m.planar_particle("bob", position=(1, 0))
+        m.constraint("circle", bob, 1, lambda t, q: q @ q - 1)
+        m.freeze()
+        found = self.units(m, "free.pose", "circle.phi", "circle.reaction")
+        self.assertEqual(found, [[""], [""], ["", ""]])
+        self.assertEqual(self.units(m, "bob.acceleration", "lambda"), [["m/s^2"] * 2, [""]])
+
+
 class Tables(unittest.TestCase):
     def test_columns_have_names(self):
         m = slider_crank(omega=10.0)
@@ -73,10 +126,127 @@ class Tables(unittest.TestCase):
         self.assertEqual(len(table), 1 + 9 + 9 + 3)
         np.testing.assert_array_equal(table["B.phi[1]"], run["B.phi"][:, 1])
 
+    def test_a_data_frame_has_time_and_units(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("no pandas")
+        run = slider_crank().simulate([0, 0.1], "rk4", step=1e-2, record="energy")
+        frame = run.to_dataframe()
+        self.assertIsInstance(frame, pandas.DataFrame)
+        self.assertEqual((frame.index.name, list(frame.index)), ("t", [0, 0.1]))
+        self.assertEqual(frame.attrs["units"]["energy[1]"], "J")
+        np.testing.assert_array_equal(frame["q[4]"], run.q[:, 4])
+        self.assertEqual(set(frame.columns) | {"t"}, set(run.columns))
+
+    def test_without_pandas_the_error_says_what_is_missing(self):
+        run = slider_crank().simulate([0], "rk4", step=1e-2)
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            self.assertEqual(len(run.to_dict()), 1 + 9 + 9)
+            with self.assertRaisesRegex(ImportError, "pip install pandas"):
+                run.to_dataframe()
+
     def test_a_run_is_not_taken_for_one_array(self):
         run = slider_crank().simulate([0], "rk4", step=1e-2)
         with self.assertRaisesRegex(TypeError, r"pandas.DataFrame\(run.to_dict\(\)\)"):
             np.asarray(run)  # what pandas.DataFrame(run) does
+
+
+class Plots(unittest.TestCase):
+    def setUp(self):
+        self.run_ = slider_crank(omega=10.0).simulate(
+            [0, 0.1, 0.2], "rk4", step=1e-2, record=["motor.effort", "energy"]
+        )
+
+    def axes(self, *channels, **options):
+        """What plot() draws, as (label of the y axis, names of the curves)."""
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no Matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        self.addCleanup(plt.close, "all")
+        places = self.run_.plot(*channels, **options)
+        self.assertEqual(places[-1].get_xlabel(), "t [s]")
+        return [(one.get_ylabel(), [line.get_label() for line in one.lines]) for one in places]
+
+    def test_each_unit_has_its_axes(self):
+        self.assertEqual(self.axes("slider.velocity"), [
+            ("slider.velocity [m/s]", ["slider.velocity[0]", "slider.velocity[1]"]),
+            ("slider.velocity[2] [rad/s]", ["slider.velocity[2]"]),
+        ])
+        both = ["crank.pose[0]", "crank.pose[1]", "rod.pose[0]", "rod.pose[1]"]
+        m = self.run_.mechanism
+        self.assertEqual(self.axes("crank.pose", m["rod"].pose)[0], ("[m]", both))
+
+    def test_what_was_recorded_is_drawn_by_default(self):
+        self.assertEqual(self.axes(), [
+            ("motor.effort [N m]", ["motor.effort"]), ("energy [J]", ["energy[0]", "energy[1]"]),
+        ])
+        self.run_ = slider_crank().simulate([0], "rk4", step=1e-2)
+        self.assertEqual([label for label, _ in self.axes()], ["q [m]", "q [rad]"])
+
+    def test_axes_can_be_given(self):
+        drawn = self.axes("energy")
+        import matplotlib.pyplot as plt
+
+        _, axes = plt.subplots()
+        self.assertEqual(self.axes("energy", axes=axes), drawn)
+        with self.assertRaisesRegex(ValueError, "axes: one for each unit is wanted, 2, not 1"):
+            self.run_.plot("crank.pose", axes=axes)
+        with self.assertRaisesRegex(KeyError, "'B.phi' was not recorded"):
+            self.run_.plot("B.phi")
+
+    def test_without_matplotlib_the_error_says_what_is_missing(self):
+        with mock.patch.dict(sys.modules, {"matplotlib": None, "matplotlib.pyplot": None}):
+            with self.assertRaisesRegex(ImportError, "pip install matplotlib"):
+                self.run_.plot("energy")
+
+
+class Notebooks(unittest.TestCase):
+    """What notebooks ask objects for."""
+
+    def test_tables_are_small_and_escaped(self):
+        m = baum.Mechanism()
+        name = "<b>&\"rod\""
+        m.planar_particle(name, position=(1, 0))
+        for _ in range(40):
+            m.planar_particle()
+        shown = m.freeze()._repr_html_()
+        self.assertIn("<td>&lt;b&gt;&amp;&quot;rod&quot;</td><td>planar_particle</td>", shown)
+        self.assertIn("and 11 more", shown)
+        self.assertEqual(shown.count("<tr>"), 1 + 30 + 1)
+        self.assertNotIn("<b>", shown)
+        run = m.simulate([0, 0.1], "rk4", step=0.1, record=[m[name].acceleration])
+        shown = run._repr_html_()
+        self.assertIn("<td>&lt;b&gt;&amp;&quot;rod&quot;.acceleration</td><td>2</td>", shown)
+        self.assertIn("<td>m/s^2, m/s^2</td><td>0, -9.81</td>", shown)
+        self.assertLess(len(shown), 2000)
+        self.assertIn("<table>", run.mechanism.simulate([], "rk4", step=1)._repr_html_())
+
+    def test_a_study_shows_its_front(self):
+        m = slider_crank()
+        options = dict(samples=2, repeats=1, threads=1, validate=False, progress=False)
+        study = baum.study(m, 0, 0.01, **options).add("rk4", step=1e-3)
+        self.assertIn("study of 1 entries", study._repr_html_())
+        study.run()
+        self.assertRegex(study._repr_html_(), "<td>rk4 projection, step 0.001 s</td><td>.*e-")
+
+    def test_keys_are_completed(self):
+        m = slider_crank()
+        self.assertEqual(m._ipython_key_completions_()[:3], ["ground", "crank", "rod"])
+        run = m.simulate([0], "rk4", step=1e-2, record="energy")
+        for one in run, pickle.loads(pickle.dumps(run)):
+            keys = one._ipython_key_completions_()
+            self.assertTrue({"q", "v", "energy", "slider.pose", "rod.velocity"} <= set(keys))
+            self.assertTrue(all(key in one for key in keys), keys)
+
+    def test_names_of_the_module_are_listed(self):
+        names = dir(baum)
+        self.assertTrue({"catalog", "Mechanism", "AccuracyWarning"} <= set(names))
+        self.assertTrue(all(hasattr(baum, name) for name in names))
 
 
 if __name__ == "__main__":

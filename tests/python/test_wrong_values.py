@@ -54,7 +54,7 @@ class Values(unittest.TestCase):
     def test_sizes_below_one_are_refused_by_the_library(self):
         m = baum.Mechanism()
         m.planar_particle("bob")
-        self.says(baum.Error, '"c": row_count is -1, must be > 0', m.constraint, "c", "bob", -1,
+        self.says(baum.Error, '"c": rows is -1, must be > 0', m.constraint, "c", "bob", -1,
                   lambda t, q: 0)
         self.says(baum.Error, '"c": size is -3, must be > 0', m.coordinates, "c", -3,
                   mass=lambda t, q: 1, force=lambda t, q, v: 0)
@@ -63,7 +63,7 @@ class Values(unittest.TestCase):
         self.says(ValueError, "gravity: an array of one dimension", baum.Mechanism, gravity=9.81)
         m = rod_pendulum()
         self.says(TypeError, 'body "bob": a dict is wanted, not 3', m.copy, bob=3)
-        self.says(TypeError, "progress: a function is wanted", m.simulation, "rk4", step=1, progress=1)
+        self.says(TypeError, "progress: a function or True is wanted", m.simulation, "rk4", step=1, progress=1)
         s = m.simulation("rk4", step=0.1)
         self.says(TypeError, "a simulation is wanted, not None", s.continue_from, None)
         for thing in m, m["bob"], s:

@@ -184,8 +184,8 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Measured up to 5e-10, where errors of a step add up over hundreds of steps, and 6e-9 past flat
-   * poses. */
+  /* Measured up to 5e-10, where errors of a step add up over hundreds of steps, and 6e-9 after
+   * flat configurations. */
   double wanted = k->entry.smooth ? 1e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);

@@ -186,7 +186,7 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
 
     assert_true(v[2] == SPEED);
     assert_true(q[2] == 0.0);
-    assert_true(counters.start_change > 0.01); /* the drawing was rough */
+    assert_true(counters.start_change > 0.01); /* the design was rough */
     for (int i = 0; i < 9; i++) {
       /* Consistent to the rounding of a few operations on lengths below 1 m and speeds below 150
        * rad/s. */

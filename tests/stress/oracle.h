@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The motion of one freedom, x'' = f(x, x'), far more accurately than any run: long double, and for
- * stiff forces too.
- */
+/* The motion of one degree of freedom, x'' = f(x, x'), far more accurately than any run: in long
+ * double, also for stiff forces. */
 #ifndef BAUM_TEST_ORACLE_H
 #define BAUM_TEST_ORACLE_H
 

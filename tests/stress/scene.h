@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of one freedom whose motion is known from one equation for one angle, with every
- * number that the stress grid goes through. SI units; `units` only says in which ones the mechanism
- * is built.
- */
+/* Mechanisms of one degree of freedom whose motion is known from one equation for one angle, with
+ * every number that the stress grid varies. SI units; `units` only says in which ones the mechanism
+ * is built. */
 #ifndef BAUM_TEST_SCENE_H
 #define BAUM_TEST_SCENE_H
 

@@ -100,7 +100,7 @@ static void keep(maker *make, baum_status status)
   make->status = make->status == BAUM_OK ? status : make->status;
 }
 
-/* Two links of 1 m, drawn along x; the second turns at 2 rad/s. */
+/* Two links of 1 m, designed along x; the second rotates at 2 rad/s. */
 static void add_links(maker *make, double off)
 {
   keep(make, baum_mechanism_set_gravity(make->m, 0.0, -9.81, 0.0));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose energy comes and goes in every way that an account knows. */
+/* Mechanisms whose energy changes by every class of work that an account knows. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
 

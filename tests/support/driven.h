@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose driver leaves no freedom, with their motion in closed form. Public interface
- * only. */
+/* Mechanisms whose driver leaves no degree of freedom, with their motion in closed form. Public
+ * interface only. */
 #ifndef BAUM_TEST_DRIVEN_H
 #define BAUM_TEST_DRIVEN_H
 

@@ -418,7 +418,7 @@ static baum_status add_block(every_element *parts, const char *name, double x, d
   return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
 }
 
-/* A particle, drawn in the axes of a block. */
+/* A particle, placed in the axes of a block. */
 static baum_status add_bead(every_element *parts, const char *name, const double block[2],
                             const double at[2], baum_body_id *id)
 {

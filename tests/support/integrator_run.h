@@ -10,8 +10,7 @@ enum { RUN_SIZE_MAX = 24 };
 
 /* What to run; integrator_setup() gives the rest to start from. */
 typedef struct integrator_setup {
-  baum_mechanism
-    *mechanism; /* frozen, drawn in its exact start configuration; stays the caller's */
+  baum_mechanism *mechanism; /* frozen, with an exact design; owned by the caller */
   const baum_integrator *integrator;
   baum_formulation formulation; /* BAUM_FORMULATION_DEFAULT: the first of the integrator's */
   bool fixed;                   /* step of one length, else of the integrator's choice */

@@ -18,7 +18,7 @@ static void need(baum_status status)
   }
 }
 
-/* Where a body is drawn, and how fast it turns at start (NaN: that follows). */
+/* Design pose of a body, and its initial angular velocity (NaN: free). */
 typedef struct drawn {
   double x, y, angle, w;
 } drawn;

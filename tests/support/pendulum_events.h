@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body on a pin whose motion between events is known in closed form: it hangs at angle 0, is let
- * go at rest at an angle below pi, and passes 0 at odd multiples of a quarter of its period.
- * Include after cmocka.h. */
+/* A body on a pin whose motion between events is known in closed form: it hangs at angle 0, is
+ * released at rest at an angle below pi, and passes 0 at odd multiples of a quarter of its
+ * period. Include after cmocka.h. */
 #ifndef BAUM_TEST_PENDULUM_EVENTS_H
 #define BAUM_TEST_PENDULUM_EVENTS_H
 

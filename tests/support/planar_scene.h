@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two planar bodies and two particles, drawn apart, for joints and forces to be put between. */
+/* Two planar bodies and two particles, designed apart, to be connected by joints and forces. */
 #ifndef BAUM_TEST_PLANAR_SCENE_H
 #define BAUM_TEST_PLANAR_SCENE_H
 

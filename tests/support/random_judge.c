@@ -104,7 +104,7 @@ static void look(scene *s, const char *what)
   }
 }
 
-/* ---- poses ---- */
+/* ---- configurations ---- */
 
 static void move_a_bit(scene *s, chance *c, double away)
 {
@@ -114,7 +114,7 @@ static void move_a_bit(scene *s, chance *c, double away)
   }
 }
 
-/* On the constraints again, where there is a way. */
+/* Back onto the constraints, where possible. */
 static void look_on_constraints(scene *s, const char *what)
 {
   if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
@@ -130,7 +130,7 @@ static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
   look_on_constraints(s, "drawn");
   move_a_bit(s, c, 0.2);
   look_on_constraints(s, "moved");
-  /* redundant rows are left out, and beside the constraints they need not depend on each other */
+  /* redundant rows are omitted, and off the constraints they need not depend on each other */
   (void)baum_mechanism_mobility(m, &mobility, sizeof mobility);
   if (mobility.redundant_rows == 0) {
     move_a_bit(s, c, 1.0);

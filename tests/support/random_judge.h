@@ -10,7 +10,7 @@ typedef enum random_verdict {
   RANDOM_MET,         /* within RANDOM_ERROR */
   RANDOM_REFUSED,     /* and rightly: rows depend on each other, or nearly so */
   RANDOM_WRONG,       /* farther off */
-  RANDOM_CONFLICT,    /* rows contradict each other: accelerated by those that were not left out */
+  RANDOM_CONFLICT,    /* rows contradict each other: accelerated by those that were not omitted */
   RANDOM_FALSE_ALARM, /* refused, but the rows are independent */
   RANDOM_VERDICTS
 } random_verdict;
@@ -23,14 +23,14 @@ typedef struct random_tally {
   long mechanisms;
   long poses;
   long counts[RANDOM_VERDICTS];
-  long dependent; /* poses with dependent rows, whose accelerations were met all the same */
+  long dependent; /* configurations with dependent rows and correct accelerations */
   double worst;   /* largest error of those met */
   uint64_t worst_seed;
 } random_tally;
 
-/* One mechanism of the kind that its seed draws: at its design configuration in motion, at another
- * that fulfils the constraints, and, with independent rows, at one that does not. What is wrong or
- * a false alarm is printed. `room` holds the mechanism. */
+/* One mechanism of the kind that its seed determines: at its design configuration in motion, at
+ * another that fulfils the constraints, and, with independent rows, at one that does not. Prints
+ * what is wrong or a false alarm. `room` holds the mechanism. */
 void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
 
 #endif

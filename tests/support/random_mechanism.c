@@ -396,7 +396,7 @@ static void add_rows(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'u', baum_mechanism_add_user_constraint(r->mechanism, &def, &id), id);
 }
 
-/* As it is drawn: points of sliders and slots coincide. */
+/* In the design configuration points of sliders and slots coincide. */
 static double design_coordinate(const random_mechanism *r, int joint)
 {
   baum_planar_revolute_def def;

@@ -34,7 +34,7 @@ typedef struct random_kind {
   double span;     /* masses are from 1/span to span */
   int loads;
   int springs;        /* tried, with dampers */
-  bool drivers_begin; /* at what they move, as it is drawn, at time `start`; else anywhere */
+  bool drivers_begin; /* at their design coordinates at time `start`; else anywhere */
   double start;       /* [s] */
 } random_kind;
 

@@ -83,8 +83,8 @@ static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, dou
   check(baum_mechanism_add_planar_translational(b->m, &def, NULL));
 }
 
-/* Between points that lie in the design configuration at these places beside the centres; bodies
- * are drawn upright. */
+/* Between points that lie in the design configuration at these places relative to the centres;
+ * bodies are designed upright. */
 static void add_rod(builder *b, baum_body_id body_a, baum_body_id body_b, const double at_a[2],
                     const double at_b[2])
 {

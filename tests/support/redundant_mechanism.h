@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar mechanisms with redundant rows and uneven masses, drawn at random; what M a + J^T lambda =
- * g leaves. The same seed gives the same mechanism on every machine.
- */
+/* Planar mechanisms with redundant rows and uneven masses, chosen at random; what M a + J^T
+ * lambda = g leaves. The same seed gives the same mechanism on every machine. */
 #ifndef BAUM_TEST_REDUNDANT_MECHANISM_H
 #define BAUM_TEST_REDUNDANT_MECHANISM_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors and unit quaternions, w first, which turn body axes into ground axes. */
+/* Vectors and unit quaternions, w first, which rotate body axes into ground axes. */
 #ifndef BAUM_TEST_ROTATION_H
 #define BAUM_TEST_ROTATION_H
 

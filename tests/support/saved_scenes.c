@@ -99,7 +99,7 @@ static bool open_pair(saved_scene *scene, int *number)
   return false;
 }
 
-/* Four-bars in a row that pass singular configurations twice a turn, looked at by events, too. */
+/* Four-bars in a row that pass singular configurations twice a revolution, with events, too. */
 static bool open_singular(saved_scene *scene, int number)
 {
   const baum_integrator *const methods[] = {baum_rk4(), baum_rk8(), baum_ab4(), baum_ida()};

@@ -41,7 +41,7 @@ typedef struct singular_scene {
 singular_scene singular_open(singular_kind kind, int loops, uint64_t *seed);
 void singular_close(singular_scene *scene);
 
-/* One way to run it. */
+/* One setting to run it with. */
 typedef struct singular_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);

@@ -12,11 +12,11 @@ baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
-/* Two coordinates drawn at (0.6, -0.8), and one row named "circle" without `user`. */
+/* Two coordinates designed at (0.6, -0.8), and one row named "circle" without `user`. */
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,
                                      baum_qv_fn *gamma, double scale);
 
-/* Two coordinates drawn at (0, 0), and a force named "spring". */
+/* Two coordinates designed at (0, 0), and a force named "spring". */
 baum_mechanism *user_make_force(baum_force_fn *force, baum_force_fn *force_q,
                                 baum_force_fn *force_v, void *user);
 

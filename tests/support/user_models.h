@@ -59,11 +59,12 @@ int user_never_asked(double t, const double *q, double *out, void *user);
 int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
                       void *user);
 
-/* size coordinates with unit mass (2 x 2 and 3 x 3 only), drawn at q, all of one scale. */
+/* size coordinates with unit mass (2 x 2 and 3 x 3 only), designed at q, all of one scale. */
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,
                                   double scale);
 
-/* One body and the constraint on it, not frozen; drawn at some pose of size l, or 1 for angles. */
+/* One body and the constraint on it, not frozen; designed at some configuration of size l, or 1
+ * for angles. */
 baum_mechanism *user_make(const user_kind *kind, user_model *model, int given);
 
 #endif

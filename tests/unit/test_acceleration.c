@@ -267,12 +267,12 @@ static int force_of_six(double t, const double *q, const double *v, const double
 static void a_mass_that_is_positive_no_more_is_handed_over(void **state)
 {
   (void)state;
-  static const double drawn = 2.0;
+  static const double design = 2.0;
   baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 1;
-  def.q = &drawn;
+  def.q = &design;
   def.mass = mass_by_place;
   def.force = force_of_six;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);

@@ -287,7 +287,7 @@ static void projection_takes_energy(void **state)
   ASSERT_NEAR(run_wall(0.0, o).projection, -0.5, 0.0, CLOSE);
 }
 
-/* ---- in the course of a run ---- */
+/* ---- during a run ---- */
 
 static baum_mechanism *make_pushed(baum_input_id *input)
 {
@@ -304,7 +304,7 @@ static baum_mechanism *make_pushed(baum_input_id *input)
 }
 
 /* 2 N for 1 s, then 4 N for 1 s: v = 2, then 6. */
-static void inputs_continue_and_states_begin_anew(void **state)
+static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;
   baum_input_id input;
@@ -399,7 +399,7 @@ int main(void)
     cmocka_unit_test(violation_does_work),
     cmocka_unit_test(gains_are_a_part_of_the_violation),
     cmocka_unit_test(projection_takes_energy),
-    cmocka_unit_test(inputs_continue_and_states_begin_anew),
+    cmocka_unit_test(inputs_continue_and_states_restart),
     cmocka_unit_test(samples_and_motion_stay_apart),
     cmocka_unit_test(what_has_no_account_says_so),
   };

@@ -228,7 +228,7 @@ static double error_there_and_back(const baum_integrator *integrator, double ste
   return error;
 }
 
-static void turning_round_does_not_cost_the_order(void **state)
+static void reversing_does_not_cost_the_order(void **state)
 {
   (void)state;
   demand_order(error_there_and_back);
@@ -321,7 +321,7 @@ int main(void)
     cmocka_unit_test(a_step_costs_one_evaluation_once_there_is_a_past),
     cmocka_unit_test(a_jump_of_an_input_does_not_cost_the_order),
     cmocka_unit_test(targets_off_the_grid_do_not_cost_the_order),
-    cmocka_unit_test(turning_round_does_not_cost_the_order),
+    cmocka_unit_test(reversing_does_not_cost_the_order),
     cmocka_unit_test(another_state_does_not_cost_the_order),
     cmocka_unit_test(samples_beside_the_grid_are_exact_and_alter_nothing),
     cmocka_unit_test(a_past_is_not_projected),

@@ -24,7 +24,7 @@ typedef struct scene {
   double v[NV];
 } scene;
 
-/* The undriven slider-crank, roughly drawn; its crank is held and turns at 150 rad/s. */
+/* The undriven slider-crank, with a rough design; its crank is held and rotates at 150 rad/s. */
 static scene open_scene(void)
 {
   scene s;
@@ -59,16 +59,16 @@ static void check_consistent(const scene *s)
   }
 }
 
-static void a_rough_drawing_is_assembled_and_what_is_held_stays_exactly(void **state)
+static void a_rough_design_is_assembled_and_held_bodies_stay_exactly(void **state)
 {
   (void)state;
   scene s = open_scene();
-  double drawn[3];
-  memcpy(drawn, s.q, sizeof drawn);
+  double design[3];
+  memcpy(design, s.q, sizeof design);
   assert_int_equal(baum_workspace_assemble(s.w, 0.0, s.q, s.v, NULL, 0), BAUM_OK);
   check_consistent(&s);
   for (int i = 0; i < 3; i++) {
-    assert_true(s.q[i] == drawn[i]);
+    assert_true(s.q[i] == design[i]);
   }
   assert_true(s.v[2] == 150.0);
   /* closed form: angle = asin(e / l2), x = l1 + l2 cos(angle) */
@@ -124,8 +124,8 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   void **state)
 {
   (void)state;
-  /* A rod of length 1 between particles of 1 kg and 3 kg, drawn 1.3 m long: each gives way by the
-   * other's mass. */
+  /* A rod of length 1 between particles of 1 kg and 3 kg, designed 1.3 m long: each moves in
+   * proportion to the other's mass. */
   baum_mechanism *m = NULL;
   baum_body_id ids[2];
   baum_workspace *w = NULL;
@@ -169,12 +169,12 @@ static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
 {
   (void)state;
   static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR, BAUM_I_KKT_KLU};
-  static const double drawn[2] = {2.9, 0.7};
+  static const double design[2] = {2.9, 0.7};
   baum_mechanism *m = NULL;
   baum_body_id body;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 2;
-  def.q = drawn;
+  def.q = design;
   def.mass = user_mass_of_first;
   def.force = user_no_force;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
@@ -188,15 +188,15 @@ static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   for (int k = 0; k < 3; k++) {
     baum_workspace *w = NULL;
-    double q[2] = {drawn[0], drawn[1]};
+    double q[2] = {design[0], design[1]};
     double v[2] = {0.0, 0.0};
     assert_int_equal(baum_i_workspace_create(m, choices[k], &w), BAUM_OK);
     baum_status status = baum_workspace_assemble(w, 0.5, q, v, NULL, 0);
     if (choices[k] == BAUM_I_KKT_KLU) {
       ASSERT_SAYS(status, BAUM_ERR_SINGULAR, "t = 0.5 s: assembly: the equations are singular");
     }
-    ASSERT_NEAR(q[0], status == BAUM_OK ? 3.0 : drawn[0], 1e-14, 0.0);
-    assert_true(q[1] == drawn[1]);
+    ASSERT_NEAR(q[0], status == BAUM_OK ? 3.0 : design[0], 1e-14, 0.0);
+    assert_true(q[1] == design[1]);
     baum_workspace_destroy(w);
   }
   baum_mechanism_destroy(m);
@@ -293,7 +293,7 @@ static void what_cannot_be_met_is_not_projected_and_the_state_stays(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_rough_drawing_is_assembled_and_what_is_held_stays_exactly),
+    cmocka_unit_test(a_rough_design_is_assembled_and_held_bodies_stay_exactly),
     cmocka_unit_test(velocities_that_nothing_determines_are_zero),
     cmocka_unit_test(given_velocities_that_contradict_are_refused_and_named),
     cmocka_unit_test(held_bodies_that_contradict_are_refused_and_nothing_changes),

@@ -197,7 +197,7 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
   }
 }
 
-/* Every fourth row is left out, so that rows pair otherwise, and some nodes have no row at all. */
+/* Every fourth row is omitted, so that rows pair differently and some nodes have no row at all. */
 static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
@@ -374,7 +374,8 @@ static void assert_near_all(const double *got, const double *want, int count, do
   }
 }
 
-/* One mechanism in its drawn state in both builds, and by the solver of the whole system. */
+/* One mechanism in its design configuration, with both builds and with the solver of the whole
+ * system. */
 static void compare(const baum_mechanism *m, double tolerance)
 {
   baum_workspace *w[3];

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body that is drawn at the origin has coordinates that are small beside the arms of its joints:
- * what is rounding goes by the arms.
- */
+/* A body designed at the origin has coordinates that are small compared with the arms of its
+ * joints: rounding is measured by the arms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

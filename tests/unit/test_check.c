@@ -123,7 +123,7 @@ static void a_wrong_entry_of_the_jacobian_is_named(void **state)
                    "joint 1 \"circle\": jacobian()[0][1] is -0.8 but differences of phi give -1.6");
 }
 
-static void an_entry_that_is_right_in_the_drawn_pose_only_is_found(void **state)
+static void an_entry_that_is_right_in_the_design_configuration_only_is_found(void **state)
 {
   (void)state;
   baum_mechanism *mechanism =
@@ -339,7 +339,7 @@ static int linear_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void a_mass_below_zero_in_the_drawn_pose_is_refused(void **state)
+static void a_mass_below_zero_in_the_design_configuration_is_refused(void **state)
 {
   (void)state;
   double at_zero[] = {-2.0, 0.01};
@@ -448,14 +448,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_entry_that_is_wrong_by_a_ten_thousandth_is_named_in_any_unit),
     cmocka_unit_test(a_wrong_entry_of_the_jacobian_is_named),
-    cmocka_unit_test(an_entry_that_is_right_in_the_drawn_pose_only_is_found),
+    cmocka_unit_test(an_entry_that_is_right_in_the_design_configuration_only_is_found),
     cmocka_unit_test(an_entry_that_is_wrong_by_a_hundred_thousandth_is_found),
     cmocka_unit_test(nu_of_the_wrong_sign_is_named),
     cmocka_unit_test(a_forgotten_gamma_is_found_at_another_time),
     cmocka_unit_test(wrong_derivatives_of_a_force_are_named),
     cmocka_unit_test(wrong_functions_of_a_body_are_named),
     cmocka_unit_test(a_mass_that_is_not_constant_though_promised_is_found),
-    cmocka_unit_test(a_mass_below_zero_in_the_drawn_pose_is_refused),
+    cmocka_unit_test(a_mass_below_zero_in_the_design_configuration_is_refused),
     cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
     cmocka_unit_test(wrong_derivatives_of_a_law_of_a_driver_are_named),
     cmocka_unit_test(the_mechanism_must_be_there_and_frozen),

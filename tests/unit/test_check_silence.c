@@ -138,7 +138,7 @@ static int kinked_force_q(double t, const double *q, const double *v, const doub
   return 0;
 }
 
-static void a_kink_in_the_drawn_pose_raises_no_alarm(void **state)
+static void a_kink_in_the_design_configuration_raises_no_alarm(void **state)
 {
   (void)state;
   user_check_right(user_make_force(kinked_force, kinked_force_q, user_no_force, NULL));
@@ -178,7 +178,7 @@ static int shy_force_v(double t, const double *q, const double *v, const double 
   return 0;
 }
 
-static void refused_poses_say_nothing(void **state)
+static void refused_configurations_raise_no_alarm(void **state)
 {
   (void)state;
   const refuse passing[] = {NEVER, BEFORE_ZERO, AT_REST, AWAY};
@@ -208,8 +208,8 @@ int main(void)
     cmocka_unit_test(a_scale_that_is_wrong_by_a_million_raises_no_alarm),
     cmocka_unit_test(what_rounding_hides_raises_no_alarm),
     cmocka_unit_test(velocities_that_are_rounding_raise_no_alarm),
-    cmocka_unit_test(a_kink_in_the_drawn_pose_raises_no_alarm),
-    cmocka_unit_test(refused_poses_say_nothing),
+    cmocka_unit_test(a_kink_in_the_design_configuration_raises_no_alarm),
+    cmocka_unit_test(refused_configurations_raise_no_alarm),
     cmocka_unit_test(a_function_that_refuses_everywhere_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

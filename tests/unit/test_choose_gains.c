@@ -169,7 +169,7 @@ static void what_fails_later_does_not_fail_at_creation(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void drivers_that_take_all_freedom_allow_more(void **state)
+static void drivers_that_take_all_degrees_of_freedom_allow_more(void **state)
 {
   (void)state;
   model m;
@@ -364,7 +364,7 @@ int main(void)
     cmocka_unit_test(it_does_not_depend_on_units),
     cmocka_unit_test(a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it),
     cmocka_unit_test(what_fails_later_does_not_fail_at_creation),
-    cmocka_unit_test(drivers_that_take_all_freedom_allow_more),
+    cmocka_unit_test(drivers_that_take_all_degrees_of_freedom_allow_more),
     cmocka_unit_test(steps_of_explicit_methods_stay_inside_of_the_region),
     cmocka_unit_test(counters_tell_the_effective_damping),
     cmocka_unit_test(a_factor_multiplies_the_gains_of_its_row),

@@ -46,7 +46,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
 }
 
 /* J = (c, s) of the first configuration; Phi = (|q|^2 - 1) / 2 of the second. */
-static void phi_of_one_pose_is_taken_away_by_the_matrix_of_another(void **state)
+static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -115,7 +115,7 @@ static void numbers_that_overflow_are_named(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(phi_of_one_pose_is_taken_away_by_the_matrix_of_another),
+    cmocka_unit_test(phi_of_one_configuration_is_removed_by_the_matrix_of_another),
     cmocka_unit_test(rates_are_held_and_the_rest_is_free),
     cmocka_unit_test(rods_in_line_are_singular),
     cmocka_unit_test(numbers_that_overflow_are_named),

@@ -64,7 +64,7 @@ static void the_advised_step_is_not_too_long(void **state)
     double again = 0.0;
     assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
     assert_true(advised > 0.0 && advised < 0.2);
-    /* The advice came early in the run and is for the way until there. */
+    /* The advice came early in the run and holds for the motion up to there. */
     assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
   }
 }
@@ -150,7 +150,7 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
-/* Inside of a step a run turns backward, which restarts it there. */
+/* A run reverses inside a step, which restarts it there. */
 static void estimates_go_on_from_inside_a_step(void **state)
 {
   (void)state;

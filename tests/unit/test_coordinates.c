@@ -132,7 +132,7 @@ static void move(test_point *p)
 
 /* ---- evaluation ---- */
 
-static void the_drawing_is_the_start(void **state)
+static void the_design_is_the_start(void **state)
 {
   (void)state;
   arm a = {0};
@@ -153,7 +153,7 @@ static void the_drawing_is_the_start(void **state)
   test_point_close(&p);
 }
 
-static void what_is_not_drawn_is_zero_free_and_of_scale_one(void **state)
+static void what_is_not_designed_is_zero_free_and_of_scale_one(void **state)
 {
   (void)state;
   arm a = {0};
@@ -412,15 +412,15 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   check_same(&got, &second);
   first.size = 1;
   assert_int_equal(baum_mechanism_set_coordinates(mechanism, id, &first), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "body 1 \"leg\": its size is 2 and must stay");
+  assert_string_equal(baum_message(), "body 1 \"leg\": its size is 2 and cannot change");
   baum_mechanism_destroy(mechanism);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_drawing_is_the_start),
-    cmocka_unit_test(what_is_not_drawn_is_zero_free_and_of_scale_one),
+    cmocka_unit_test(the_design_is_the_start),
+    cmocka_unit_test(what_is_not_designed_is_zero_free_and_of_scale_one),
     cmocka_unit_test(mass_force_and_potential_are_those_given),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),

@@ -215,7 +215,7 @@ static void the_row_is_the_one_coordinate_less_a_function_of_the_other(void **st
   test_point_close(&p);
 }
 
-static void the_offset_is_drawn_unless_given(void **state)
+static void the_offset_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -349,11 +349,11 @@ static void the_joints_must_stay(void **state)
   baum_coupling_def other = def;
   other.joint_a = add_pin(&scene, scene.link, scene.crank);
   assert_int_equal(baum_mechanism_set_coupling(scene.mechanism, id, &other), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "joint 3 \"C\": its joint_a must stay");
+  assert_string_equal(baum_message(), "joint 3 \"C\": its joint_a cannot change");
   other = def;
   other.joint_b = add_slot(&scene, scene.link, scene.crank);
   assert_int_equal(baum_mechanism_set_coupling(scene.mechanism, id, &other), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "joint 3 \"C\": its joint_b must stay");
+  assert_string_equal(baum_message(), "joint 3 \"C\": its joint_b cannot change");
   baum_mechanism_destroy(scene.mechanism);
 }
 
@@ -380,7 +380,7 @@ int main(void)
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(no_column_is_there_twice),
     cmocka_unit_test(the_row_is_the_one_coordinate_less_a_function_of_the_other),
-    cmocka_unit_test(the_offset_is_drawn_unless_given),
+    cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(a_law_that_sets_nothing_is_zero),
     cmocka_unit_test(right_derivatives_raise_no_alarm),

@@ -37,7 +37,7 @@ static void error_falls_with_the_tolerance(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The slider-crank driven at 150 rad/s for a turn: the crank's angle is known. */
+/* The slider-crank driven at 150 rad/s for a revolution: the crank's angle is known. */
 static void a_driven_slider_crank_follows_its_driver(void **state)
 {
   (void)state;
@@ -223,7 +223,7 @@ static int vanish(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void a_projection_that_finds_no_pose_is_told(void **state)
+static void a_projection_that_finds_no_configuration_is_reported(void **state)
 {
   (void)state;
   need_sundials();
@@ -401,7 +401,7 @@ int main(void)
     cmocka_unit_test(high_gains_do_not_bind_the_steps),
     cmocka_unit_test(projected_steps_end_on_the_constraints),
     cmocka_unit_test(projection_is_as_good_as_gains),
-    cmocka_unit_test(a_projection_that_finds_no_pose_is_told),
+    cmocka_unit_test(a_projection_that_finds_no_configuration_is_reported),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(statistics_add_up),
     cmocka_unit_test(a_motion_that_ends_is_told_in_a_sentence_with_time_and_step),

@@ -101,8 +101,8 @@ static double size_of(const solver *s, const double *x)
   return largest;
 }
 
-/* (df/dy) x by a central difference of fourth order: its truncation and rounding are about 1e-12 of
- * f. False where a pose is singular. */
+/* (df/dy) x by a central difference of fourth order: its truncation and rounding are about 1e-12
+ * of f. False in a singular configuration. */
 static bool differentiate(const solver *s, double t, const double *y, const double *x, double *out)
 {
   static const double places[4] = {-2.0, -1.0, 1.0, 2.0};
@@ -150,8 +150,8 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
-/* At random states near the drawing, which need not be consistent. Returns how many were
- * checked. */
+/* At random states near the design configuration, which need not be consistent. Returns how many
+ * were checked. */
 static int check_states(solver *s, double tolerance, chance *c)
 {
   const double gammas[] = {1e-3, -1e-2, 0.1};

@@ -56,8 +56,8 @@ static void take_scales(baum_workspace *w, point *p)
   }
 }
 
-/* A state near the drawing with velocities, accelerations and multipliers of the size of their
- * scales. */
+/* A state near the design configuration with velocities, accelerations and multipliers of the
+ * size of their scales. */
 static point random_point(baum_workspace *w, baum_residual index, int seed)
 {
   const baum_mechanism *m = w->mechanism;

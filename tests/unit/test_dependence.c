@@ -227,7 +227,7 @@ static void functions_that_say_nothing_are_named(void **state)
 
   s = make_bar();
   add_coordinate(&s, &silent);
-  expect_refusal(&s, "masses that are constant|body 2 \"plunger\"|constant_mass = true");
+  expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
 /* Said of a mechanism, with any integrator. */

@@ -182,7 +182,7 @@ static void a_scale_a_thousand_times_too_small_costs_three_digits(void **state)
   ASSERT_NEAR(derivative_at(sin, 0.8, 1e-3, 1), cos(0.8), 0.0, 1e-9);
 }
 
-static void ten_thousand_turns_do_not_spoil_the_steps(void **state)
+static void ten_thousand_revolutions_do_not_spoil_the_steps(void **state)
 {
   (void)state;
   double x = 1e4 * 6.283185307179586 + 0.7;
@@ -190,7 +190,7 @@ static void ten_thousand_turns_do_not_spoil_the_steps(void **state)
   ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
 }
 
-static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_turns(void **state)
+static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolutions(void **state)
 {
   (void)state;
   stage s;
@@ -330,8 +330,8 @@ int main(void)
     cmocka_unit_test(derivatives_of_a_constant_are_exactly_zero),
     cmocka_unit_test(a_scale_a_million_times_too_large_costs_time_not_truth),
     cmocka_unit_test(a_scale_a_thousand_times_too_small_costs_three_digits),
-    cmocka_unit_test(ten_thousand_turns_do_not_spoil_the_steps),
-    cmocka_unit_test(a_line_in_an_odd_direction_stays_exact_after_ten_thousand_turns),
+    cmocka_unit_test(ten_thousand_revolutions_do_not_spoil_the_steps),
+    cmocka_unit_test(a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolutions),
     cmocka_unit_test(a_good_scale_takes_six_or_seven_evaluations),
     cmocka_unit_test(a_noisy_function_is_not_asked_again_and_again),
     cmocka_unit_test(steps_shrink_near_the_edge_of_where_a_function_is_defined),

@@ -70,7 +70,7 @@ static void the_row_is_the_change_of_length_to_first_order(void **state)
   test_point_close(&p);
 }
 
-static void the_length_is_drawn_unless_given(void **state)
+static void the_length_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -103,7 +103,7 @@ static void points_at_one_place_have_finite_rows(void **state)
   test_point_close(&p);
 }
 
-static void a_drawing_without_length_cannot_be_frozen(void **state)
+static void a_design_without_length_cannot_be_frozen(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -141,9 +141,10 @@ static void wrong_fields_are_refused(void **state)
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 4);
   def.point[0] = 1.0;
   def.point[1] = 1.0;
-  check_refused(scene.mechanism, add, &def,
-                "joint 1 \"rod\": point is given and leaves no length; give point_a and point_b "
-                "instead");
+  check_refused(
+    scene.mechanism, add, &def,
+    "joint 1 \"rod\": point is given, but the length would be zero; give point_a and point_b "
+    "instead");
   baum_mechanism_destroy(scene.mechanism);
 }
 
@@ -166,9 +167,9 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(the_row_is_the_change_of_length_to_first_order),
-    cmocka_unit_test(the_length_is_drawn_unless_given),
+    cmocka_unit_test(the_length_follows_from_the_design_unless_given),
     cmocka_unit_test(points_at_one_place_have_finite_rows),
-    cmocka_unit_test(a_drawing_without_length_cannot_be_frozen),
+    cmocka_unit_test(a_design_without_length_cannot_be_frozen),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

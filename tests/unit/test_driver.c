@@ -289,7 +289,7 @@ static void the_joint_must_stay(void **state)
   assert_int_equal(baum_mechanism_add_driver(scene.mechanism, &def, &motor), BAUM_OK);
   def.joint = pin_between(&scene, scene.link, scene.crank);
   assert_int_equal(baum_mechanism_set_driver(scene.mechanism, motor, &def), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "joint 2 \"motor\": its joint must stay");
+  assert_string_equal(baum_message(), "joint 2 \"motor\": its joint cannot change");
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies that welds hold to ground, left out of a run's motion. */
+/* Fixed bodies: welded to ground, and not part of a run's motion. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -142,16 +142,16 @@ static void assert_same_motion(const baum_mechanism *m, int count)
   baum_simulation_destroy(whole);
 }
 
-/* ---- what is left out ---- */
+/* ---- fixed bodies ---- */
 
-static void welded_frames_are_left_out_and_the_motion_is_the_same(void **state)
+static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
 {
   (void)state;
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(it.mechanism, &o);
   assert_non_null(
-    strstr(baum_simulation_explain(run), "blocks, 2 nodes, 1 coupling; 2 fixed bodies left out;"));
+    strstr(baum_simulation_explain(run), "blocks, 2 nodes, 1 coupling; 2 fixed bodies omitted;"));
   baum_simulation_destroy(run);
   assert_same_motion(it.mechanism, FRAMES);
   baum_mechanism_destroy(it.mechanism);
@@ -215,7 +215,7 @@ static void a_hub_at_rest_is_no_hub(void **state)
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
   assert_non_null(
-    strstr(baum_simulation_explain(run), "blocks, 60 nodes, 0 couplings; 1 fixed body left out;"));
+    strstr(baum_simulation_explain(run), "blocks, 60 nodes, 0 couplings; 1 fixed body omitted;"));
   baum_simulation_destroy(run);
   assert_same_motion(m, 1);
   baum_mechanism_destroy(m);
@@ -233,7 +233,7 @@ static void nothing_but_frames_is_nothing_to_solve(void **state)
 
 /* ---- what is not ---- */
 
-static void what_a_driver_holds_is_not_left_out(void **state)
+static void a_body_held_by_a_driver_is_not_fixed(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -434,12 +434,12 @@ static void a_state_that_is_refused_changes_nothing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(welded_frames_are_left_out_and_the_motion_is_the_same),
+    cmocka_unit_test(welded_frames_are_fixed_and_the_motion_is_the_same),
     cmocka_unit_test(rigid_islands_are_solved_for),
     cmocka_unit_test(chains_of_welds_are_fixed_in_any_order),
     cmocka_unit_test(a_hub_at_rest_is_no_hub),
     cmocka_unit_test(nothing_but_frames_is_nothing_to_solve),
-    cmocka_unit_test(what_a_driver_holds_is_not_left_out),
+    cmocka_unit_test(a_body_held_by_a_driver_is_not_fixed),
     cmocka_unit_test(rows_that_fix_a_body_are_kept),
     cmocka_unit_test(fixed_bodies_do_not_move_by_a_digit),
     cmocka_unit_test(reactions_of_fixed_bodies_are_right),

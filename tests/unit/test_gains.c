@@ -230,7 +230,7 @@ static void auto_is_a_share_of_the_rate(void **state)
   has(c.why, "(0.1 x 40 1/s, a rate); variable step");
 }
 
-static void auto_is_more_where_drivers_take_all_freedom(void **state)
+static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
 {
   (void)state;
   baum_i_gain_context context = fixed_step(RK4);
@@ -492,7 +492,7 @@ static void a_step_that_is_no_step_is_refused(void **state)
   }
 }
 
-static void unstable_gains_are_refused_with_numbers_and_a_way_out(void **state)
+static void unstable_gains_are_refused_with_numbers_and_a_remedy(void **state)
 {
   (void)state;
   refused(baum_gains_taylor(), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
@@ -575,7 +575,7 @@ int main(void)
     cmocka_unit_test(no_gains_at_all_are_marginal_and_allowed),
     cmocka_unit_test(gains_that_do_not_damp_are_warned_of),
     cmocka_unit_test(auto_is_a_share_of_the_rate),
-    cmocka_unit_test(auto_is_more_where_drivers_take_all_freedom),
+    cmocka_unit_test(auto_is_more_if_drivers_take_all_degrees_of_freedom),
     cmocka_unit_test(auto_is_capped_and_always_stable),
     cmocka_unit_test(auto_keeps_inside_a_small_region),
     cmocka_unit_test(auto_falls_back_when_nothing_moves),
@@ -591,7 +591,7 @@ int main(void)
     cmocka_unit_test(numbers_that_overflow_are_refused),
     cmocka_unit_test(unknown_rules_are_refused),
     cmocka_unit_test(a_step_that_is_no_step_is_refused),
-    cmocka_unit_test(unstable_gains_are_refused_with_numbers_and_a_way_out),
+    cmocka_unit_test(unstable_gains_are_refused_with_numbers_and_a_remedy),
     cmocka_unit_test(the_pair_that_a_refusal_offers_is_accepted),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_say_so),
     cmocka_unit_test(the_longest_sentences_are_whole),

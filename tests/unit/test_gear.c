@@ -67,8 +67,8 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_gears, false, check_rows_balance);
 }
 
-/* Sun, planet and fixed ring, with 20, 35 and 90 teeth: the arm turns 1 + 90 / 20 times slower than
- * the sun (Willis), and the planet against it by -20 / 35 of what the sun does. */
+/* Sun, planet and fixed ring, with 20, 35 and 90 teeth: the arm rotates 1 + 90 / 20 times slower
+ * than the sun (Willis), and the planet against it by -20 / 35 of what the sun does. */
 static void a_planetary_gear_follows_willis(void **state)
 {
   (void)state;
@@ -104,7 +104,7 @@ static void a_planetary_gear_follows_willis(void **state)
   test_point_close(&p);
 }
 
-static void the_offset_is_drawn_unless_given(void **state)
+static void the_offset_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -187,7 +187,7 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(a_planetary_gear_follows_willis),
-    cmocka_unit_test(the_offset_is_drawn_unless_given),
+    cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(wrong_bodies_are_refused),
     cmocka_unit_test(definitions_come_back),

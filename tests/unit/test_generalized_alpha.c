@@ -187,7 +187,7 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   baum_simulation *run = start(m.mechanism, &options);
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
-  assert_true(c.max_phi <= 1e-14);     /* roundings of 1 m and of turns */
+  assert_true(c.max_phi <= 1e-14);     /* roundings of 1 m and of revolutions */
   assert_true(c.max_phi_rate > 1e-9);  /* of order h^2 */
   assert_true(c.max_phi_rate <= 1e-2); /* of 45 m/s */
   assert_int_equal(c.rejected, 0);
@@ -415,7 +415,7 @@ static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **sta
       check(baum_simulation_step(run, 100));
       assert_true(counters_of(run).max_phi < 1e-14);
       assert_true(counters_of(run).nonlinear_iterations <= 600);
-      /* It swings about where the spring gives way to the weight. */
+      /* It swings about the equilibrium of spring and weight. */
       assert_true(fabs(baum_simulation_q(run)[3]) < 100.0 / k);
       baum_simulation_destroy(run);
     }

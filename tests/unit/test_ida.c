@@ -11,11 +11,8 @@
 
 #if BAUM_HAVE_SUNDIALS
 
-#include <ida/ida.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
 #include "assert_near.h"
+#include "dense_ida.h"
 #include "integrate/sundials_driver.h"
 #include "integrator_run.h"
 #include "models.h"
@@ -117,67 +114,28 @@ static const double *multipliers_of(const integrator_run *run)
   return N_VGetArrayPointer(((const baum_i_sundials *)run->self)->y) + m->nq + m->nv;
 }
 
-/* IDA as it is, but for a dense Jacobian from IDA's own differences. */
-static struct {
-  SUNMatrix matrix;
-  SUNLinearSolver solver;
-  baum_i_sundials_method method;
-} dense;
-
-static N_Vector clone_empty(N_Vector like)
-{
-  N_Vector vector = N_VCloneEmpty_Serial(like);
-  vector->ops->nvdestroy = N_VDestroy_Serial;
-  return vector;
-}
-
-static int attach_dense(baum_i_sundials *run)
-{
-  sunindextype n = N_VGetLength(run->y);
-  for (int k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
-    run->vectors[k]->ops->nvcloneempty = clone_empty;
-  }
-  dense.matrix = SUNDenseMatrix(n, n, run->context);
-  dense.solver = SUNLinSol_Dense(run->y, dense.matrix, run->context);
-  int flag = ((const baum_i_sundials_method *)baum_ida()->table)->attach(run);
-  return flag == 0 ? IDASetLinearSolver(run->memory, dense.solver, dense.matrix) : flag;
-}
-
-static void use_differences(integrator_run *run, baum_integrator *ida)
-{
-  baum_i_integrator_destroy(run->integrator, run->self);
-  dense.method = *(const baum_i_sundials_method *)baum_ida()->table;
-  dense.method.attach = attach_dense;
-  *ida = *baum_ida();
-  ida->table = &dense.method;
-  run->integrator = ida;
-  assert_int_equal(baum_i_integrator_create(ida, &run->problem, &run->state, &run->self), BAUM_OK);
-}
-
 static cost run_it(const integrator_setup *setup, bool differences, double t)
 {
   integrator_run run;
-  baum_integrator ida;
   cost out;
   assert_int_equal(integrator_run_open(&run, setup), BAUM_OK);
   if (differences) {
-    use_differences(&run, &ida);
+    dense_ida_use(&run);
   }
   assert_int_equal(integrator_run_to(&run, t), BAUM_OK);
   out.steps = run.steps;
   baum_ida()->statistics(run.self, &out.statistics);
   memcpy(out.q, run.q, sizeof out.q);
   if (differences) {
-    (void)SUNLinSolFree(dense.solver);
-    SUNMatDestroy(dense.matrix);
+    dense_ida_release();
   }
   integrator_run_close(&run);
   return out;
 }
 
-/* The exact Jacobian may not need more than the dense one from IDA's own differences, which knows
- * nothing of ours, but for the luck of other digits, 15 % so far. A term left out or with a wrong
- * sign costs 2 to 40 times as much. */
+/* The exact Jacobian may not need more than the dense one from IDA's own differences, which
+ * knows nothing of ours, but for the luck of other digits, 15 % so far. A missing term or a
+ * wrong sign costs 2 to 40 times as much. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {

@@ -125,7 +125,7 @@ static void an_oscillator_keeps_time(void **state)
   for_each(oscillate);
 }
 
-static void a_pendulum_swings_both_ways_in_time(void **state)
+static void a_pendulum_swings_forward_and_backward_in_time(void **state)
 {
   (void)state;
   for_each(swing);
@@ -219,7 +219,7 @@ static void begin_anew(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void a_restart_begins_anew_after_a_failure_and_backwards(void **state)
+static void a_restart_works_after_a_failure_and_backwards(void **state)
 {
   (void)state;
   for_each(begin_anew);
@@ -404,10 +404,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_thrown_point_falls_as_galileo_says),
     cmocka_unit_test(an_oscillator_keeps_time),
-    cmocka_unit_test(a_pendulum_swings_both_ways_in_time),
+    cmocka_unit_test(a_pendulum_swings_forward_and_backward_in_time),
     cmocka_unit_test(a_failing_function_leaves_the_last_good_step),
     cmocka_unit_test(a_function_that_stops_is_left_alone),
-    cmocka_unit_test(a_restart_begins_anew_after_a_failure_and_backwards),
+    cmocka_unit_test(a_restart_works_after_a_failure_and_backwards),
     cmocka_unit_test(a_run_goes_on_when_what_failed_is_mended),
     cmocka_unit_test(positions_inside_the_last_step_are_interpolated),
     cmocka_unit_test(too_small_tolerances_are_an_error_of_the_step),

@@ -60,8 +60,8 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 
 /* ---- branches ---- */
 
-/* Any pose but those within a few hundredths of a lock-up, either branch, rates from 0.01 to 100
- * rad/s both ways. */
+/* Any configuration farther than a few hundredths from a lock-up, on either branch, with 0.01 to
+ * 100 rad/s in both directions. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -124,8 +124,8 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
   }
 }
 
-/* Outputs 3 rad apart over many turns: no error accumulates. */
-static void a_thousand_turns_end_where_the_crank_says(void **state)
+/* Outputs 3 rad apart over many revolutions: no error accumulates. */
+static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.4, .rate = 2.0}};
@@ -225,7 +225,7 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
   close_run(run, mechanism);
 }
 
-static void a_driven_four_bar_follows_its_crank_for_many_turns(void **state)
+static void a_driven_four_bar_follows_its_crank_for_many_revolutions(void **state)
 {
   (void)state;
   const drive motor = {.angle = 1.0, .rate = 3.0};
@@ -241,7 +241,8 @@ static void a_driven_four_bar_follows_its_crank_for_many_turns(void **state)
   close_run(run, mechanism);
 }
 
-/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, back and forth between its flat poses. */
+/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, back and forth between its flat
+ * configurations. */
 static int swing(double t, double s[3], void *user)
 {
   (void)user;
@@ -440,7 +441,7 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
-/* The crank is led on at another speed, and then a little ahead of where it is. */
+/* The driver continues at another speed, and then from a little ahead of the crank. */
 static void a_driver_can_be_set_in_a_run(void **state)
 {
   (void)state;
@@ -460,7 +461,7 @@ static void a_driver_can_be_set_in_a_run(void **state)
   slider_crank_motion(&data, -0.1, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
   ASSERT_SAYS(baum_simulation_set_driver(run, motor, 1.5, 2.0, 0.0), BAUM_ERR_INCONSISTENT,
-              "t = 5 s: kinematics: no pose|lead drivers on from where they are");
+              "t = 5 s: kinematics: no configuration|let drivers continue from where they are");
   advance(run, 6.0);
   slider_crank_motion(&data, 1.9, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
@@ -506,11 +507,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(slider_cranks_stay_on_their_branch_from_any_start),
-    cmocka_unit_test(a_thousand_turns_end_where_the_crank_says),
+    cmocka_unit_test(a_thousand_revolutions_end_where_the_crank_says),
     cmocka_unit_test(no_loop_of_many_leaves_its_branch),
     cmocka_unit_test(positions_velocities_accelerations_are_those_of_the_closed_form),
     cmocka_unit_test(the_multiplier_of_the_driver_is_its_torque),
-    cmocka_unit_test(a_driven_four_bar_follows_its_crank_for_many_turns),
+    cmocka_unit_test(a_driven_four_bar_follows_its_crank_for_many_revolutions),
     cmocka_unit_test(a_third_crank_is_redundant_and_changes_nothing),
     cmocka_unit_test(two_guides_are_one_too_many_and_change_nothing),
     cmocka_unit_test(backward_in_time_is_the_same_motion),

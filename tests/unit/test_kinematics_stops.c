@@ -61,10 +61,9 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   baum_mechanism *mechanism = slider_crank_make(data);
   baum_simulation *run = open_run(mechanism);
   double end = 10.0 / fabs(data->drive.rate);
-  ASSERT_SAYS(
-    baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
-    "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|the first "
-    "of them joint ");
+  ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
+              "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|above "
+              "all joint ");
   double t = baum_simulation_time(run);
   double angle = data->drive.angle + data->drive.rate * t;
   double x[3];
@@ -83,8 +82,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   close_run(run, mechanism);
 }
 
-/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64 and
- * -116 degrees there is no pose. */
+/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64
+ * and -116 degrees there is no configuration. */
 static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
 {
   (void)state;
@@ -160,7 +159,7 @@ static int part(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void rows_left_out_that_do_not_follow_any_longer_stop_the_run(void **state)
+static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = NULL;
@@ -179,7 +178,7 @@ static void rows_left_out_that_do_not_follow_any_longer_stop_the_run(void **stat
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation *run = open_run(mechanism);
   ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
-              "kinematics: a row of |\"rows\" that was left out as redundant does not follow");
+              "kinematics: a row of |\"rows\" that was omitted as redundant no longer");
   /* A violation of 1e-6 passes for none. */
   ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
   close_run(run, mechanism);
@@ -238,7 +237,7 @@ static void a_law_that_jumps_is_an_error(void **state)
 {
   (void)state;
   meet(9, BAUM_ERR_CONVERGENCE,
-       "t = 0.7|kinematics: no pose is found close by|the law of |\"motor\" may jump here");
+       "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
 }
 
 static void a_law_that_stops_is_left_alone(void **state)
@@ -258,7 +257,7 @@ static void a_law_that_stops_is_left_alone(void **state)
 
 /* ---- what is refused at create ---- */
 
-static void freedom_is_refused_with_its_number_and_advice(void **state)
+static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **state)
 {
   (void)state;
   baum_simulation_options o = kinematic_options();
@@ -300,14 +299,14 @@ static void settings_of_other_integrators_are_refused(void **state)
     o = kinematic_options();
     o.formulation = (baum_formulation)f;
     assert_false(baum_integrator_offers(o.integrator, o.formulation));
-    check_refused(
-      mechanism, &o, BAUM_ERR_UNSUPPORTED,
-      "kinematics does not offer the formulation |it offers none, for no freedom is left");
+    check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                  "kinematics does not offer the formulation |it offers none, because no degree of "
+                  "freedom is left");
   }
   baum_mechanism_destroy(mechanism);
 }
 
-/* A start as it is drawn is solved like any other configuration; one that is far off is refused. */
+/* A design configuration is solved like any other configuration; one that is far off is refused. */
 static void a_start_off_the_constraints_is_solved_or_refused(void **state)
 {
   (void)state;
@@ -326,7 +325,7 @@ static void a_start_off_the_constraints_is_solved_or_refused(void **state)
     baum_status status = baum_simulation_set_state(run, 0.0, q, v);
     if (far) {
       ASSERT_SAYS(status, BAUM_ERR_INCONSISTENT,
-                  "kinematics: no pose that fulfils the constraints is found close to");
+                  "kinematics: no configuration that satisfies the constraints is found near");
     } else {
       assert_int_equal(status, BAUM_OK);
     }
@@ -411,7 +410,7 @@ static void a_run_explains_itself_and_others_suggest_it(void **state)
   baum_simulation *run = open_run(mechanism);
   const char *text = baum_simulation_explain(run);
   assert_non_null(strstr(text, "integrator    kinematics: Phi(q, t) = 0 is solved to rounding"));
-  assert_non_null(strstr(text, "no freedom is left"));
+  assert_non_null(strstr(text, "no degree of freedom is left"));
   assert_null(strstr(text, "formulation"));
   assert_null(strstr(text, "nan"));
   baum_simulation_destroy(run);
@@ -426,7 +425,7 @@ static void a_run_explains_itself_and_others_suggest_it(void **state)
 }
 
 /* At both ends of the last step and inside; outside of it nothing is known. */
-static void poses_are_given_inside_the_last_step_only(void **state)
+static void configurations_are_returned_inside_the_last_step_only(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 1.0}};
@@ -465,18 +464,18 @@ int main(void)
     cmocka_unit_test(a_rod_too_short_locks_the_crank_whatever_the_start),
     cmocka_unit_test(outputs_up_to_the_lock_up_are_given),
     cmocka_unit_test(where_branches_cross_a_run_stops),
-    cmocka_unit_test(rows_left_out_that_do_not_follow_any_longer_stop_the_run),
+    cmocka_unit_test(omitted_rows_that_no_longer_follow_stop_the_run),
     cmocka_unit_test(a_law_that_fails_leaves_the_last_good_step),
     cmocka_unit_test(a_law_that_jumps_is_an_error),
     cmocka_unit_test(a_law_that_stops_is_left_alone),
-    cmocka_unit_test(freedom_is_refused_with_its_number_and_advice),
+    cmocka_unit_test(degrees_of_freedom_are_refused_with_their_number_and_advice),
     cmocka_unit_test(settings_of_other_integrators_are_refused),
     cmocka_unit_test(a_start_off_the_constraints_is_solved_or_refused),
     cmocka_unit_test(a_restart_that_fails_changes_nothing),
     cmocka_unit_test(a_singular_state_cannot_be_set),
     cmocka_unit_test(a_singular_start_is_refused),
     cmocka_unit_test(a_run_explains_itself_and_others_suggest_it),
-    cmocka_unit_test(poses_are_given_inside_the_last_step_only),
+    cmocka_unit_test(configurations_are_returned_inside_the_last_step_only),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

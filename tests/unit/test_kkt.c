@@ -167,7 +167,7 @@ static void one_velocity_without_constraints_is_a_division(void **state)
   }
 }
 
-static void as_many_rows_as_velocities_leave_no_freedom(void **state)
+static void as_many_rows_as_velocities_leave_no_degree_of_freedom(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(3, 3);
@@ -295,7 +295,7 @@ int main(void)
     cmocka_unit_test(omitted_rows_have_no_multiplier_and_no_influence),
     cmocka_unit_test(a_shift_makes_dependent_rows_solvable),
     cmocka_unit_test(one_velocity_without_constraints_is_a_division),
-    cmocka_unit_test(as_many_rows_as_velocities_leave_no_freedom),
+    cmocka_unit_test(as_many_rows_as_velocities_leave_no_degree_of_freedom),
     cmocka_unit_test(two_blocks_may_share_rows),
     cmocka_unit_test(right_side_of_zeros_gives_zeros),
     cmocka_unit_test(solving_before_factoring_is_singular),

@@ -251,7 +251,7 @@ static void no_mass_at_all_is_kinematics(void **state)
 
 /* ---- singular positions ---- */
 
-/* Half a degree a step; the singular positions, flat, are left out. */
+/* Half a degree a step; the singular configurations, which are flat, are skipped. */
 static void turn_and_solve(int loops, double start)
 {
   saddle system = make_pose(loops, start);
@@ -274,7 +274,7 @@ static void turn_and_solve(int loops, double start)
   saddle_free(&system);
 }
 
-static void a_full_turn_from_a_degenerate_pose_is_solved_everywhere(void **state)
+static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere(void **state)
 {
   (void)state;
   /* Upright and at 45 degrees, where numbers are zero, or equal, but for rounding; and anywhere. */
@@ -285,7 +285,7 @@ static void a_full_turn_from_a_degenerate_pose_is_solved_everywhere(void **state
   }
 }
 
-static void pivots_that_have_become_small_are_chosen_anew(void **state)
+static void pivots_that_have_become_small_are_chosen_again(void **state)
 {
   (void)state;
   /* A rotation; test_klu.c shows what kept pivots would give. */
@@ -459,8 +459,8 @@ int main(void)
     cmocka_unit_test(scales_spread_along_bodies_without_mass),
     cmocka_unit_test(a_free_body_without_mass_is_singular_under_load),
     cmocka_unit_test(no_mass_at_all_is_kinematics),
-    cmocka_unit_test(a_full_turn_from_a_degenerate_pose_is_solved_everywhere),
-    cmocka_unit_test(pivots_that_have_become_small_are_chosen_anew),
+    cmocka_unit_test(a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere),
+    cmocka_unit_test(pivots_that_have_become_small_are_chosen_again),
     cmocka_unit_test(accuracy_falls_only_as_fast_as_the_singular_position_nears),
     cmocka_unit_test(close_to_a_singular_position_the_solver_says_so),
     cmocka_unit_test(at_a_singular_position_qr_takes_over_and_hands_back),

@@ -62,7 +62,7 @@ static void turn(saddle *system, double angle)
   system->jacobian[2] = -sin(angle);
 }
 
-static void kept_pivots_may_give_nonsense_without_a_word_and_rcond_tells(void **state)
+static void kept_pivots_may_silently_give_nonsense_and_rcond_shows_it(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 2);
@@ -151,7 +151,7 @@ static void destroying_nothing_is_fine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(kept_pivots_may_give_nonsense_without_a_word_and_rcond_tells),
+    cmocka_unit_test(kept_pivots_may_silently_give_nonsense_and_rcond_shows_it),
     cmocka_unit_test(a_zero_pivot_is_singular_whether_kept_or_chosen),
     cmocka_unit_test(careful_pivots_are_accurate_where_usual_ones_are_not),
     cmocka_unit_test(kept_careful_pivots_stay_weighted),

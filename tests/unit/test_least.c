@@ -128,7 +128,7 @@ static void polynomials_of_their_degree_are_exact(void **state)
     for (int power = 0; power <= 2 * count - 1; power++) {
       for (size_t k = 0; k < sizeof at / sizeof at[0]; k++) {
         assert_power(count, power, 0.0, at[k]);
-        assert_power(count, power, 1e4, at[k]); /* an angle after many turns */
+        assert_power(count, power, 1e4, at[k]); /* an angle after many revolutions */
       }
     }
   }

@@ -405,7 +405,7 @@ static void replacing_keeps_the_manifold(void **state)
   def.q = long_q;
   def.normalize = NULL;
   assert_int_equal(baum_mechanism_set_coordinates(m, id, &def), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "its position_count must stay"));
+  assert_non_null(strstr(baum_message(), "its position_count cannot change"));
   baum_mechanism_destroy(m);
 }
 

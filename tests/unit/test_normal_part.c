@@ -52,7 +52,7 @@ static double largest(int n, const double *x)
   return most;
 }
 
-/* J (x - P x) = 0, but for rows that are left out. */
+/* J (x - P x) = 0, except for omitted rows. */
 static void check_rows(baum_workspace *w, vectors *d)
 {
   const baum_mechanism *m = w->mechanism;
@@ -64,7 +64,8 @@ static void check_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
     bool omitted = w->rows.count > 0 && w->rows.omitted[i];
-    /* Rounding of a solution that is not refined, for poses whose condition is below 1e4. */
+    /* Rounding of a solution that is not refined, for configurations with a condition number
+     * below 1e4. */
     ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
 }

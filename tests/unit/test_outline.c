@@ -105,7 +105,8 @@ static void outlines_go_round_what_is_inside(void **state)
       double B = most(beta2_h2, count);
       int parts;
       double got = region_area(count, &parts);
-      /* Cells on the edge are some 2 / 120 of the box each way, half of them by chance. */
+      /* Cells on the edge are about 2 / 120 of the box in each direction, half of them by
+       * chance. */
       ASSERT_NEAR(got, counted_area(m, radii[r], A, B), 0.0, 0.01 * A * B);
       assert_true((count > 0) == (parts > 0));
     }

@@ -12,15 +12,15 @@
 enum { MOST_JOINTS = 8, BODIES = 6, PIN_SIZE = 12 };
 
 /* Bodies of three velocities, joined by pins of two rows and motors of one. */
-typedef struct drawing {
+typedef struct graph {
   baum_i_row_block blocks[MOST_JOINTS];
   int columns[MOST_JOINTS][6];
   double jacobian[MOST_JOINTS * PIN_SIZE];
   double column_scale[3 * BODIES];
   baum_i_kkt_structure structure;
-} drawing;
+} graph;
 
-static void begin(drawing *d)
+static void begin(graph *d)
 {
   memset(d, 0, sizeof *d);
   d->structure = (baum_i_kkt_structure){.nv = 3 * BODIES, .row_blocks = d->blocks};
@@ -29,7 +29,7 @@ static void begin(drawing *d)
   }
 }
 
-static double *add(drawing *d, int rows, const int bodies[2])
+static double *add(graph *d, int rows, const int bodies[2])
 {
   int b = d->structure.row_block_count++;
   baum_i_row_block *block = &d->blocks[b];
@@ -45,7 +45,7 @@ static double *add(drawing *d, int rows, const int bodies[2])
 }
 
 /* A pin at an arm (x, y) from each of two bodies, or from one body and the ground, -1. */
-static void pin(drawing *d, int body_a, int body_b, double x, double y)
+static void pin(graph *d, int body_a, int body_b, double x, double y)
 {
   double *value = add(d, 2, (const int[2]){body_a, body_b});
   for (int row = 0; row < 2; row++) {
@@ -60,7 +60,7 @@ static void pin(drawing *d, int body_a, int body_b, double x, double y)
   }
 }
 
-static void motor(drawing *d, int body_a, int body_b)
+static void motor(graph *d, int body_a, int body_b)
 {
   double *value = add(d, 1, (const int[2]){body_a, body_b});
   value[2] = 1.0;
@@ -68,7 +68,7 @@ static void motor(drawing *d, int body_a, int body_b)
 }
 
 /* How many rows are left. */
-static int peel(const drawing *d, unsigned char peeled[2 * MOST_JOINTS])
+static int peel(const graph *d, unsigned char peeled[2 * MOST_JOINTS])
 {
   int left = d->structure.nc;
   memset(peeled, 0, 2 * MOST_JOINTS);
@@ -82,7 +82,7 @@ static int peel(const drawing *d, unsigned char peeled[2 * MOST_JOINTS])
 static void of_an_open_chain_with_motors_nothing_is_left(void **state)
 {
   (void)state;
-  drawing d;
+  graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
   pin(&d, -1, 0, 0.5, 0.2);
@@ -97,7 +97,7 @@ static void of_an_open_chain_with_motors_nothing_is_left(void **state)
 static void loops_are_left_and_what_hangs_on_them_is_not(void **state)
 {
   (void)state;
-  drawing d;
+  graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
   pin(&d, 2, 3, 0.6, 0.1); /* rows 0, 1: hang on the loop */
@@ -113,7 +113,7 @@ static void loops_are_left_and_what_hangs_on_them_is_not(void **state)
 static void a_joint_added_twice_is_left_and_so_is_what_it_hangs_on(void **state)
 {
   (void)state;
-  drawing d;
+  graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
   pin(&d, -1, 0, 0.5, 0.2);
@@ -125,7 +125,7 @@ static void a_joint_added_twice_is_left_and_so_is_what_it_hangs_on(void **state)
 static void rows_that_are_not_clearly_independent_are_left(void **state)
 {
   (void)state;
-  drawing d;
+  graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   const double offsets[] = {1e-2, 1e-4, 0.0};
   for (int k = 0; k < 3; k++) {
@@ -147,7 +147,7 @@ static void rows_that_are_not_clearly_independent_are_left(void **state)
 static void rows_and_columns_may_have_any_size(void **state)
 {
   (void)state;
-  drawing d;
+  graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
   pin(&d, -1, 0, 0.5, 0.2);

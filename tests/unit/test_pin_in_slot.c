@@ -71,7 +71,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_slot, true, check_rows_balance);
 }
 
-static void the_pin_goes_along_the_drawn_axis_and_turns(void **state)
+static void the_pin_moves_along_the_axis_and_rotates(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -163,7 +163,7 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(coordinate_derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
-    cmocka_unit_test(the_pin_goes_along_the_drawn_axis_and_turns),
+    cmocka_unit_test(the_pin_moves_along_the_axis_and_rotates),
     cmocka_unit_test(a_slot_may_be_driven_with_a_particle_in_it),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

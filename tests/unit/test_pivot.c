@@ -38,7 +38,7 @@ static double pivot_of(const baum_mechanism *m)
 }
 
 /* All its mass in the centre: blocks hand over but where it is level or upright. */
-static void a_body_that_turns_easily_is_as_far_from_singular_in_all_directions(void **state)
+static void a_body_of_small_inertia_is_as_far_from_singular_in_all_directions(void **state)
 {
   (void)state;
   for (double inertia = 1.0; inertia > 1e-14; inertia /= 10.0) {
@@ -76,8 +76,9 @@ static void pivots_fall_with_the_square_of_the_distance(void **state)
   model_destroy(&m);
 }
 
-/* Crank and rod turn once while KLU keeps its pivots as long as they are good for something. */
-static void a_light_slider_makes_hardly_any_pose_singular(void **state)
+/* Crank and rod make one revolution while KLU keeps its pivots as long as they are good for
+ * something. */
+static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
 {
   (void)state;
   double angle = 0.3;
@@ -117,9 +118,9 @@ static void a_light_slider_makes_hardly_any_pose_singular(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_body_that_turns_easily_is_as_far_from_singular_in_all_directions),
+    cmocka_unit_test(a_body_of_small_inertia_is_as_far_from_singular_in_all_directions),
     cmocka_unit_test(pivots_fall_with_the_square_of_the_distance),
-    cmocka_unit_test(a_light_slider_makes_hardly_any_pose_singular),
+    cmocka_unit_test(a_light_slider_makes_hardly_any_configuration_singular),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

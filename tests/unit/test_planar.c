@@ -91,11 +91,11 @@ static void user_coordinates_have_no_place_in_the_plane(void **state)
   def.point[0] = 1.0;
   def.point[1] = 1.0;
   check_refused(scene.mechanism, add, &def,
-                "joint 1 \"B\": body_b is body 5 \"theta\", which has no place in the plane");
+                "joint 1 \"B\": body_b is body 5 \"theta\", which has no position in the plane");
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void points_are_given_in_one_way_only(void **state)
+static void points_are_given_either_in_ground_or_in_body_axes(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -141,7 +141,7 @@ static void a_particle_is_its_own_point(void **state)
                 "joint 1 \"B\": point_b is (0, -2) m, must be (0, 0) on the particle body 4 "
                 "\"bead\"");
 
-  /* Against the drawing it is looked at when that is final. */
+  /* It is compared with the design configuration when that is final. */
   def = pin(scene.crank, scene.ball);
   def.point[0] = -0.6;
   def.point[1] = 0.9;
@@ -149,19 +149,19 @@ static void a_particle_is_its_own_point(void **state)
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(),
                       "joint 1 \"B\": point is (-0.6, 0.9) m, must be at the particle body 2 "
-                      "\"ball\", drawn at (-0.6, 0.8) m");
+                      "\"ball\", at (-0.6, 0.8) m");
   assert_false(baum_mechanism_is_frozen(scene.mechanism));
   baum_mechanism_destroy(scene.mechanism);
 }
 
 /* ---- design configuration ---- */
 
-static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
+static void a_point_of_the_design_is_converted_into_body_axes(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
   baum_planar_revolute_def def = pin(scene.link, BAUM_GROUND);
-  /* Link is drawn at (1, 0.5), 0.4 rad: its point (2, 3). */
+  /* Link is designed at (1, 0.5), 0.4 rad: its point (2, 3). */
   double c = cos(0.4);
   double s = sin(0.4);
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
@@ -220,7 +220,7 @@ static void design_frames_are_at_rest(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void a_driver_leaves_the_size_of_the_drawing_alone(void **state)
+static void a_driver_does_not_change_the_size_of_the_design(void **state)
 {
   (void)state;
   double length[2];
@@ -306,12 +306,12 @@ int main(void)
     cmocka_unit_test(definitions_between_two_bodies_begin_alike),
     cmocka_unit_test(bodies_that_cannot_be_joined_are_refused),
     cmocka_unit_test(user_coordinates_have_no_place_in_the_plane),
-    cmocka_unit_test(points_are_given_in_one_way_only),
+    cmocka_unit_test(points_are_given_either_in_ground_or_in_body_axes),
     cmocka_unit_test(a_particle_is_its_own_point),
-    cmocka_unit_test(a_point_in_the_drawing_is_turned_into_body_axes),
+    cmocka_unit_test(a_point_of_the_design_is_converted_into_body_axes),
     cmocka_unit_test(a_particle_is_at_its_point_up_to_rounding),
     cmocka_unit_test(design_frames_are_at_rest),
-    cmocka_unit_test(a_driver_leaves_the_size_of_the_drawing_alone),
+    cmocka_unit_test(a_driver_does_not_change_the_size_of_the_design),
     cmocka_unit_test(packing_leaves_out_what_a_particle_does_not_have),
     cmocka_unit_test(scattering_adds_what_gathering_takes),
   };

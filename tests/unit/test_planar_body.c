@@ -81,7 +81,7 @@ static void a_second_one_has_its_own_numbers(void **state)
   test_point_close(&p);
 }
 
-static void the_drawing_is_the_start(void **state)
+static void the_design_is_the_start(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -95,10 +95,10 @@ static void the_drawing_is_the_start(void **state)
   assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 8.0), BAUM_OK);
   test_point p;
   test_point_open(&p, mechanism);
-  const double drawn[3] = {3.0, -1.0, 0.7};
+  const double design[3] = {3.0, -1.0, 0.7};
   const double scale[3] = {8.0, 8.0, 1.0};
   for (int i = 0; i < 3; i++) {
-    ASSERT_NEAR(mechanism->design_q[3 + i], drawn[i], 0.0, 0.0);
+    ASSERT_NEAR(mechanism->design_q[3 + i], design[i], 0.0, 0.0);
     ASSERT_NEAR(mechanism->scale[3 + i], scale[i], 0.0, 0.0);
     assert_true(isnan(mechanism->design_v[i]));
     assert_false(mechanism->held[i]);
@@ -165,7 +165,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_rigid_body),
     cmocka_unit_test(a_second_one_has_its_own_numbers),
-    cmocka_unit_test(the_drawing_is_the_start),
+    cmocka_unit_test(the_design_is_the_start),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

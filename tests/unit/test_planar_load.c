@@ -142,7 +142,7 @@ static void a_load_keeps_its_direction_or_follows_its_body(void **state)
   def.force[1] = 5.0;
   double force[3];
   double potential;
-  /* The point (1, 2) is at (10 - 2, 20 + 1) after a quarter turn. Rounding of cos. */
+  /* The point (1, 2) is at (10 - 2, 20 + 1) after a quarter revolution. Rounding of cos. */
   evaluate(&def, force, &potential);
   ASSERT_NEAR(force[0], 3.0, 1e-14, 0.0);
   ASSERT_NEAR(force[1], 5.0, 1e-14, 0.0);

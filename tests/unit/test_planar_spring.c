@@ -46,8 +46,8 @@ static baum_planar_spring_def good(const planar_scene *scene)
   return def;
 }
 
-/* A spring is all but straight only away from zero length: for the differences, states with points
- * closer than this are left out, where fifth derivatives go like its fourth power. */
+/* A spring is all but straight only away from zero length: for the differences, states with
+ * points closer than this are skipped, because there fifth derivatives go like its fourth power. */
 static double length_of(const test_point *p, const baum_i_force *spring)
 {
   double at[2][2];
@@ -82,7 +82,7 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_with_law, true, check_force_when_long);
 }
 
-/* A spring "S" with a law from ball to bead, 3 by 4 apart, the bead on its way along x. */
+/* A spring "S" with a law from ball to bead, 3 by 4 apart, the bead moving along x. */
 static void open_law(test_point *p, spring_law *user)
 {
   planar_scene scene = planar_scene_make();
@@ -226,7 +226,7 @@ static void without_length_it_has_no_force(void **state)
   }
 }
 
-static void the_free_length_is_drawn_unless_given(void **state)
+static void the_free_length_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -263,9 +263,10 @@ static void wrong_fields_are_refused(void **state)
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 5);
   def.point[0] = 1.0;
   def.point[1] = 1.0;
-  check_refused(scene.mechanism, add, &def,
-                "force 1 \"S\": point is given and leaves no length; give point_a and point_b "
-                "instead");
+  check_refused(
+    scene.mechanism, add, &def,
+    "force 1 \"S\": point is given, but the length would be zero; give point_a and point_b "
+    "instead");
   def = baum_planar_spring_def_default();
   def.body_a = scene.link;
   def.body_b = scene.crank;
@@ -300,7 +301,7 @@ int main(void)
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),
     cmocka_unit_test(without_length_it_has_no_force),
-    cmocka_unit_test(the_free_length_is_drawn_unless_given),
+    cmocka_unit_test(the_free_length_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

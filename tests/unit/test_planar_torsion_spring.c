@@ -94,7 +94,7 @@ static void it_turns_the_bodies_back_and_damps(void **state)
 {
   (void)state;
   test_point p;
-  /* More than a turn: the angle is continuous. */
+  /* More than a revolution: the angle is continuous. */
   const double angles[2] = {-2.0, 10.0};
   const double rates[2] = {3.0, -4.0};
   open_at(&p, NULL, NULL, angles, rates);
@@ -153,7 +153,7 @@ static void wrong_derivatives_are_found(void **state)
   }
 }
 
-static void the_free_angle_is_drawn_unless_given(void **state)
+static void the_free_angle_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -219,7 +219,7 @@ int main(void)
     cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),
-    cmocka_unit_test(the_free_angle_is_drawn_unless_given),
+    cmocka_unit_test(the_free_angle_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

@@ -84,7 +84,7 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   test_point_close(&p);
 }
 
-static void the_offset_is_drawn_unless_given(void **state)
+static void the_offset_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -145,7 +145,7 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward),
-    cmocka_unit_test(the_offset_is_drawn_unless_given),
+    cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

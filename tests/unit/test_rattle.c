@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE: what it conserves, what it is not for, and every way its equations are solved. */
+/* RATTLE: what it conserves, what it refuses, and how its equations are solved. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -136,9 +136,9 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* Symmetric: as many steps back, and the start is there again but for rounding, of 500 steps and
- * grown by the way nearby motions part. */
-static void the_way_back_leads_to_the_start(void **state)
+/* Symmetric: as many steps back lead to the start, except for the rounding of 500 steps,
+ * amplified as nearby motions part. */
+static void going_back_leads_to_the_start(void **state)
 {
   (void)state;
   model m = {0};
@@ -281,7 +281,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(positions_and_velocities_fulfil_the_constraints_to_rounding),
     cmocka_unit_test(the_energy_of_long_runs_stays_in_its_band),
-    cmocka_unit_test(the_way_back_leads_to_the_start),
+    cmocka_unit_test(going_back_leads_to_the_start),
     cmocka_unit_test(areas_in_phase_space_are_kept),
     cmocka_unit_test(all_solvers_give_the_same_motion),
     cmocka_unit_test(redundant_rows_and_fixed_bodies_alter_nothing),

@@ -134,8 +134,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* One freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J = 0.3, length
-   * 1. */
+  /* One degree of freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J =
+   * 0.3, length 1. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
     ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
@@ -180,7 +180,7 @@ static void many_duplicated_joints_share_their_forces(void **state)
   double got[3 * LINKS];
   double force[2 * LINKS];
   double shared[4 * LINKS];
-  for (int k = 0; k < LINKS; k++) { /* all links turn as one */
+  for (int k = 0; k < LINKS; k++) { /* all links rotate as one */
     v[3 * k] = 0.0;
     v[3 * k + 1] = 2.0 * (k + 0.5);
     v[3 * k + 2] = 2.0;
@@ -253,7 +253,7 @@ static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
   assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 0);
   assert_true(mobility.near_singular);
-  assert_non_null(strstr(mobility.text, "start configuration is singular"));
+  assert_non_null(strstr(mobility.text, "initial configuration is singular"));
   baum_mechanism_destroy(m);
 }
 
@@ -440,7 +440,7 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
   assert_int_equal(baum_workspace_project(w, 0.0, q, v), BAUM_OK);
   assert_int_equal(baum_workspace_phi(w, 0.0, q, phi), BAUM_OK);
   for (int i = 0; i < 12; i++) {
-    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-14); /* rows that were left out too */
+    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-14); /* omitted rows, too */
   }
   baum_workspace_destroy(w);
   baum_mechanism_destroy(m);
@@ -458,9 +458,10 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
     {0.0, 0.3, NULL},
     {1.0, 0.0, NULL},
     {1.0, 0.3,
-     "t = 0.3 s: projection: a row of joint |motor\" that was left out as redundant is "
-     "violated by |contradict"},
-    {1.0, 1e-4, "t = 0.0001 s: projection: a row of joint |5e-09, its rate by |0.0001"},
+     "t = 0.3 s: projection: a redundant row of joint |motor\" was omitted, but is violated by |"
+     "contradict"},
+    {1.0, 1e-4,
+     "t = 0.0001 s: projection: a redundant row of joint |5e-09, and its rate by |0.0001"},
   };
   for (int k = 0; k < 4; k++) {
     baum_mechanism *m = driven_twice(cases[k].acceleration);

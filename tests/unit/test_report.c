@@ -194,7 +194,7 @@ static void fixed_bodies_are_told(void **state)
   assert_int_equal(r.couplings, 0);
   assert_int_equal(r.most_joints, 1); /* of what moves */
   assert_true(r.blocks);
-  assert_says(&r, "60 nodes, 0 couplings; 2 fixed bodies left out;");
+  assert_says(&r, "60 nodes, 0 couplings; 2 fixed bodies omitted;");
   assert_says(&r, "2 fixed bodies");
 }
 

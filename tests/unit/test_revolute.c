@@ -52,8 +52,8 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* Crank drawn at (-0.3, 1.2), -1.1 rad, its point (-0.45, 0.15); the ground's (0.5, 0.7). A few
-   * roundings. */
+  /* Crank designed at (-0.3, 1.2), -1.1 rad, its point (-0.45, 0.15); the ground's (0.5, 0.7). A
+   * few roundings. */
   double c = cos(-1.1);
   double s = sin(-1.1);
   ASSERT_NEAR(phi[0], 0.5 - (-0.3 - 0.45 * c - 0.15 * s), 0.0, 1e-15);
@@ -61,7 +61,7 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_close(&p);
 }
 
-static void a_drawn_point_is_met_by_both_bodies(void **state)
+static void a_design_point_is_met_by_both_bodies(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -90,7 +90,7 @@ static void a_drawn_point_is_met_by_both_bodies(void **state)
   test_point_close(&p);
 }
 
-static void coordinate_counts_turns(void **state)
+static void coordinate_counts_revolutions(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -151,8 +151,8 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(coordinate_derivatives_agree_with_differences),
     cmocka_unit_test(rows_are_the_points_of_body_a_minus_body_b),
-    cmocka_unit_test(a_drawn_point_is_met_by_both_bodies),
-    cmocka_unit_test(coordinate_counts_turns),
+    cmocka_unit_test(a_design_point_is_met_by_both_bodies),
+    cmocka_unit_test(coordinate_counts_revolutions),
     cmocka_unit_test(wrong_points_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

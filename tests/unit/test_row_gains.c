@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of rows with integrators that choose their step: with alpha = beta = b f_i a row that is
- * let go at Phi_0 obeys
+/* Gains of rows with integrators that choose their step: with alpha = beta = b f_i a row that
+ * starts at Phi_0 obeys
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
@@ -86,9 +86,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
     double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
-    /* Errors of some hundred steps at rtol 1e-8 of lengths below 1 m; a factor that is left out of
-     * a term makes
-     * 1e-6 or more. */
+    /* Errors of several hundred steps at rtol 1e-8 of lengths below 1 m; a factor missing from a
+     * term makes 1e-6 or more. */
     ASSERT_NEAR(rows[k], want, 0.0, 1e-7);
   }
   baum_simulation_destroy(run);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drivers whose law is set in a run. A crank turns about its centre, driven; a rod hangs from it
- * free. A cart slides on a guide, driven by a law of the user. */
+/* Drivers whose law is set in a run. A driven crank rotates about its centre; a rod hangs from
+ * it free. A cart slides on a guide, driven by a law of the user. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -302,7 +302,7 @@ static void it_takes_the_place_of_a_spline(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void time_counts_from_where_it_was_set_both_ways(void **state)
+static void time_counts_from_where_it_was_set_forward_and_backward(void **state)
 {
   (void)state;
   faults f = {0};
@@ -435,7 +435,7 @@ int main(void)
     cmocka_unit_test(a_law_acts_from_the_present_time_on),
     cmocka_unit_test(it_takes_the_place_of_a_users_law_in_this_run_alone),
     cmocka_unit_test(it_takes_the_place_of_a_spline),
-    cmocka_unit_test(time_counts_from_where_it_was_set_both_ways),
+    cmocka_unit_test(time_counts_from_where_it_was_set_forward_and_backward),
     cmocka_unit_test(the_law_is_called_once_per_evaluation),
     cmocka_unit_test(projection_jumps_with_the_next_step),
     cmocka_unit_test(baumgarte_goes_there_at_the_rate_of_its_gains),

@@ -328,9 +328,9 @@ static void wrong_curves_are_refused(void **state)
     {along(times, bad, 4, false),
      "joint 2 \"cam\": times[1] is 1 s and values[1] nan, must be finite"},
     {along(times, huge, 4, false),
-     "joint 2 \"cam\": the slope between places 0 and 1 is not finite"},
+     "joint 2 \"cam\": the slope between points 0 and 1 is not finite"},
     {along(times, values, 3, true),
-     "joint 2 \"cam\": values[2] is -1, must be values[0], 0, of a periodic spline"},
+     "joint 2 \"cam\": values[2] is -1, must equal values[0], 0, because the spline is periodic"},
   };
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
     baum_spline_driver_def def = wrong[k].def;
@@ -354,7 +354,7 @@ static void the_joint_must_stay(void **state)
   assert_int_equal(baum_mechanism_add_spline_driver(scene.mechanism, &def, &cam), BAUM_OK);
   def.joint = pin_between(&scene, scene.link, scene.crank);
   assert_int_equal(baum_mechanism_set_spline_driver(scene.mechanism, cam, &def), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "joint 2 \"cam\": its joint must stay");
+  assert_string_equal(baum_message(), "joint 2 \"cam\": its joint cannot change");
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -168,7 +168,7 @@ static const struct {
 } BROUGHT[] = {
   {FAULT_JUMPS, BAUM_ERR_STEP, "error stays above the tolerance|(step |last good step, t = |take "},
   {FAULT_NOISE, BAUM_ERR_CONVERGENCE, "does not converge|(step |last good step, t = |take "},
-  {FAULT_NAN, BAUM_ERR_NOT_FINITE, "\"gust\"|in a step of |from t = | long)|look at functions"},
+  {FAULT_NAN, BAUM_ERR_NOT_FINITE, "\"gust\"|in a step of |from t = | long)|check functions"},
   {FAULT_RETRIES, BAUM_ERR_CALLBACK, "\"gust\"|returned 1 (retry)|in a step of |from t = | long)"},
   {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
 };

@@ -84,7 +84,7 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Integrators that can be run here, one after the other; there is freedom. */
+/* Integrators that can run here, one after the other; the mechanism has degrees of freedom. */
 static const baum_integrator *choose(int k)
 {
   int count = 0;

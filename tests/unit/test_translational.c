@@ -36,7 +36,7 @@ static baum_planar_translational_def good(const planar_scene *scene)
   return def;
 }
 
-/* The drawing with one slider, open. */
+/* The design with one slider, not frozen. */
 static void open_with(test_point *p, planar_scene *scene, const baum_planar_translational_def *def)
 {
   assert_int_equal(add(scene->mechanism, def), BAUM_OK);
@@ -63,7 +63,7 @@ static void coordinate_derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_slider, false, check_coordinate_derivatives);
 }
 
-static void a_drawn_axis_is_of_the_ground_and_met_by_the_drawing(void **state)
+static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -120,7 +120,7 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   test_point_close(&p);
 }
 
-static void the_kept_angle_is_drawn_unless_given(void **state)
+static void the_kept_angle_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -205,9 +205,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(coordinate_derivatives_agree_with_differences),
-    cmocka_unit_test(a_drawn_axis_is_of_the_ground_and_met_by_the_drawing),
+    cmocka_unit_test(an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design),
     cmocka_unit_test(an_axis_beside_points_is_of_body_a),
-    cmocka_unit_test(the_kept_angle_is_drawn_unless_given),
+    cmocka_unit_test(the_kept_angle_follows_from_the_design_unless_given),
     cmocka_unit_test(an_axis_of_any_length_is_a_direction),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -344,7 +344,7 @@ static void rows_and_bodies_must_stay(void **state)
   next = f.good;
   next.body_count = 1;
   assert_int_equal(baum_mechanism_set_user_constraint(f.mechanism, id, &next), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "joint 1 \"circle\": its bodies must stay");
+  assert_string_equal(baum_message(), "joint 1 \"circle\": its bodies cannot change");
   baum_mechanism_destroy(f.mechanism);
 }
 

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User forces. The example acts on two bodies of user coordinates (x, y), (b, th, ga), named in the
- * other order, so that it is passed (b, th, ga, x, y): f = k (y - sin b) pulls y back and turns b,
- * and there is a damper on x.
- */
+/* User forces. The example acts on two bodies of user coordinates (x, y), (b, th, ga), named in
+ * the other order, so that it is passed (b, th, ga, x, y): f = k (y - sin b) pulls y back and
+ * rotates b, and there is a damper on x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -318,7 +317,7 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   check_same(&got, &next);
   next.body_count = 1;
   assert_int_equal(baum_mechanism_set_user_force(f.mechanism, id, &next), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "force 1 \"damper\": its bodies must stay");
+  assert_string_equal(baum_message(), "force 1 \"damper\": its bodies cannot change");
   baum_mechanism_destroy(f.mechanism);
 }
 

@@ -10,57 +10,157 @@
     run = m.freeze().simulate(times, "rk4", step=1e-3, record=["circle.phi", "energy"])
     run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
 
-The library that does the work is found beside this package, in the build tree, or by the system's
-loader; the environment variable BAUM_LIBRARY names another.
+The C library is searched beside this package, in the build tree, and where the system's loader
+looks; the environment variable BAUM_LIBRARY names another file.
 """
+
+from __future__ import annotations
+
 import importlib
+from typing import TYPE_CHECKING, Any
 
 from . import _abi, _lib
+from ._records import StudyEntry, StudyMethod, StudyReference
 from .channels import Channel, a, energy, energy_account, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
-from .errors import WARNINGS, DoubtWarning, Error, Retry, Status, Warning
+from .errors import (
+    AccuracyWarning,
+    BranchWarning,
+    ContradictionWarning,
+    DoubtWarning,
+    EnergyAccountWarning,
+    Error,
+    GainsWarning,
+    IllConditionedWarning,
+    Index3Warning,
+    LooseVelocitiesWarning,
+    NoisyDerivativesWarning,
+    RedundantRowsWarning,
+    Retry,
+    SingularityCrossedWarning,
+    SingularStartWarning,
+    Status,
+    ViolationWarning,
+    Warning,
+)
 from .gains import Gains, auto, best_damping, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
-    Amplification, Integrator, integrators, stability, stability_best, stability_best_on_ray,
-    stability_deadbeat, stability_grid, stability_intervals, stability_limit, stability_nearest,
-    stability_outline, stability_statement,
+    Amplification,
+    Integrator,
+    integrators,
+    stability,
+    stability_best,
+    stability_best_on_ray,
+    stability_deadbeat,
+    stability_grid,
+    stability_intervals,
+    stability_limit,
+    stability_nearest,
+    stability_outline,
+    stability_statement,
 )
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
-from .studies import Recommendation, Study, StudyEntry, StudyMethod, StudyReference, study
+from .studies import Recommendation, ReferenceSamples, Study, study
 from .workspace import Workspace
 
-globals().update(WARNINGS)
+if TYPE_CHECKING:
+    from . import catalog as catalog
 
 __version__ = _abi.VERSION
 library = _lib.path
 library_version = _lib.version
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     # A library of its own, which may be missing.
     if name == "catalog":
         return importlib.import_module(".catalog", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def has(feature):
-    """Whether the library was built with "sundials"."""
-    return _lib.lib.baum_has(feature.encode())
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__", "catalog", "typing"])
+
+
+def has(feature: str) -> bool:
+    """Whether the library was built with a feature: "sundials"."""
+    return bool(_lib.lib.baum_has(feature.encode()))
 
 
 __all__ = [
-    *WARNINGS, "Amplification", "Body", "Channel", "Counters", "DoubtWarning", "EnergyAccount", "Error",
-    "Event", "Force", "Gains",
-    "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Recommendation",
-    "Report", "Retry", "Run", "Simulation", "Sizes", "Status", "Study", "StudyEntry", "StudyMethod",
-    "StudyReference", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat",
-    "energy", "energy_account",
-    "fixed", "frequency", "has", "integrators", "lambda_", "library", "library_version",
-    "phi", "phi_rate",
-    "q", "scaled", "stability", "stability_best", "stability_best_on_ray",
-    "stability_deadbeat", "stability_grid", "stability_intervals", "stability_limit",
-    "stability_nearest", "stability_outline", "stability_statement",
-    "study", "taylor", "v",
+    "AccuracyWarning",
+    "Amplification",
+    "Body",
+    "BranchWarning",
+    "Channel",
+    "ContradictionWarning",
+    "Counters",
+    "DoubtWarning",
+    "EnergyAccount",
+    "EnergyAccountWarning",
+    "Error",
+    "Event",
+    "Force",
+    "Gains",
+    "GainsWarning",
+    "IllConditionedWarning",
+    "Index3Warning",
+    "Input",
+    "Integrator",
+    "Joint",
+    "LooseVelocitiesWarning",
+    "Mechanism",
+    "Mobility",
+    "NearSingular",
+    "NoisyDerivativesWarning",
+    "Recommendation",
+    "RedundantRowsWarning",
+    "ReferenceSamples",
+    "Report",
+    "Retry",
+    "Run",
+    "Simulation",
+    "SingularStartWarning",
+    "SingularityCrossedWarning",
+    "Sizes",
+    "Status",
+    "Study",
+    "StudyEntry",
+    "StudyMethod",
+    "StudyReference",
+    "ViolationWarning",
+    "Warning",
+    "Workspace",
+    "a",
+    "auto",
+    "best_damping",
+    "deadbeat",
+    "energy",
+    "energy_account",
+    "fixed",
+    "frequency",
+    "has",
+    "integrators",
+    "lambda_",
+    "library",
+    "library_version",
+    "phi",
+    "phi_rate",
+    "q",
+    "scaled",
+    "stability",
+    "stability_best",
+    "stability_best_on_ray",
+    "stability_deadbeat",
+    "stability_grid",
+    "stability_intervals",
+    "stability_limit",
+    "stability_nearest",
+    "stability_outline",
+    "stability_statement",
+    "study",
+    "taylor",
+    "v",
 ]

@@ -1,42 +1,47 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the C library is called: statuses, exceptions out of callbacks, Ctrl-C, one thread at a time.
+"""How the C library is called: statuses, exceptions of callbacks, Ctrl-C, one thread at a time.
 
-Python handles signals in the main thread, between two of its own instructions. A long call made
-there would make Ctrl-C wait for its end, and one that comes back through callbacks could see
-KeyboardInterrupt arise where nothing can catch it. So these calls are handed to a second thread,
-while the main thread waits where it can be interrupted. Calls from other threads are made where
-they are.
+Python handles signals in the main thread, between two of its instructions. A long call made there
+would delay Ctrl-C until its end, and in a call that comes back through callbacks KeyboardInterrupt
+could be raised where nothing can catch it. Such calls are therefore handed to a second thread,
+while the main thread waits where it can be interrupted. Calls from other threads are made directly.
 """
 
+from __future__ import annotations
+
 import contextvars
+import ctypes
 import os
 import queue
-import re
 import threading
 import weakref
+from typing import Any, Callable, NoReturn, TypeVar
 
 from . import errors
-from ._lib import lib
+from ._lib import lib, text
+
+Self = TypeVar("Self", bound="Closing")
+Call = Callable[..., Any]
 
 _here = threading.local()
 
-# What a call returns when a callback stopped it.
+# What a call returns if a callback stopped it.
 STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 # ---- one call ------------------------------------------------------------------------------------
 
 
-def raise_later(error):
-    """Keep what a callback raised until the call that it stopped is back."""
+def raise_later(error: BaseException | None) -> None:
+    """Keep what a callback raised until the call that it stopped has returned."""
     _here.error = error
 
 
-def make(function, *arguments):
+def make(function: Call, *arguments: Any) -> errors.Status:
     """Call a function that returns a status; raise what a callback raised, or baum.Error below 0.
 
-    A call may get over a function that fails: where the library looks around to judge a mechanism,
-    for example at times that the run will not reach. Then the exception is dropped.
+    A call may succeed although a callback failed, for example where the library evaluates a
+    mechanism at times that the run will not reach. The exception is then discarded.
     """
     _here.error = None
     status = function(*arguments)
@@ -50,32 +55,39 @@ def make(function, *arguments):
     return errors.as_status(status)
 
 
-def message():
-    """This thread's last message, without the name of the C function that it begins with."""
-    return re.sub(r"^baum_\w+: ", "", lib.baum_message().decode(errors="replace"))
+def made(out: ctypes.c_void_p) -> int:
+    """The address that a function of the library has returned."""
+    assert out.value is not None
+    return out.value
+
+
+def message() -> str:
+    """This thread's last message."""
+    return text(lib.baum_message())
 
 
 # ---- the second thread ---------------------------------------------------------------------------
 
 
 class _Task:
-    """A call on its way: what to do, and what came of it."""
+    """A call for the second thread, and its result."""
 
-    def __init__(self, function, arguments):
+    def __init__(self, function: Call, arguments: tuple[Any, ...]) -> None:
         self._call = (contextvars.copy_context().run, function, *arguments)
         self._done = threading.Lock()
         self._done.acquire()
-        self._claims = {}
+        self._claims: dict[str, object] = {}
         self.finished = False
-        self._result = self._error = None
+        self._result: Any = None
+        self._error: BaseException | None = None
 
-    def claim(self):
-        """Whether the caller is the first to ask: it alone may make the call, or let it be. Ctrl-C
-        may strike before the call has reached the worker."""
+    def claim(self) -> bool:
+        """Whether the caller is the first to ask: only the first may make the call or discard it.
+        Ctrl-C may strike before the call has reached the worker."""
         me = object()
         return self._claims.setdefault("first", me) is me
 
-    def run(self):
+    def run(self) -> None:
         if not self.claim():
             return
         try:
@@ -86,10 +98,10 @@ class _Task:
         self.finished = True
         self._done.release()
 
-    def wait(self, seconds=-1):
+    def wait(self, seconds: float = -1) -> None:
         self._done.acquire(timeout=seconds)
 
-    def result(self):
+    def result(self) -> Any:
         error, self._error = self._error, None
         if error is not None:
             try:
@@ -102,11 +114,11 @@ class _Task:
 class _Worker:
     """The thread that makes calls for the main thread, one after the other."""
 
-    def __init__(self):
-        self._tasks = queue.SimpleQueue()
+    def __init__(self) -> None:
+        self._tasks: queue.SimpleQueue[_Task | None] = queue.SimpleQueue()
         threading.Thread(target=self._work, name="baum", daemon=True).start()
 
-    def _work(self):
+    def _work(self) -> None:
         while True:
             task = self._tasks.get()
             if task is None:
@@ -114,14 +126,14 @@ class _Worker:
             task.run()
             del task
 
-    def put(self, task):
+    def put(self, task: _Task | None) -> None:
         self._tasks.put(task)
 
 
-_worker = None
+_worker: _Worker | None = None
 
 
-def _forget_worker():
+def _forget_worker() -> None:
     global _worker
     _worker = None
 
@@ -130,13 +142,13 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget_worker)
 
 
-def in_main_thread():
+def in_main_thread() -> bool:
     return threading.get_ident() == threading.main_thread().ident
 
 
-def interruptible(function, *arguments, cancel=None):
-    """Call so that Ctrl-C works: it cancels, waits for the call to come back, and is then raised. A
-    second one does not wait; what the call uses stays alive and busy until it is back."""
+def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | None = None) -> Any:
+    """Call so that Ctrl-C works: it cancels, waits until the call returns, and is then raised. A
+    second Ctrl-C does not wait; what the call uses stays alive and busy until it returns."""
     global _worker
     if not in_main_thread():
         return function(*arguments)
@@ -152,8 +164,8 @@ def interruptible(function, *arguments, cancel=None):
     return task.result()
 
 
-def _come_back(task, cancel):
-    """Ask a call to stop and wait until it has; one that has not begun never will."""
+def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
+    """Ask a call to stop and wait until it has; a call that has not begun never begins."""
     try:
         if task.claim():
             return
@@ -162,7 +174,8 @@ def _come_back(task, cancel):
         while not task.finished:
             task.wait(0.02)
     except BaseException:
-        _worker.put(None)
+        if _worker is not None:
+            _worker.put(None)
         _forget_worker()
         raise
 
@@ -173,25 +186,38 @@ def _come_back(task, cancel):
 class Handle:
     """Owns an object of the library and lets one thread at a time use it."""
 
-    def __init__(self, address, destroy, what):
-        self._address = address
+    def __init__(self, address: int, destroy: Call, what: str) -> None:
+        self._address: int | None = address
         self._what = what
-        self._users = {}
-        # Not at exit: a call that was left behind may still be using it.
-        weakref.finalize(self, destroy, address).atexit = False
+        self._users: dict[str, object] = {}
+        self._destroy = weakref.finalize(self, destroy, address)
+        # Not at exit: a call that was left behind may still use the object.
+        self._destroy.atexit = False
 
-    def __reduce__(self):
+    def __reduce__(self) -> NoReturn:
         raise TypeError(
-            f"a {self._what}, and what holds one, cannot be pickled; build it in each process, and send "
-            "arrays, such as run.q"
+            f"a {self._what}, and what holds one, cannot be pickled; build it in each process, and "
+            "send arrays, such as run.q"
         )
 
     @property
-    def busy(self):
+    def address(self) -> int:
+        """The address of the object; raises baum.Error after close()."""
+        if self._address is None:
+            raise errors.Error(errors.Status.ERR_STATE, f"this {self._what} is closed")
+        return self._address
+
+    @property
+    def busy(self) -> bool:
         """Whether a call uses it."""
         return bool(self._users)
 
-    def call(self, function, *arguments):
+    @property
+    def closed(self) -> bool:
+        """Whether the object is destroyed."""
+        return self._address is None
+
+    def call(self, function: Call, *arguments: Any) -> errors.Status:
         """make() with this object as the first argument."""
         # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C
         # strikes.
@@ -199,14 +225,47 @@ class Handle:
         try:
             if self._users.setdefault("now", me) is not me:
                 raise errors.Error(errors.Status.ERR_STATE, self._in_use())
-            return make(function, self._address, *arguments)
+            return make(function, self.address, *arguments)
         finally:
             if self._users.get("now") is me:
                 del self._users["now"]
 
-    def _in_use(self):
+    def close(self) -> None:
+        """Destroy the object, unless that is done already."""
+        me = object()
+        try:
+            if self._users.setdefault("now", me) is not me:
+                raise errors.Error(errors.Status.ERR_STATE, self._in_use())
+            self._address = None
+            self._destroy()
+        finally:
+            if self._users.get("now") is me:
+                del self._users["now"]
+
+    def _in_use(self) -> str:
         instead = (
             "; its functions have the t, q and v that they are given, and for multipliers "
             "acceleration(t, q, v) of a baum.Workspace"
         )
-        return f"this {self._what} is in use by another call" + instead * (self._what == "simulation")
+        return f"this {self._what} is in use by another call" + instead * (
+            self._what == "simulation"
+        )
+
+
+class Closing:
+    """An object that can be closed, also by `with`."""
+
+    _owner: Handle
+
+    def close(self) -> None:
+        """Free its memory and files at once instead of when Python collects it. Arrays and runs
+        that it has returned remain valid; other uses of it raise baum.Error."""
+        self._owner.close()
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        # A second Ctrl-C may have left a call behind, which still uses it.
+        if not self._owner.busy:
+            self.close()

@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Find and load the C library, and make sure that it is the one this package was made for."""
 
+from __future__ import annotations
+
 import ctypes
 import ctypes.util
 import os
 import sys
 from pathlib import Path
+from typing import Any, Iterator, TypeVar
 
 from . import _abi
+from ._words import in_python
+
+Struct = TypeVar("Struct", bound=ctypes.Structure)
 
 if sys.platform == "darwin":
     NAMES = ["libbaum.dylib", "libbaum.0.dylib"]
@@ -19,7 +25,7 @@ else:
 PACKAGE = Path(__file__).resolve().parent
 
 
-def _folders():
+def _folders() -> Iterator[Path]:
     """Where a library may lie beside this package: in it, in its environment, in the build tree."""
     yield PACKAGE
     tree = PACKAGE.parents[2]
@@ -29,7 +35,7 @@ def _folders():
         yield Path(sys.prefix) / "lib"
 
 
-def _candidates():
+def _candidates() -> Iterator[str]:
     """Paths and names to try, in order. BAUM_LIBRARY is the only one when it is set."""
     named = os.environ.get("BAUM_LIBRARY")
     if named:
@@ -45,7 +51,7 @@ def _candidates():
         yield found
 
 
-def _open():
+def _open() -> tuple[ctypes.CDLL, str]:
     """The first candidate that loads."""
     failures = []
     for candidate in _candidates():
@@ -60,11 +66,11 @@ def _open():
     )
 
 
-def _check_version(library, path):
+def _check_version(library: Any, path: str) -> str:
     """Refuse a library of another interface: before 1.0 major and minor must agree."""
     try:
         library.baum_version.restype = ctypes.c_char_p
-        version = library.baum_version().decode()
+        version: str = library.baum_version().decode()
     except AttributeError:
         raise ImportError(f"baum: {path} is not the library baum") from None
     if version.split(".")[:2] != _abi.VERSION.split(".")[:2]:
@@ -75,7 +81,7 @@ def _check_version(library, path):
     return version
 
 
-def _declare(library, path, prototypes):
+def _declare(library: ctypes.CDLL, path: str, prototypes: dict[str, tuple[Any, Any]]) -> None:
     """Give every function its result and arguments."""
     for name, (result, arguments) in prototypes.items():
         try:
@@ -86,7 +92,7 @@ def _declare(library, path, prototypes):
         function.argtypes = arguments
 
 
-def _check_structs(library, path):
+def _check_structs(library: ctypes.CDLL, path: str) -> None:
     """Compare the size of every definition with that of the library. One of the library may have
     grown since: what the shorter one lacks has its default."""
     for struct, name in _abi.DEFAULTS.items():
@@ -106,20 +112,27 @@ _declare(lib, path, _abi.PROTOTYPES)
 _check_structs(lib, path)
 
 
-def default(struct):
+def default(struct: type[Struct]) -> Struct:
     """A new definition or options struct with the library's defaults."""
     filled = struct()
     getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
     return filled
 
 
-def open_catalog():
+def text(value: bytes) -> str:
+    """A text of the library, in the names of this package."""
+    return in_python(value.decode(errors="replace"))
+
+
+def open_catalog() -> ctypes.CDLL:
     """The library of the catalogue, which lies beside this one."""
     folder, name = os.path.split(path)
     beside = os.path.join(folder, name.replace("baum", "baum_catalog", 1))
     try:
         library = ctypes.CDLL(beside)
     except OSError as error:
-        raise ImportError(f"baum.catalog: the library {beside} could not be loaded: {error}") from None
+        raise ImportError(
+            f"baum.catalog: the library {beside} could not be loaded: {error}"
+        ) from None
     _declare(library, beside, _abi.CATALOG_PROTOTYPES)
     return library

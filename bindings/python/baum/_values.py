@@ -2,14 +2,19 @@
 """Numbers, points and arrays on their way to the library and back: checked here, so that messages
 name them."""
 
+from __future__ import annotations
+
 import ctypes
 import operator
+from typing import Any
 
 import numpy as np
 
+from .typing import Array
 
-def number(value, label):
-    """A float; text is none, even where it reads like one."""
+
+def number(value: Any, label: str) -> float:
+    """A float. Text is refused, even where it reads like a number."""
     try:
         if isinstance(value, (str, bytes, bytearray)):
             raise TypeError
@@ -20,8 +25,8 @@ def number(value, label):
         raise ValueError(f"{label}: the number is too large") from None
 
 
-def integer(value, label, bits=32):
-    """An int that the library's type can hold; nothing is rounded or cut."""
+def integer(value: Any, label: str, bits: int = 32) -> int:
+    """An int that the library's type can hold; nothing is rounded or truncated."""
     try:
         whole = operator.index(value)
     except TypeError:
@@ -31,14 +36,14 @@ def integer(value, label, bits=32):
     return whole
 
 
-def truth(value, label):
-    """A bool, or 0 or 1; no text, of which "no" would be true."""
+def truth(value: Any, label: str) -> bool:
+    """A bool, or 0 or 1. Text is refused, because "no" would be true."""
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)
 
 
-def vector(value, size, label):
+def vector(value: Any, size: int | None, label: str) -> Array:
     """A new array of `size` doubles; of any length when size is None."""
     try:
         if np.asarray(value).dtype.kind not in "biufO":
@@ -55,11 +60,11 @@ def vector(value, size, label):
     return array
 
 
-def address(array):
-    """Where the numbers of an array are; None stays None."""
+def address(array: Any) -> Any:
+    """The address of the numbers of an array; None for None."""
     return None if array is None else array.ctypes.data
 
 
-def numbers(place, size):
+def numbers(place: int | None, size: int) -> Array | None:
     """A copy of the numbers at an address; None for NULL."""
     return None if place is None else np.array((ctypes.c_double * size).from_address(place))

@@ -1,270 +1,492 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Adding bodies, joints, forces and inputs to a mechanism."""
+
+from __future__ import annotations
+
 import ctypes
+from typing import TYPE_CHECKING, Any, Sequence, TypeVar, Union
 
 from . import _abi
-from .definitions import KINDS, Definition, sizes
-from .elements import Entry, one
 from ._lib import lib
 from ._values import number
+from .definitions import KINDS, Definition, sizes
+from .elements import Body, Element, Entry, Force, Input, Joint, one
+from .typing import (
+    ArrayLike,
+    BodyLike,
+    CurveFunction,
+    ForceFunction,
+    FunctionOfQ,
+    FunctionOfQV,
+    InputLike,
+    JointLike,
+    LawOfLength,
+    LawOfTime,
+    Manifold,
+    Scalar,
+)
+
+if TYPE_CHECKING:
+    from ._calls import Handle
+
+Added = TypeVar("Added", bound=Element)
+Bodies = Union[BodyLike, Sequence[BodyLike]]
 
 
 class Adding:
-    """The part of a Mechanism that adds. Each method returns a handle.
+    """The methods of a Mechanism that add an element.
 
-    Fields left out keep the library's defaults, which the C headers state.
+    Each method returns a handle. name: a label for messages and lookups; None numbers the element,
+    for example "body1". Arguments that are None have the default that the method describes. Bodies,
+    joints and inputs are given as handles or names.
+
+    Errors: TypeError for values of a wrong type, ValueError for wrong sizes and names that are
+    taken, KeyError for names that do not exist, and baum.Error for values that the library refuses,
+    and after freeze().
     """
+
+    _owner: Handle
+    _entries: dict[str, Entry]
+    _keep: list[Any]
+    has_python: bool
+
+    if TYPE_CHECKING:
+
+        def __getitem__(self, name: str) -> Any: ...
+        def find(self, family: str, value: Any) -> Any: ...
+        def _count(self, family: str) -> int: ...
 
     # ---- bodies ----------------------------------------------------------------------------------
 
     def planar_body(
         self,
-        name=None,
+        name: str | None = None,
         *,
-        mass=None,
-        inertia=None,
-        position=None,
-        angle=None,
-        velocity=None,
-        angular_velocity=None,
-        held=None,
-    ):
-        """Add a rigid body in the plane: mass [kg], inertia [kg m^2] about the centre of mass,
-        design position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
-        held: assembly keeps the design configuration."""
-        return self._add("planar_body", locals())
+        mass: Scalar = 1.0,
+        inertia: Scalar = 1.0,
+        position: ArrayLike = (0.0, 0.0),
+        angle: Scalar = 0.0,
+        velocity: ArrayLike | None = None,
+        angular_velocity: Scalar | None = None,
+        held: bool = False,
+    ) -> Body:
+        """Add a rigid body in the plane.
 
-    def planar_particle(self, name=None, *, mass=None, position=None, velocity=None, held=None):
-        """Add a point mass [kg] at a design position [m], with a velocity at start [m/s]."""
-        return self._add("planar_particle", locals())
+        mass: [kg] > 0. inertia: about the centre of mass [kg m^2] > 0. position: of the centre of
+        mass in the design configuration, x and y [m]. angle: in the design configuration [rad].
+        velocity, angular_velocity: at the start [m/s], [rad/s]; None or NaN: free, so that assembly
+        chooses them. held: assembly does not move the body.
+        """
+        return self._add(Body, "planar_body", locals())
+
+    def planar_particle(
+        self,
+        name: str | None = None,
+        *,
+        mass: Scalar = 1.0,
+        position: ArrayLike = (0.0, 0.0),
+        velocity: ArrayLike | None = None,
+        held: bool = False,
+    ) -> Body:
+        """Add a point mass in the plane.
+
+        mass: [kg] > 0. position: in the design configuration, x and y [m]. velocity: at the start
+        [m/s]; None or NaN: free, so that assembly chooses it. held: assembly does not move it.
+        """
+        return self._add(Body, "planar_particle", locals())
 
     def coordinates(
         self,
-        name=None,
-        size=None,
+        name: str | None = None,
+        size: int | None = None,
         *,
-        mass=None,
-        force=None,
-        q=None,
-        v=None,
-        scale=None,
-        force_q=None,
-        force_v=None,
-        potential=None,
-        constant_mass=None,
-        held=None,
-        position_count=None,
-        position_scale=None,
-        rate=None,
-        move=None,
-        difference=None,
-        normalize=None,
-        inputs=None,
-        depends_on_velocity=None,
-        user=None,
-    ):
-        """Add `size` generalized coordinates: mass(t, q) gives M (size x size), force(t, q, v) the
-        force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
-        energy [J]. q, v, scale: (size) design positions, velocities at start, a relevant change of
-        each. inputs: those that force, force_q and force_v are given after v.
-        depends_on_velocity: False where force() does not read v (rattle needs that).
+        mass: FunctionOfQ | None = None,
+        force: ForceFunction | None = None,
+        q: ArrayLike | None = None,
+        v: ArrayLike | None = None,
+        scale: ArrayLike | None = None,
+        force_q: ForceFunction | None = None,
+        force_v: ForceFunction | None = None,
+        potential: FunctionOfQ | None = None,
+        constant_mass: bool = False,
+        held: bool = False,
+        position_count: int | None = None,
+        position_scale: ArrayLike | None = None,
+        rate: Manifold | None = None,
+        move: Manifold | None = None,
+        difference: Manifold | None = None,
+        normalize: Manifold | None = None,
+        inputs: Sequence[InputLike] | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Body:
+        """Add `size` generalized coordinates with a mass matrix and forces of your own.
 
-        Positions that are not a vector, such as a unit quaternion: position_count of them, with
-        rate(q, v) their rate N(q) v; move(h, v, q) where q is after the time h at constant v;
-        difference(a, b) the v by which move(1, v, a) is b; normalize(q) the nearest q on the
-        manifold; position_scale a relevant change of each. Derivatives by q are then along
-        displacements of velocity size."""
-        return self._add("coordinates", locals())
+        mass(t, q): mass matrix M (size x size). force(t, q, v): force vector g (size). force_q,
+        force_v: its derivatives (size x size), by default from differences. potential(t, q): energy
+        [J]. q, v: (size) design positions, default 0, and velocities at the start, default free.
+        scale: (size) a relevant change of each position. constant_mass: M is constant. held:
+        assembly does not move them. inputs: force, force_q and force_v receive their values after
+        v. depends_on_velocity: False if force() does not read v, which "rattle" requires.
+        user: what compiled functions receive, an address or an object of ctypes.
+
+        For positions that are not a vector, such as a unit quaternion, also give: position_count;
+        rate(q, v): their rate N(q) v; move(h, v, q): q after the time h at constant v;
+        difference(a, b): the v for which move(1, v, a) is b; normalize(q): the nearest q on the
+        configuration manifold; position_scale: a relevant change of each position. Derivatives by q
+        are then along displacements of velocity size.
+        """
+        return self._add(Body, "coordinates", locals())
 
     # ---- joints ----------------------------------------------------------------------------------
 
-    def revolute(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None):
-        """Add a pin: two points coincide. Two rows [m]."""
-        return self._add("planar_revolute", locals())
+    def revolute(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a revolute joint (pin): a point of body_a and one of body_b coincide. Two rows [m].
+
+        Its coordinate is angle_b - angle_a [rad]. point: in ground axes in the design configuration
+        [m]; or point_a, point_b: in the axes of body_a and body_b [m].
+        """
+        return self._add(Joint, "planar_revolute", locals())
 
     def translational(
-        self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None, angle=None
-    ):
-        """Add a slider: body_b moves along an axis of body_a without turning. Two rows [m], [rad].
-        angle: angle_b - angle_a that is kept [rad], default that of the design configuration."""
-        return self._add("planar_translational", locals())
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        axis: ArrayLike = (1.0, 0.0),
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        angle: Scalar | None = None,
+    ) -> Joint:
+        """Add a translational joint (slider): body_b moves along an axis of body_a and does not
+        rotate relative to it. Two rows [m], [rad].
 
-    def distance(self, name, body_a, body_b, *, point_a=None, point_b=None, length=None):
-        """Add a rod without mass between two points. One row [m]. length [m], default that of the
-        design configuration."""
-        return self._add("planar_distance", locals())
+        Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
+        ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
+        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. angle: the value of
+        angle_b - angle_a that is kept [rad], default that of the design configuration.
+        """
+        return self._add(Joint, "planar_translational", locals())
 
-    def fixed(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None, angle=None):
-        """Add a weld. Three rows [m], [m], [rad]. angle: angle_b - angle_a [rad], default that of
-        the design configuration."""
-        return self._add("planar_fixed", locals())
+    def distance(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        length: Scalar | None = None,
+    ) -> Joint:
+        """Add a massless rod between two points. One row [m].
+
+        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, default that of the
+        design configuration.
+        """
+        return self._add(Joint, "planar_distance", locals())
+
+    def fixed(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        angle: Scalar | None = None,
+    ) -> Joint:
+        """Add a weld: two bodies do not move relative to each other. Three rows [m], [m], [rad].
+
+        point: in ground axes in the design configuration [m]; or point_a, point_b: in the axes of
+        the bodies [m]. angle: angle_b - angle_a [rad], default that of the design configuration.
+        """
+        return self._add(Joint, "planar_fixed", locals())
 
     def pin_in_slot(
-        self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None
-    ):
-        """Add a pin of body_b in a straight slot of body_a, where it may turn. One row [m]. Its
-        coordinate is the displacement of body_b's point along the axis [m]."""
-        return self._add("planar_pin_in_slot", locals())
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        axis: ArrayLike = (1.0, 0.0),
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a pin of body_b in a straight slot of body_a, in which it can rotate. One row [m].
+
+        Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
+        ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
+        configuration [m]; or point_a, point_b: in the axes of the bodies [m].
+        """
+        return self._add(Joint, "planar_pin_in_slot", locals())
 
     def rack_and_pinion(
         self,
-        name,
-        body_a,
-        body_b,
-        radius,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        radius: Scalar,
         *,
-        axis=None,
-        point=None,
-        point_a=None,
-        point_b=None,
-        offset=None,
-    ):
-        """Add a pinion of body_b, about its point, that rolls on a rack of body_a along an axis:
-        displacement - radius (angle_b - angle_a) = offset. One row [m]. radius [m] > 0: the rack is
-        on the left of the axis; < 0: on the right, which is below for the axis (1, 0). offset [m],
-        default that of the design configuration."""
-        return self._add("planar_rack_and_pinion", locals())
+        axis: ArrayLike = (1.0, 0.0),
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        offset: Scalar | None = None,
+    ) -> Joint:
+        """Add a pinion of body_b, centred at its point, that rolls on a rack of body_a along an
+        axis. One row [m]: displacement - radius (angle_b - angle_a) = offset.
 
-    def gear(self, name, body_a, body_b, radius_a, radius_b, *, carrier=None, offset=None):
-        """Add a gear of two wheels on a carrier (default: ground): radius_a (angle_a - angle_c) +
-        radius_b (angle_b - angle_c) = offset. One row [m]. A negative radius [m] is a ring with
-        internal teeth. offset [m], default that of the design configuration."""
-        return self._add("planar_gear", locals())
+        radius: [m]; positive: the rack is on the left of the axis; negative: on the right, which is
+        below for the axis (1, 0). axis, point, point_a, point_b: as in translational(). offset:
+        [m], default that of the design configuration.
+        """
+        return self._add(Joint, "planar_rack_and_pinion", locals())
+
+    def gear(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        radius_a: Scalar,
+        radius_b: Scalar,
+        *,
+        carrier: BodyLike | None = None,
+        offset: Scalar | None = None,
+    ) -> Joint:
+        """Add a gear of two wheels on a carrier. One row [m]:
+        radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) = offset.
+
+        radius_a, radius_b: [m]; a negative radius is a ring with internal teeth. carrier: default
+        ground. offset: [m], default that of the design configuration.
+        """
+        return self._add(Joint, "planar_gear", locals())
 
     def curve(
         self,
-        name,
-        body_a,
-        body_b,
-        curve,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        curve: CurveFunction,
         *,
-        point=None,
-        point_a=None,
-        point_b=None,
-        user=None,
-    ):
-        """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a, x and y from its
-        point: curve(xy) returns F [m], F_x, F_y, F_xx, F_xy, F_yy. One row. F with a gradient of
-        about 1 near the curve behaves best."""
-        return self._add("planar_curve", locals())
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        user: Any = None,
+    ) -> Joint:
+        """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. One row.
 
-    def coupling(self, name, joint_a, joint_b, *, ratio=None, offset=None, law=None, user=None):
-        """Tie the coordinates of two joints: b = ratio a + offset (default offset: that of the
-        design configuration), or b = f(a), a cam: law(a) returns f, its slope and its curvature.
-        One row."""
-        return self._add("coupling", locals())
+        curve(xy): F [m], F_x, F_y, F_xx, F_xy, F_yy at x and y [m] from body_a's point, in the axes
+        of body_a. F with a gradient of about 1 near the curve behaves best. point: in ground axes
+        in the design configuration [m]; or point_a, point_b: in the axes of the bodies [m]. user:
+        what a compiled function receives.
+        """
+        return self._add(Joint, "planar_curve", locals())
 
-    def driver(self, name, joint, *, value=None, rate=None, acceleration=None, law=None, user=None):
-        """Prescribe the coordinate of a revolute [rad] or translational [m] joint or of a pin in a
-        slot [m]: value + rate t + acceleration t^2 / 2, or law(t) that returns value, rate and
-        acceleration. One row."""
-        return self._add("driver", locals())
+    def coupling(
+        self,
+        name: str | None,
+        joint_a: JointLike,
+        joint_b: JointLike,
+        *,
+        ratio: Scalar = 1.0,
+        offset: Scalar | None = None,
+        law: LawOfTime | None = None,
+        user: Any = None,
+    ) -> Joint:
+        """Couple the coordinates a and b of two joints. One row: b = ratio a + offset, or b = f(a).
 
-    def spline_driver(self, name, joint, times, values, *, periodic=None):
-        """Prescribe a coordinate as driver() does, by a cubic spline through `values` [rad] or [m]
-        at rising `times` [s], at least 3. It goes on straight before the first and after the last
-        time; periodic: it repeats itself, and first and last value are the same. One row."""
-        return self._add("spline_driver", locals())
+        ratio: unit of b per unit of a. offset: [rad] or [m] as b, default that of the design
+        configuration. law(a): f, its first and its second derivative, for example of a cam. user:
+        what a compiled function receives.
+        """
+        return self._add(Joint, "coupling", locals())
 
-    def constraint(self, name, bodies, rows, phi, *, jacobian=None, nu=None, gamma=None, user=None):
-        """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`, one or several:
-        phi(t, q) gives Phi (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows),
-        gamma(t, q, v) the right side of J a = gamma (rows). Only phi is needed; the others are
-        found by differences, which calls phi often: about 140 times in a step of "rk4" for two
-        coordinates, against 50 calls in all with jacobian and gamma. A call takes one to two
-        microseconds even for a short Python function. Where that matters give the derivatives, or
-        compiled functions: addresses, ctypes function pointers, Numba's cfunc."""
-        fields = locals()
-        fields["row_count"] = fields.pop("rows")
-        return self._add("user_constraint", fields)
+    def driver(
+        self,
+        name: str | None,
+        joint: JointLike,
+        *,
+        value: Scalar = 0.0,
+        rate: Scalar = 0.0,
+        acceleration: Scalar = 0.0,
+        law: LawOfTime | None = None,
+        user: Any = None,
+    ) -> Joint:
+        """Prescribe the coordinate of a revolute [rad] or translational joint or of a pin in a slot
+        [m]. One row: coordinate = value + rate t + acceleration t^2 / 2, or law(t).
+
+        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. law(t):
+        value, rate and acceleration at the time t [s]. user: what a compiled function receives.
+        """
+        return self._add(Joint, "driver", locals())
+
+    def spline_driver(
+        self,
+        name: str | None,
+        joint: JointLike,
+        times: ArrayLike,
+        values: ArrayLike,
+        *,
+        periodic: bool = False,
+    ) -> Joint:
+        """Prescribe a coordinate as driver() does, by a cubic spline. One row.
+
+        times: (n) rising [s], n >= 3. values: (n) [rad] or [m]. Before the first and after the last
+        time the spline continues in a straight line. periodic: it repeats; the first and the last
+        value must then be equal.
+        """
+        return self._add(Joint, "spline_driver", locals())
+
+    def constraint(
+        self,
+        name: str | None,
+        bodies: Bodies,
+        rows: int,
+        phi: FunctionOfQ,
+        *,
+        jacobian: FunctionOfQ | None = None,
+        nu: FunctionOfQ | None = None,
+        gamma: FunctionOfQV | None = None,
+        user: Any = None,
+    ) -> Joint:
+        """Add constraints Phi(t, q) = 0 over the coordinates q of one body or several bodies.
+
+        rows: number of rows. phi(t, q): Phi (rows). jacobian(t, q): J (rows x nv). nu(t, q):
+        -dPhi/dt (rows). gamma(t, q, v): the right side of J a = gamma (rows). user: what compiled
+        functions receive.
+
+        Only phi is required. The others are replaced by differences, which call phi often: about
+        140 times in a step of "rk4" for two coordinates, compared with 50 calls in total if
+        jacobian and gamma are given. A call takes one to two microseconds even for a short Python
+        function. If that matters, give the derivatives, or compiled functions: addresses, ctypes
+        function pointers, or Numba's cfunc.
+        """
+        return self._add(Joint, "user_constraint", locals())
 
     # ---- forces ----------------------------------------------------------------------------------
 
     def spring(
         self,
-        name,
-        body_a,
-        body_b,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
         *,
-        point_a=None,
-        point_b=None,
-        stiffness=None,
-        damping=None,
-        free_length=None,
-        law=None,
-        depends_on_velocity=None,
-        user=None,
-    ):
-        """Add a spring [N/m] and damper [N s/m] between two points; free_length [m], default that
-        of the design configuration. Or law(length, rate), which returns the tension [N] and its
-        derivatives by length and by rate, and has no potential energy; depends_on_velocity: False where it does not
-        read the rate (rattle needs that)."""
-        return self._add("planar_spring", locals())
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_length: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a spring and damper between two points, linear or by a law.
+
+        point_a, point_b: in the axes of body_a and body_b [m]. stiffness: [N/m]. damping: [N s/m].
+        free_length: [m], default that of the design configuration. law(length, rate): tension [N]
+        and its derivatives by length and rate; it has no potential energy. depends_on_velocity:
+        False if the law does not read the rate, which "rattle" requires. user: what a compiled
+        function receives.
+        """
+        return self._add(Force, "planar_spring", locals())
 
     def torsion_spring(
         self,
-        name,
-        body_a,
-        body_b,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
         *,
-        stiffness=None,
-        damping=None,
-        free_angle=None,
-        law=None,
-        depends_on_velocity=None,
-        user=None,
-    ):
-        """Add a spring [N m/rad] and damper [N m s/rad] on angle_b - angle_a, which goes on over
-        turns; free_angle [rad], default that of the design configuration. Or law(angle, rate),
-        which returns the torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
-        potential energy; depends_on_velocity as of springs."""
-        return self._add("planar_torsion_spring", locals())
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_angle: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a torsion spring and damper on angle_b - angle_a, which counts whole revolutions.
+
+        stiffness: [N m/rad]. damping: [N m s/rad]. free_angle: [rad], default that of the design
+        configuration. law(angle, rate): restoring torque [N m] and its derivatives by angle and
+        rate; it has no potential energy. depends_on_velocity, user: as in spring().
+        """
+        return self._add(Force, "planar_torsion_spring", locals())
 
     def load(
-        self, name, body, *, force=None, point=None, torque=None, follows_body=None, input=None
-    ):
-        """Add a force [N] at a point of a body (body axes [m]) and a torque [N m]. follows_body:
-        the force turns with the body, else it keeps to ground axes. input: its value multiplies
-        both."""
-        return self._add("planar_load", locals())
+        self,
+        name: str | None,
+        body: BodyLike,
+        *,
+        force: ArrayLike = (0.0, 0.0),
+        point: ArrayLike = (0.0, 0.0),
+        torque: Scalar = 0.0,
+        follows_body: bool = False,
+        input: InputLike | None = None,
+    ) -> Force:
+        """Add a force at a point of a body, and a torque.
+
+        force: [N]. point: in body axes [m]. torque: [N m]. follows_body: the force rotates with the
+        body; otherwise it keeps its direction in ground axes. input: its value multiplies force and
+        torque.
+        """
+        return self._add(Force, "planar_load", locals())
 
     def force(
         self,
-        name,
-        bodies,
-        force,
+        name: str | None,
+        bodies: Bodies,
+        force: ForceFunction,
         *,
-        force_q=None,
-        force_v=None,
-        potential=None,
-        inputs=None,
-        depends_on_velocity=None,
-        user=None,
-    ):
-        """Add a generalized force on `bodies`: force(t, q, v) gives it (nv), force_q and force_v
-        its derivatives (nv x nv), potential(t, q) an energy [J]. inputs: those that force, force_q
-        and force_v are given after v: with inputs=["torque"] they are called as force(t, q, v,
-        torque). depends_on_velocity: False where force() does not read v (rattle needs that)."""
-        return self._add("user_force", locals())
+        force_q: ForceFunction | None = None,
+        force_v: ForceFunction | None = None,
+        potential: FunctionOfQ | None = None,
+        inputs: Sequence[InputLike] | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a generalized force on one body or several bodies.
+
+        force(t, q, v): the force (nv) of the coordinates q and v of these bodies. force_q, force_v:
+        its derivatives (nv x nv), by default from differences. potential(t, q): energy [J]. inputs:
+        the functions receive their values after v; with inputs=["torque"] they are called as
+        force(t, q, v, torque). depends_on_velocity: False if force() does not read v, which
+        "rattle" requires. user: what compiled functions receive.
+        """
+        return self._add(Force, "user_force", locals())
 
     # ---- inputs ----------------------------------------------------------------------------------
 
-    def input(self, name=None, initial=0.0):
-        """Add an input: a number that acts from outside, such as the torque of a motor. Loads and
-        force functions name it. Every run and workspace begins with the initial value and holds it
-        until set_input() there."""
+    def input(self, name: str | None = None, initial: Scalar = 0.0) -> Input:
+        """Add an input: a number that acts from outside, such as the torque of a motor.
+
+        Loads and force functions name it. Every run and workspace starts with the value `initial`
+        and holds it until set_input() is called there.
+        """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')
         id = _abi.baum_input_id()
         self._owner.call(lib.baum_mechanism_add_input, name.encode(), initial, ctypes.byref(id))
         self._entries[name] = Entry("input", None, id, 0, 0)
-        return self[name]
+        handle: Input = self[name]
+        return handle
 
     # ---- how -------------------------------------------------------------------------------------
 
-    def _add(self, kind, given):
+    def _add(self, made: type[Added], kind_name: str, given: dict[str, Any]) -> Added:
         """Add an element; given: the arguments of a method above, by name."""
-        kind = KINDS[kind]
+        kind = KINDS[kind_name]
         fields = {field: value for field, value in given.items() if field != "self"}
         name = fields["name"] = self._new_name(fields["name"], kind.family)
         definition = Definition(kind, f'{kind.family} "{name}"', self.find)
@@ -273,21 +495,24 @@ class Adding:
         self._hold(definition)
         self._owner.call(kind.function("add"), ctypes.byref(definition.struct), ctypes.byref(id))
         self._entries[name] = Entry(kind.family, kind, id, *sizes(kind, definition.struct))
-        return self[name]
+        handle: Added = self[name]
+        return handle
 
-    def _new_name(self, name, family):
+    def _new_name(self, name: Any, family: str) -> str:
         if name is None:
             name = f"{family}{1 + self._count(family)}"
         if not isinstance(name, str):
             raise TypeError(f"the name of {one(family)} is a string, not {name!r}")
         if not name or any(ord(c) < 32 or ord(c) == 127 for c in name):
-            raise ValueError(f"the name of {one(family)} is {name!r}, must have letters, but no control characters")
+            raise ValueError(
+                f"the name of {one(family)} is {name!r}, must have letters, but no control "
+                "characters"
+            )
         if name in self._entries:
             raise ValueError(f'there is already {one(self._entries[name].family)} "{name}"')
         return name
 
-    def _hold(self, definition):
-        """Keep a definition's functions as long as this mechanism and its copies."""
+    def _hold(self, definition: Definition) -> None:
+        """Keep a definition's functions as long as this mechanism and its copies exist."""
         self._keep.extend(definition.keep)
         self.has_python |= definition.has_python
-

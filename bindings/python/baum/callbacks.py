@@ -1,59 +1,69 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions of the user as the library wants them.
+"""Functions of the user in the form that the library calls.
 
-A Python function takes (t, q), (t, q, v), (t), a number or two or a point and returns its value.
-Here it gets a shell that the library can call: it shows q and v as read-only arrays, checks what
-comes back and writes it where it belongs, and keeps an exception until the run that it stopped is
-back. q and v are only valid during the call. A force function that names inputs gets their present
-values after v, as floats.
+A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
+value. It is wrapped in a shell that the library can call. The shell passes q and v as read-only
+arrays, checks the returned value and writes it to the library's memory, and keeps an exception
+until the call that it stopped has returned. q and v are valid during the call only. A force
+function that names inputs receives their present values after v, as floats.
 
-Instead of a Python function there may be the address of a compiled one (an int, a ctypes function
-pointer, or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and
-costs nothing. A compiled force function is given all inputs of the mechanism, in the order of
-adding.
+Instead of a Python function, the user may give the address of a compiled one: an int, a ctypes
+function pointer, or an object with an integer `address`, such as Numba's cfunc. The library calls
+it directly. A compiled force function receives all inputs of the mechanism, in the order of adding.
 """
 
+from __future__ import annotations
+
 import ctypes
+from _ctypes import CFuncPtr
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from . import _abi, _calls
 from ._lib import lib
 from .errors import Retry, Status
+from .typing import Array
 
 FINE, RETRY, STOP = 0, 1, -1
 CACHED = 64
 NUMERIC = "fiub"
 DOUBLE = np.dtype(np.float64)
 
+Function = Callable[..., Any]
+Shape = tuple[int, ...]
+Shell = Callable[..., Any]
+Write = Callable[[int, Any], None]
 
-class _Views(dict):
-    """Arrays on memory of the library, by address. The library reuses few addresses, so making an
-    array, which is slow, is rare. An array is only a window: one that is met again is right
-    again."""
 
-    def __init__(self, shape, writeable):
+class _Views(dict[int, Array]):
+    """Arrays on memory of the library, by address. The library uses few addresses, so an array,
+    which is expensive to make, is rarely made. An array is only a window on memory, so it can be
+    used again for the same address."""
+
+    def __init__(self, shape: Shape, writeable: bool) -> None:
         super().__init__()
         self._shape = shape
         self._type = ctypes.c_double * int(np.prod(shape))
         self._writeable = writeable
 
-    def __missing__(self, address):
+    def __missing__(self, address: int) -> Array:
         if len(self) >= CACHED:
             self.clear()
-        view = np.frombuffer(self._type.from_address(address)).reshape(self._shape)
+        memory: Any = self._type.from_address(address)
+        view: Array = np.frombuffer(memory).reshape(self._shape)
         view.flags.writeable = self._writeable
         self[address] = view
         return view
 
 
-def _without_ones(shape):
+def _without_ones(shape: Shape) -> Shape:
     return tuple(size for size in shape if size != 1)
 
 
-def _checked(value, shape, label):
-    """A returned value as an array of that shape; sides of length 1 may be left out. Else
-    TypeError, ValueError."""
+def _checked(value: Any, shape: Shape, label: str) -> Array:
+    """A returned value as an array of that shape; sides of length 1 may be omitted. Raises
+    TypeError or ValueError for other values."""
     wanted = _without_ones(shape)
     asked = "a number" if not wanted else f"an array of shape {shape}"
     try:
@@ -67,13 +77,13 @@ def _checked(value, shape, label):
     return array.reshape(shape)
 
 
-def _writer(shape, label):
-    """A function that writes a returned value to an address, quickly if it is what it should be."""
+def _writer(shape: Shape, label: str) -> Write:
+    """A function that writes a returned value to an address, quickly if it has the right type."""
     views = _Views(shape, writeable=True)
     single = int(np.prod(shape)) == 1
     first = (0,) * len(shape)
 
-    def write(address, value):
+    def write(address: int, value: Any) -> None:
         if single and isinstance(value, float):
             views[address][first] = value
         elif type(value) is np.ndarray and value.shape == shape and value.dtype is DOUBLE:
@@ -84,10 +94,10 @@ def _writer(shape, label):
     return write
 
 
-def _shell_q(function, write, nq, nv):
+def _shell_q(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at = _Views((nq,), writeable=False)
 
-    def shell(t, q, out, user):
+    def shell(t: float, q: int, out: int, user: Any) -> int:
         try:
             write(out, function(t, q_at[q]))
             return FINE
@@ -97,10 +107,10 @@ def _shell_q(function, write, nq, nv):
     return shell
 
 
-def _shell_qv(function, write, nq, nv):
+def _shell_qv(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
 
-    def shell(t, q, v, out, user):
+    def shell(t: float, q: int, v: int, out: int, user: Any) -> int:
         try:
             write(out, function(t, q_at[q], v_at[v]))
             return FINE
@@ -110,10 +120,10 @@ def _shell_qv(function, write, nq, nv):
     return shell
 
 
-def _shell_force(function, write, nq, nv):
+def _shell_force(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
 
-    def shell(t, q, v, inputs, out, user):
+    def shell(t: float, q: int, v: int, inputs: int, out: int, user: Any) -> int:
         try:
             write(out, function(t, q_at[q], v_at[v]))
             return FINE
@@ -123,15 +133,15 @@ def _shell_force(function, write, nq, nv):
     return shell
 
 
-def _shell_force_of(inputs):
+def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
     """A maker of shells for functions that take the inputs at these places after v."""
 
-    def make(function, write, nq, nv):
+    def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
         # As many as are there for certain: a copy of the mechanism may have more.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
-        def shell(t, q, v, given, out, user):
+        def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
             try:
                 values = inputs_at[given].tolist()
                 write(out, function(t, q_at[q], v_at[v], *[values[k] for k in inputs]))
@@ -144,8 +154,8 @@ def _shell_force_of(inputs):
     return make
 
 
-def _shell_law(function, write, nq, nv):
-    def shell(t, s, user):
+def _shell_law(function: Function, write: Write, nq: int, nv: int) -> Shell:
+    def shell(t: float, s: int, user: Any) -> int:
         try:
             write(s, function(t))
             return FINE
@@ -155,8 +165,8 @@ def _shell_law(function, write, nq, nv):
     return shell
 
 
-def _shell_coupling(function, write, nq, nv):
-    def shell(x, f, user):
+def _shell_coupling(function: Function, write: Write, nq: int, nv: int) -> Shell:
+    def shell(x: float, f: int, user: Any) -> int:
         try:
             write(f, function(x))
             return FINE
@@ -166,8 +176,8 @@ def _shell_coupling(function, write, nq, nv):
     return shell
 
 
-def _shell_spring(function, write, nq, nv):
-    def shell(length, rate, out, user):
+def _shell_spring(function: Function, write: Write, nq: int, nv: int) -> Shell:
+    def shell(length: float, rate: float, out: int, user: Any) -> int:
         try:
             write(out, function(length, rate))
             return FINE
@@ -177,10 +187,10 @@ def _shell_spring(function, write, nq, nv):
     return shell
 
 
-def _shell_curve(function, write, nq, nv):
+def _shell_curve(function: Function, write: Write, nq: int, nv: int) -> Shell:
     xy_at = _Views((2,), writeable=False)
 
-    def shell(xy, out, user):
+    def shell(xy: int, out: int, user: Any) -> int:
         try:
             write(out, function(xy_at[xy]))
             return FINE
@@ -190,10 +200,10 @@ def _shell_curve(function, write, nq, nv):
     return shell
 
 
-def _shell_rate(function, write, nq, nv):
+def _shell_rate(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
 
-    def shell(q, v, dq, user):
+    def shell(q: int, v: int, dq: int, user: Any) -> None:
         try:
             write(dq, function(q_at[q], v_at[v]))
         except BaseException as error:
@@ -202,10 +212,10 @@ def _shell_rate(function, write, nq, nv):
     return shell
 
 
-def _shell_move(function, write, nq, nv):
+def _shell_move(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
 
-    def shell(h, v, q, user):
+    def shell(h: float, v: int, q: int, user: Any) -> None:
         try:
             write(q, function(h, v_at[v], q_at[q]))
         except BaseException as error:
@@ -214,10 +224,10 @@ def _shell_move(function, write, nq, nv):
     return shell
 
 
-def _shell_difference(function, write, nq, nv):
+def _shell_difference(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at = _Views((nq,), writeable=False)
 
-    def shell(start, end, dx, user):
+    def shell(start: int, end: int, dx: int, user: Any) -> None:
         try:
             write(dx, function(q_at[start], q_at[end]))
         except BaseException as error:
@@ -226,10 +236,10 @@ def _shell_difference(function, write, nq, nv):
     return shell
 
 
-def _shell_normalize(function, write, nq, nv):
+def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shell:
     q_at = _Views((nq,), writeable=False)
 
-    def shell(q, user):
+    def shell(q: int, user: Any) -> None:
         try:
             write(q, function(q_at[q]))
         except BaseException as error:
@@ -238,23 +248,23 @@ def _shell_normalize(function, write, nq, nv):
     return shell
 
 
-def _answer_nan(error, out, count):
-    """For functions without a status: the library stops at numbers that are not finite."""
+def _answer_nan(error: BaseException, out: int, count: int) -> None:
+    """Report an exception of a function without a status: the library stops at NaN."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):
         numbers[k] = np.nan
 
 
-def _answer(error):
-    """What the library is told about an exception."""
+def _answer(error: BaseException) -> int:
+    """The status that tells the library about an exception."""
     asks_again = isinstance(error, Retry)
     _calls.raise_later(None if asks_again else error)
     lib.baum_fail(Status.ERR_CALLBACK, repr(error).encode(errors="replace"))
     return RETRY if asks_again else STOP
 
 
-SHELLS = {
+SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_q_fn: _shell_q,
     _abi.baum_qv_fn: _shell_qv,
     _abi.baum_force_fn: _shell_force,
@@ -269,22 +279,30 @@ SHELLS = {
 }
 
 
-def address_of(function):
+def address_of(function: Any) -> int | None:
     """The address of a compiled function, or None for a Python function."""
     if isinstance(function, int) and not isinstance(function, bool):
         return function
-    if isinstance(function, ctypes._CFuncPtr):
+    if isinstance(function, CFuncPtr):
         return ctypes.cast(function, ctypes.c_void_p).value
     address = getattr(function, "address", None)
     return address if isinstance(address, int) else None
 
 
-def wrap(kind, function, label, shape, nq=0, nv=0, inputs=()):
+def wrap(
+    kind: Any,
+    function: Any,
+    label: str,
+    shape: Shape,
+    nq: int = 0,
+    nv: int = 0,
+    inputs: Sequence[int] = (),
+) -> Any:
     """A function pointer of type `kind` for a Python function or an address. The caller keeps it
     alive.
 
-    label names the function in messages; shape is that of its value; nq, nv are the lengths of q
-    and v; inputs are the places of those that a force function takes.
+    label names the function in messages. shape is that of its value. nq and nv are the lengths of q
+    and v. inputs are the indices of the inputs that a force function receives.
     """
     address = address_of(function)
     if address is not None:
@@ -296,7 +314,7 @@ def wrap(kind, function, label, shape, nq=0, nv=0, inputs=()):
     return kind(make(function, _writer(shape, label), nq, nv))
 
 
-def event_function(function, nq, nv):
-    """function(t, q, v) of an event as the library calls it."""
+def event_function(function: Function, nq: int, nv: int) -> Any:
+    """A function pointer for the function(t, q, v) of an event."""
     shell = _shell_force(function, _writer((1,), "the function of an event"), nq, nv)
     return _abi.baum_force_fn(shell)

@@ -1,33 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can be read from a run: channels, each a group of columns with a name.
+"""What can be read from a run: channels. A channel is a named group of columns.
 
-Those of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy. Those of a body or a
-joint are its attributes, for example m["slider"].pose and m["B"].reaction.
+The channels of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy and
+energy_account. Those of a body or joint are its attributes, such as m["slider"].pose and
+m["B"].reaction.
 """
 
+from __future__ import annotations
+
 import ctypes
+from typing import TYPE_CHECKING, Any, Iterable
 
 import numpy as np
 
 from . import _abi, _calls
 from ._lib import default, lib
 from .errors import Error, Status
+from .typing import Array
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
 
 _Q = _abi.baum_quantity
 
 
 class Channel:
-    """One group of columns. `key` is its name in a run, such as "slider.pose"."""
+    """A group of columns. key: its name in a run, such as "slider.pose"."""
 
     __slots__ = ("key", "struct")
 
-    def __init__(self, key, quantity, **fields):
+    def __init__(self, key: str, quantity: int, **fields: Any) -> None:
         self.key = key
         self.struct = default(_abi.baum_channel)
         for field, value in {"quantity": quantity, **fields}.items():
             setattr(self.struct, field, value)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<channel {self.key}>"
 
 
@@ -40,33 +48,35 @@ phi_rate = Channel("phi_rate", _Q.BAUM_PHI_RATE)
 energy = Channel("energy", _Q.BAUM_ENERGY)
 energy_account = Channel("energy_account", _Q.BAUM_ENERGY_ACCOUNT)
 
-WHOLE = {channel.key: channel for channel in (
-    q, v, a, lambda_, phi, phi_rate, energy, energy_account
-)}
+WHOLE = {
+    channel.key: channel for channel in (q, v, a, lambda_, phi, phi_rate, energy, energy_account)
+}
 
 
 class Layout:
-    """Channels in a row of numbers: where each one is."""
+    """Where each of several channels is in a row of numbers."""
 
-    def __init__(self, mechanism, channels):
-        by_key = {channel.key: channel for channel in channels}
-        self.count = len(by_key)
-        self.structs = (_abi.baum_channel * self.count)(*(c.struct for c in by_key.values()))
-        self.slices = {}
+    def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
+        self.channels = {channel.key: channel for channel in channels}
+        self.count = len(self.channels)
+        self.structs = (_abi.baum_channel * self.count)(
+            *(channel.struct for channel in self.channels.values())
+        )
+        self.slices: dict[str, slice] = {}
         self.width = 0
-        for key, channel in by_key.items():
+        for key, channel in self.channels.items():
             end = self.width + width(mechanism, channel)
             self.slices[key] = slice(self.width, end)
             self.width = end
 
-    def rows(self, count):
+    def rows(self, count: int) -> Array:
         """Room for that many rows."""
         return np.empty((count, self.width))
 
 
-def width(mechanism, channel):
+def width(mechanism: Mechanism, channel: Channel) -> int:
     """Number of columns of a channel."""
-    count = lib.baum_channels_width(mechanism.handle, ctypes.byref(channel.struct), 1)
+    count: int = lib.baum_channels_width(mechanism.handle, ctypes.byref(channel.struct), 1)
     if count < 0:
         raise Error(Status.ERR_ARGUMENT, _calls.message())
     return count

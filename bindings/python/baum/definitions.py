@@ -5,8 +5,11 @@ A field that is None keeps its default, or in a change its present value. NaN is
 given".
 """
 
+from __future__ import annotations
+
 import ctypes
 from dataclasses import dataclass
+from typing import Any, Callable, Iterable, Mapping
 
 import numpy as np
 
@@ -17,22 +20,26 @@ from ._values import address, integer, number, numbers, truth, vector
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of body, joint or force: its struct, its family, and the sizes of a body's q and v."""
+    """A kind of body, joint or force: its struct, its family, the sizes of a body's q and v, and
+    the units of a body's positions or a joint's rows (none where the user decides)."""
 
     name: str
     family: str
     nq: int = 0
     nv: int = 0
+    units: tuple[str, ...] = ()
 
     @property
-    def struct(self):
-        return getattr(_abi, f"baum_{self.name}_def")
+    def struct(self) -> type[ctypes.Structure]:
+        found: type[ctypes.Structure] = getattr(_abi, f"baum_{self.name}_def")
+        return found
 
     @property
-    def id_type(self):
-        return getattr(_abi, f"baum_{self.family}_id")
+    def id_type(self) -> type[ctypes.Structure]:
+        found: type[ctypes.Structure] = getattr(_abi, f"baum_{self.family}_id")
+        return found
 
-    def function(self, verb):
+    def function(self, verb: str) -> Any:
         """The library's function to add, get or set a definition."""
         return getattr(lib, f"baum_mechanism_{verb}_{self.name}")
 
@@ -40,17 +47,17 @@ class Kind:
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("planar_body", "body", 3, 3),
-        Kind("planar_particle", "body", 2, 2),
+        Kind("planar_body", "body", 3, 3, ("m", "m", "rad")),
+        Kind("planar_particle", "body", 2, 2, ("m", "m")),
         Kind("coordinates", "body"),
-        Kind("planar_revolute", "joint"),
-        Kind("planar_translational", "joint"),
-        Kind("planar_distance", "joint"),
-        Kind("planar_fixed", "joint"),
-        Kind("planar_pin_in_slot", "joint"),
-        Kind("planar_rack_and_pinion", "joint"),
-        Kind("planar_gear", "joint"),
-        Kind("planar_curve", "joint"),
+        Kind("planar_revolute", "joint", units=("m", "m")),
+        Kind("planar_translational", "joint", units=("m", "rad")),
+        Kind("planar_distance", "joint", units=("m",)),
+        Kind("planar_fixed", "joint", units=("m", "m", "rad")),
+        Kind("planar_pin_in_slot", "joint", units=("m",)),
+        Kind("planar_rack_and_pinion", "joint", units=("m",)),
+        Kind("planar_gear", "joint", units=("m",)),
+        Kind("planar_curve", "joint", units=("m",)),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
         Kind("spline_driver", "joint"),
@@ -62,8 +69,13 @@ KINDS = {
     )
 }
 
+Find = Callable[[str, Any], Any]
+
+# Arguments whose fields have another name, and these fields.
+FIELDS = {"rows": "row_count"}
+ARGUMENTS = {field: argument for argument, field in FIELDS.items()}
 HIDDEN = ("struct_size", "body_count", "count")
-FAMILIES = {
+FAMILIES: dict[Any, str] = {
     _abi.baum_body_id: "body",
     _abi.baum_joint_id: "joint",
     _abi.baum_input_id: "input",
@@ -71,33 +83,34 @@ FAMILIES = {
 
 
 class Definition:
-    """One definition on its way to the library, with what it needs to stay alive.
+    """One definition for the library, with the objects that it needs to stay alive.
 
-    label names the element in messages; find(family, value) gives the handle for a handle or a
+    label names the element in messages. find(family, value) returns the handle for a handle or a
     name.
     """
 
-    def __init__(self, kind, label, find, struct=None):
+    def __init__(self, kind: Kind, label: str, find: Find, struct: Any = None) -> None:
         self.kind = kind
-        self.struct = default(kind.struct) if struct is None else struct
-        self.keep = []
+        self.struct: Any = default(kind.struct) if struct is None else struct
+        self.keep: list[Any] = []
         self.has_python = False
         self._label = label
         self._find = find
-        self._types = dict(kind.struct._fields_)
-        self._names = [name for name in self._types if name not in HIDDEN]
+        self._types: dict[str, Any] = {field[0]: field[1] for field in kind.struct._fields_}
+        self._names = [ARGUMENTS.get(name, name) for name in self._types if name not in HIDDEN]
         if _abi.baum_force_fn in self._types.values():
             self._names.append("inputs")
 
-    def fill(self, fields):
+    def fill(self, fields: Mapping[str, Any]) -> Definition:
         """Set the fields that are not None, functions last because their shapes follow from the
-        others."""
+        others. Returns the definition."""
         unknown = [name for name in fields if name not in self._names]
         if unknown:
-            raise TypeError(
-                f"{self._label} has no {unknown[0]}; there are: " + ", ".join(self._names)
-            )
-        given = {name: value for name, value in fields.items() if value is not None}
+            names = ", ".join(self._names)
+            raise TypeError(f"{self._label} has no {unknown[0]}; there are: {names}")
+        given = {
+            FIELDS.get(name, name): fields[name] for name in fields if fields[name] is not None
+        }
         inputs = self._places(given.pop("inputs", ()))
         functions = {
             name: given.pop(name) for name in list(given) if self._types[name] in callbacks.SHELLS
@@ -115,9 +128,9 @@ class Definition:
             self._set("user", user)
         return self
 
-    def _places(self, inputs):
-        """Where inputs are among those of the mechanism. The library does not see what functions
-        take, so that strangers are refused here."""
+    def _places(self, inputs: Iterable[Any]) -> tuple[int, ...]:
+        """The indices of inputs in the mechanism. The library does not know what functions take, so
+        inputs of other mechanisms are refused here."""
         own = []
         for given in inputs:
             given = self._find("input", given)
@@ -126,12 +139,12 @@ class Definition:
                 raise ValueError(f"{self._label}: {given!r} is an input of another mechanism")
         return tuple(one.id.index1 - 1 for one in own)
 
-    def _set_count(self, given):
+    def _set_count(self, given: Mapping[str, Any]) -> None:
         """The number of points of a spline follows from its times when both lists are new."""
         if "times" in given and "values" in given:
             self.struct.count = np.size(given["times"])
 
-    def _set(self, name, value):
+    def _set(self, name: str, value: Any) -> None:
         label, kind = f"{self._label}: {name}", self._types[name]
         if name == "bodies":
             self._set_bodies(value)
@@ -150,18 +163,20 @@ class Definition:
         else:
             setattr(self.struct, name, kind(*vector(value, kind._length_, label)))
 
-    def _set_bodies(self, value):
+    def _set_bodies(self, value: Any) -> None:
         alone = isinstance(value, str) or hasattr(value, "family")
         handles = [self._find("body", body) for body in ([value] if alone else value)]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
         self.struct.body_count = len(handles)
 
-    def _pointer(self, name, value, label):
+    def _pointer(self, name: str, value: Any, label: str) -> Any:
         """`user` is an address or something of ctypes; the others are arrays of numbers."""
         if name == "user":
             self.keep.append(value)
+            if isinstance(value, int):
+                return value
             try:
-                return value if isinstance(value, int) else ctypes.cast(value, ctypes.c_void_p).value
+                return ctypes.cast(value, ctypes.c_void_p).value
             except ctypes.ArgumentError:
                 raise TypeError(
                     f"{label}: an address or an object of ctypes is wanted, not {value!r}"
@@ -170,10 +185,10 @@ class Definition:
         self.keep.append(array)
         return address(array)
 
-    def _set_function(self, name, function, inputs):
+    def _set_function(self, name: str, function: Any, inputs: tuple[int, ...]) -> None:
         nq, nv = self._sizes()
         rows = max(self.struct.row_count, 0) if self.kind.name == "user_constraint" else nv
-        shape = {
+        shapes: dict[str, tuple[int, ...]] = {
             "mass": (nv, nv),
             "force_q": (nv, nv),
             "force_v": (nv, nv),
@@ -189,15 +204,15 @@ class Definition:
             "move": (nq,),
             "difference": (nv,),
             "normalize": (nq,),
-        }[name]
+        }
         label = f"{self._label}: {name}"
-        wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv, inputs)
+        wrapped = callbacks.wrap(self._types[name], function, label, shapes[name], nq, nv, inputs)
         self.keep.append((wrapped, function))
         self.has_python |= callbacks.address_of(function) is None
         setattr(self.struct, name, wrapped)
 
-    def _sizes(self):
-        """Lengths of the q and v that this definition's functions are given."""
+    def _sizes(self) -> tuple[int, int]:
+        """Lengths of the q and v that this definition's functions receive."""
         if self.kind.name == "coordinates":
             # The library refuses what is less.
             return max(position_count(self.struct), 0), max(self.struct.size, 0)
@@ -208,27 +223,29 @@ class Definition:
         return sum(body.nq for body in bodies), sum(body.nv for body in bodies)
 
 
-def position_count(coordinates):
+def position_count(coordinates: Any) -> int:
     """Number of positions of user coordinates."""
-    return coordinates.position_count or coordinates.size
+    count: int = coordinates.position_count or coordinates.size
+    return count
 
 
-def sizes(kind, struct):
+def sizes(kind: Kind, struct: Any) -> tuple[int, int]:
     """nq and nv of a body with that definition; zeros for others."""
     if kind.name == "coordinates":
         return position_count(struct), struct.size
     return kind.nq, kind.nv
 
 
-def length(definition, name):
+def length(definition: Any, name: str) -> int:
     """Number of entries of an array of a definition."""
-    if not hasattr(definition, "size"):
-        return definition.count
-    return position_count(definition) if name in ("q", "position_scale") else definition.size
+    if name in ("q", "position_scale"):
+        return position_count(definition)
+    count: int = definition.size if hasattr(definition, "size") else definition.count
+    return count
 
 
-def as_dict(definition, find):
-    """What a definition says, as Python values; functions and their `user` are left out."""
+def as_dict(definition: Any, find: Find) -> dict[str, Any]:
+    """A definition as Python values; functions and their `user` are omitted."""
     values = {}
     for name, kind in definition._fields_:
         value = getattr(definition, name)
@@ -242,5 +259,5 @@ def as_dict(definition, find):
             value = None if value is None else value.decode()
         elif isinstance(value, ctypes.Array):
             value = tuple(value)
-        values[name] = value
+        values[ARGUMENTS.get(name, name)] = value
     return values

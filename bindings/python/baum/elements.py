@@ -1,34 +1,55 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies, joints, forces and inputs of a mechanism, as handles. Those of a mechanism and its copies
-are equal."""
+"""Handles of bodies, joints, forces and inputs. A handle of a mechanism equals that of the same
+element in its copies."""
 
-from collections import namedtuple
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from . import _abi
-from .channels import Channel
-from .definitions import as_dict
 from ._values import vector
+from .channels import Channel
+from .definitions import Kind, as_dict
+from .typing import ArrayLike
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+Self = TypeVar("Self", bound="Element")
 
 _Q = _abi.baum_quantity
 
 
-# What a mechanism knows about an element: its Kind (None for ground and inputs), the library's id,
-# and of a body the sizes of q and v. Copies of a mechanism share it; a handle is made when it is
-# asked for.
-Entry = namedtuple("Entry", "family kind id nq nv")
+class Entry(NamedTuple):
+    """What a mechanism knows about an element: its Kind (None for ground and inputs), the library's
+    id, and the sizes of q and v of a body. Copies of a mechanism share entries; a handle is made
+    when it is requested."""
+
+    family: str
+    kind: Kind | None
+    id: ctypes.Structure
+    nq: int
+    nv: int
+
 
 GROUND = Entry("body", None, _abi.BAUM_GROUND, 0, 0)
 
 
-def one(family):
+def one(family: str) -> str:
     """The name of a family with its article: a body, an input."""
     return f"an {family}" if family[0] in "aeiou" else f"a {family}"
 
 
 class Element:
-    """What bodies, joints, forces and inputs have in common."""
+    """What bodies, joints, forces and inputs have in common.
 
-    def __init__(self, mechanism, name, entry):
+    mechanism: the mechanism that it belongs to. name: its name there.
+    """
+
+    family = ""
+
+    def __init__(self, mechanism: Mechanism, name: str, entry: Entry) -> None:
         self.mechanism = mechanism
         self.name = name
         self.kind = entry.kind
@@ -36,69 +57,72 @@ class Element:
         self.nq = entry.nq
         self.nv = entry.nv
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<{self.kind.name if self.kind else self.family} {self.name!r}>"
 
-    def _identity(self):
+    def _identity(self) -> tuple[str, int, int]:
         return self.family, self.id.index1, self.id.tag
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         return isinstance(other, Element) and self._identity() == other._identity()
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return hash(self._identity())
 
     @property
-    def definition(self):
-        """The definition as a dict: numbers, points, bodies; functions are left out."""
+    def definition(self) -> dict[str, Any]:
+        """The definition as a dict: numbers, tuples, arrays and handles by the names of the
+        arguments that add the element. Functions are omitted."""
         return as_dict(self.mechanism.read(self), self.mechanism.find)
 
-    def set(self, **fields):
-        """Change fields of the definition, before the mechanism is frozen. None changes nothing."""
+    def set(self: Self, **fields: Any) -> Self:
+        """Change fields of the definition before the mechanism is frozen. None changes nothing.
+        Returns the element. Raises TypeError for unknown fields and baum.Error for values that the
+        library refuses, or if the mechanism is frozen."""
         self.mechanism.change(self, fields)
         return self
 
 
 class Body(Element):
-    """Anything with coordinates: nq positions and nv velocities."""
+    """A body: anything with coordinates. nq: number of positions. nv: number of velocities."""
 
     family = "body"
 
     @property
-    def columns(self):
-        """Its places in q and v of a frozen mechanism, two slices."""
+    def columns(self) -> tuple[slice, slice]:
+        """Its places in q and v of a frozen mechanism."""
         return self.mechanism.columns(self)
 
     @property
-    def pose(self):
-        """Channel: x, y [m] of the centre of mass and angle [rad]; x, y of a particle; else its
-        q."""
+    def pose(self) -> Channel:
+        """Channel: x, y [m] of the centre of mass and angle [rad] of a planar body; x, y [m] of a
+        particle; q of coordinates."""
         return self._channel("pose", _Q.BAUM_BODY_POSE)
 
     @property
-    def velocity(self):
+    def velocity(self) -> Channel:
         """Channel: velocities [m/s], [rad/s] that belong to `pose`."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY)
 
     @property
-    def acceleration(self):
+    def acceleration(self) -> Channel:
         """Channel: accelerations [m/s^2], [rad/s^2] that belong to `pose`."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
 
-    def pose_of(self, point):
+    def pose_of(self, point: ArrayLike) -> Channel:
         """Channel: `pose` with x, y of a point, given in body axes [m]."""
         return self._channel("pose", _Q.BAUM_BODY_POSE, point)
 
-    def velocity_of(self, point):
+    def velocity_of(self, point: ArrayLike) -> Channel:
         """Channel: `velocity` of a point, given in body axes [m]."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY, point)
 
-    def acceleration_of(self, point):
+    def acceleration_of(self, point: ArrayLike) -> Channel:
         """Channel: `acceleration` of a point, given in body axes [m]."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
 
-    def _channel(self, attribute, quantity, point=None):
-        key, at = f"{self.name}.{attribute}", (0.0, 0.0)
+    def _channel(self, attribute: str, quantity: int, point: ArrayLike | None = None) -> Channel:
+        key, at = f"{self.name}.{attribute}", [0.0, 0.0]
         if point is not None:
             at = vector(point, 2, f"point of {self.name!r}").tolist()
             key += f"({at[0]!r}, {at[1]!r})"
@@ -106,49 +130,50 @@ class Body(Element):
 
 
 class Joint(Element):
-    """Anything with constraint rows."""
+    """A joint: anything with constraint rows."""
 
     family = "joint"
 
     @property
-    def rows(self):
-        """Its rows in Phi and lambda of a frozen mechanism, a slice."""
+    def rows(self) -> slice:
+        """Its rows in Phi and lambda of a frozen mechanism."""
         return self.mechanism.rows(self)
 
     @property
-    def phi(self):
-        """Channel: constraint violation, one column per row [m], [rad]."""
+    def phi(self) -> Channel:
+        """Channel: constraint violation Phi, one column per row [m], [rad]."""
         return self._channel("phi", _Q.BAUM_PHI)
 
     @property
-    def phi_rate(self):
-        """Channel: rate of the violation J v - nu."""
+    def phi_rate(self) -> Channel:
+        """Channel: rate of the violation, J v - nu [m/s], [rad/s]."""
         return self._channel("phi_rate", _Q.BAUM_PHI_RATE)
 
     @property
-    def multipliers(self):
-        """Channel: Lagrange multipliers of the rows."""
+    def multipliers(self) -> Channel:
+        """Channel: Lagrange multipliers of the rows [N], [N m]."""
         return self._channel("multipliers", _Q.BAUM_LAMBDA)
 
     @property
-    def reaction(self):
-        """Channel: force [N] and moment [N m] on body_b, ground axes, about the joint's point on
-        body_b; for a gear, a coupling or a user constraint -J^T lambda over its bodies."""
+    def reaction(self) -> Channel:
+        """Channel: force [N] and moment [N m] on body_b, in ground axes, about the joint's point on
+        body_b. For a gear, a coupling or a user constraint: -J^T lambda over the velocities of its
+        bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
-    def coordinate(self):
-        """Channel: coordinate and its rate of a revolute [rad] or translational [m] joint or a pin
-        in a slot [m]."""
+    def coordinate(self) -> Channel:
+        """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a
+        translational joint or a pin in a slot [m], [m/s]."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property
-    def effort(self):
-        """Channel: force [N] or torque [N m] of a driver on the coordinate that it drives; times
-        the coordinate's rate the power that it puts in."""
+    def effort(self) -> Channel:
+        """Channel: force [N] or torque [N m] of a driver on the coordinate that it prescribes. Its
+        product with the joint velocity is the power that the driver supplies."""
         return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
 
-    def _channel(self, attribute, quantity):
+    def _channel(self, attribute: str, quantity: int) -> Channel:
         return Channel(f"{self.name}.{attribute}", quantity, joint=self.id)
 
 
@@ -159,19 +184,19 @@ class Force(Element):
 
 
 class Input(Element):
-    """A number that acts from outside and that runs and workspaces set; see Mechanism.input()."""
+    """A number that acts from outside; runs and workspaces set it. See Mechanism.input()."""
 
     family = "input"
 
     @property
-    def initial(self):
-        """What every run and workspace begins with."""
+    def initial(self) -> float:
+        """The value at the start of every run and workspace."""
         return self.mechanism.initial(self)
 
     @property
-    def definition(self):
+    def definition(self) -> dict[str, Any]:
         """Name and initial value as a dict."""
         return {"name": self.name, "initial": self.initial}
 
 
-CLASSES = {"body": Body, "joint": Joint, "force": Force, "input": Input}
+CLASSES: dict[str, type[Element]] = {"body": Body, "joint": Joint, "force": Force, "input": Input}

@@ -1,58 +1,93 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Statuses, and how they become exceptions and warnings."""
 
+from __future__ import annotations
+
 import enum
 import os
 import sys
 import warnings
+from typing import TYPE_CHECKING, Any
 
 from . import _abi
+from ._lib import text
 
-
-class _Named(enum.IntEnum):
-    def __str__(self):
-        return self.name
-
-
-Status = _Named(
-    "Status", {status.name[len("BAUM_") :]: status.value for status in _abi.baum_status}
-)
-Status.__doc__ = """What a call came to: 0 done, 1 to 9 stopped as asked, 10 and up reached the end
-with warnings, below 0 failed (then it is raised as baum.Error)."""
-Status.__module__ = __name__
+if TYPE_CHECKING:
+    from .elements import Joint
+    from .run import Run
 
 PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
 
-def as_status(value):
-    """The Status of a number; a number that this package does not know stays one."""
+class Status(enum.IntEnum):
+    """The result of a call: 0 is done, 1 to 9 stopped on request, 10 and more reached the end with
+    warnings. Values below 0 are failures, which are raised as baum.Error."""
+
+    OK = 0
+    STOP_CANCELLED = 1
+    STOP_EVENT = 2
+    WARNED = 10
+    ERR_ARGUMENT = -1
+    ERR_STATE = -2
+    ERR_MEMORY = -3
+    ERR_STRUCT = -4
+    ERR_UNSUPPORTED = -5
+    ERR_BUFFER = -6
+    ERR_FILE = -7
+    ERR_INCONSISTENT = -10
+    ERR_SINGULAR = -11
+    ERR_UNSTABLE = -12
+    ERR_STEP = -20
+    ERR_CONVERGENCE = -21
+    ERR_INTEGRATOR = -22
+    ERR_NOT_FINITE = -23
+    ERR_CALLBACK = -30
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def as_status(value: int) -> Status:
+    """The Status of a number, or the number itself if this package does not know it."""
     try:
         return Status(value)
     except ValueError:
-        return value
+        return value  # type: ignore[return-value]
 
 
 class Error(Exception):
-    """A call failed. `status` says how, str() is the library's message; `run` holds what a failed
-    simulate() or sample() had recorded, else None."""
+    """A call failed.
 
-    def __init__(self, status, message):
+    status: the Status. str(error): the message of the library, in the names of this package.
+    run: what a failed simulate() or sample() had recorded, else None.
+    """
+
+    def __init__(self, status: int, message: str) -> None:
         super().__init__(message)
         self.status = as_status(status)
-        self.run = None
+        self.run: Run | None = None
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return Error, (self.status, str(self))
 
 
+class Retry(Exception):
+    """Raise it in a function of the mechanism to request a smaller step."""
+
+
+# ---- warnings of runs ----------------------------------------------------------------------------
+
+
 class Warning(UserWarning):
-    """All warnings of one kind of a run. str() is the message of the first one. `code` is a number
-    that never changes, `joint` the name of the joint or None, `first` and `last` [s] when it came,
-    `count` how often; `doubts_motion`: the result may be wrong by far more than its tolerance, which
-    is so for every DoubtWarning."""
+    """All warnings of one kind in a run. str(warning) is the message of the first one.
+
+    code: a number that never changes. doubts_motion: whether the result may be wrong by far more
+    than its tolerance, which is true for every DoubtWarning. joint: the name of the joint, or None.
+    first, last: times of the first and last warning [s]. count: number of warnings.
+    """
 
     code = 0
-    joint = None
+    joint: str | None = None
     first = last = float("nan")
     count = 1
     doubts_motion = False
@@ -64,39 +99,103 @@ class DoubtWarning(Warning):
     doubts_motion = True
 
 
-def _kinds():
-    """A class per baum_warning_code: BAUM_WARNING_REDUNDANT_ROWS gives RedundantRowsWarning."""
-    kinds = {}
-    for code in _abi.baum_warning_code:
-        words = code.name[len("BAUM_WARNING_") :].split("_")
-        name = "".join(word.capitalize() for word in words) + "Warning"
-        base = DoubtWarning if code >= _abi.baum_warning_code.BAUM_WARNING_BRANCH else Warning
-        doc = f"Warning {code.name} of simulation.h."
-        inside = {"code": int(code), "__doc__": doc, "__module__": __name__}
-        kinds[int(code)] = type(name, (base,), inside)
-    return kinds
+class RedundantRowsWarning(Warning):
+    """Some multipliers and reactions are not unique, because constraint rows are redundant."""
+
+    code = 1
 
 
-KINDS = _kinds()
-WARNINGS = {kind.__name__: kind for kind in KINDS.values()}
-globals().update(WARNINGS)
+class GainsWarning(Warning):
+    """The stability of the gains is not known, or is marginal."""
+
+    code = 2
 
 
-def as_warning(struct, joint):
-    """The baum.Warning of a baum_warning about a joint."""
+class NoisyDerivativesWarning(Warning):
+    """rtol is below the error of derivatives that are computed by differences."""
+
+    code = 3
+
+
+class Index3Warning(Warning):
+    """The run uses "ida" with the formulation "index3", which is for comparison only."""
+
+    code = 4
+
+
+class LooseVelocitiesWarning(Warning):
+    """Ill-conditioned constraint rows leave velocities loose."""
+
+    code = 5
+
+
+class EnergyAccountWarning(Warning):
+    """The energy account has ended."""
+
+    code = 6
+
+
+class IllConditionedWarning(Warning):
+    """The equations of motion are close to singular."""
+
+    code = 7
+
+
+class SingularityCrossedWarning(Warning):
+    """The motion continues smoothly through a singular configuration."""
+
+    code = 8
+
+
+class BranchWarning(DoubtWarning):
+    """The motion may have left its branch at a singular configuration."""
+
+    code = 100
+
+
+class ViolationWarning(DoubtWarning):
+    """The constraint violation is too large."""
+
+    code = 101
+
+
+class ContradictionWarning(DoubtWarning):
+    """Omitted redundant rows no longer follow from the others."""
+
+    code = 102
+
+
+class AccuracyWarning(DoubtWarning):
+    """The estimated error of the motion is large."""
+
+    code = 103
+
+
+class SingularStartWarning(DoubtWarning):
+    """Several motions may leave the initial configuration, which is singular."""
+
+    code = 104
+
+
+KINDS = {
+    kind.code: kind
+    for base in (Warning, DoubtWarning)
+    for kind in base.__subclasses__()
+    if kind is not DoubtWarning
+}
+
+
+def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
+    """The baum.Warning of a warning of the library about a joint."""
     base = DoubtWarning if struct.doubts_motion else Warning
-    warning = KINDS.get(struct.code, base)(struct.text.decode(errors="replace"))
-    warning.code, warning.joint = struct.code, joint and joint.name
+    warning = KINDS.get(struct.code, base)(text(struct.text))
+    warning.code, warning.joint = struct.code, joint.name if joint else None
     warning.first, warning.last, warning.count = struct.first, struct.last, struct.count
     return warning
 
 
-class Retry(Exception):
-    """Raise it in a function of the mechanism to ask for a smaller step."""
-
-
-def warn(warning):
-    """Warn at the line outside of this package from which the call came."""
+def warn(warning: Warning) -> None:
+    """Warn at the line outside of this package that made the call."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == PACKAGE:
         level, frame = level + 1, frame.f_back

@@ -1,17 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Integrators by name, and what they make of Baumgarte's gains."""
+"""Integrators by name, and their stability with Baumgarte's gains.
+
+The functions of stability take an integrator or its name. They raise ValueError for a name that
+does not exist, TypeError for values that are no numbers, and baum.Error for an integrator without a
+region of stability, such as one that chooses its steps.
+"""
+
+from __future__ import annotations
 
 import ctypes
-from collections import namedtuple
+from enum import IntEnum
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _abi, _calls
-from ._lib import lib
+from ._lib import lib, text
 from ._values import number, vector
+from .typing import Array, ArrayLike, Scalar
 
 
-def names(enum, prefix):
+def names(enum: type[IntEnum], prefix: str) -> dict[str, int]:
     """The values of an enum of the library by their names in lower case."""
     return {value.name[len(prefix) :].lower(): value for value in enum}
 
@@ -21,27 +30,31 @@ STABILITIES = {value: name for name, value in names(_abi.baum_stability, "BAUM_"
 
 
 class Integrator:
-    """A method: name, order (0 when it varies), whether it takes `step`, whether `rtol` (a run is
-    given one of them), and its formulations. "kinematics" takes none of these: see Simulation."""
+    """An integration method.
 
-    def __init__(self, address):
+    name: for the argument `integrator`. order: of accuracy, 0 if it varies. fixed_step: it takes
+    `step`. variable_step: it takes `rtol`. formulations: names, the default first. A run of a
+    method with both kinds of steps is given one of `step` and `rtol`; "kinematics" takes neither.
+    """
+
+    def __init__(self, address: int) -> None:
         self.address = address
-        self.name = lib.baum_integrator_name(address).decode()
-        self.order = lib.baum_integrator_order(address)
-        self.fixed_step = lib.baum_integrator_has_fixed_step(address)
-        self.variable_step = lib.baum_integrator_has_variable_step(address)
-        self.formulations = tuple(
+        self.name: str = lib.baum_integrator_name(address).decode()
+        self.order: int = lib.baum_integrator_order(address)
+        self.fixed_step: bool = lib.baum_integrator_has_fixed_step(address)
+        self.variable_step: bool = lib.baum_integrator_has_variable_step(address)
+        self.formulations: tuple[str, ...] = tuple(
             name
             for name, value in FORMULATIONS.items()
             if name != "default" and lib.baum_integrator_offers(address, value)
         )
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<integrator {self.name}>"
 
 
-def _find_all():
-    found = []
+def _find_all() -> dict[str, Integrator]:
+    found: list[Integrator] = []
     while True:
         address = lib.baum_integrator_at(len(found))
         if not address:
@@ -52,13 +65,14 @@ def _find_all():
 _ALL = _find_all()
 
 
-def integrators():
+def integrators() -> dict[str, Integrator]:
     """All integrators by name: euler, semi_implicit_euler, rk2, rk3, rk4, dp5, rk8, ab2, ab3, ab4,
-    rattle, generalized_alpha, kinematics, and with SUNDIALS cvode_adams, cvode_bdf, ida."""
+    rattle, generalized_alpha, kinematics, cvode_adams, cvode_bdf and ida. The last three can run
+    only if baum.has("sundials")."""
     return dict(_ALL)
 
 
-def lookup(value):
+def lookup(value: Any) -> Integrator:
     """The Integrator for one or its name."""
     if isinstance(value, Integrator):
         return value
@@ -68,16 +82,23 @@ def lookup(value):
         raise ValueError(f"no integrator {value!r}; there are: {', '.join(_ALL)}") from None
 
 
-class Amplification(namedtuple("Amplification", "stability spectral_radius roots damping")):
-    """What becomes of a violation: "stable", "marginal", "unstable", "variable_step" or
-    "without_gains"; the largest |z|; the largest root z of each of the two modes; what a step takes
-    off a violation, 1 - |z| with all its digits. Numbers are NaN without a region."""
+class Amplification(NamedTuple):
+    """What a step leaves of a constraint violation.
 
-    __slots__ = ()
+    stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
+    spectral_radius: the largest |z| [-]. roots: the largest root z of each of the two modes.
+    damping: what a step removes of a violation, 1 - |z| with full precision. Numbers are NaN
+    without a region.
+    """
+
+    stability: str
+    spectral_radius: float
+    roots: tuple[complex, complex]
+    damping: float
 
 
-def stability(integrator, alpha_h, beta2_h2):
-    """Amplification at a point (alpha h, (beta h)^2) of the plane of Fig. 1."""
+def stability(integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar) -> Amplification:
+    """Amplification with the gains alpha h [-] and (beta h)^2 [-]."""
     out = _abi.baum_amplification()
     _calls.make(
         lib.baum_stability_at,
@@ -87,56 +108,61 @@ def stability(integrator, alpha_h, beta2_h2):
         ctypes.byref(out),
         ctypes.sizeof(out),
     )
-    roots = tuple(complex(*root) for root in out.z)
-    return Amplification(STABILITIES[out.stability], out.spectral_radius, roots, out.damping)
+    first, second = (complex(*root) for root in out.z)
+    stability = STABILITIES[out.stability]
+    return Amplification(stability, out.spectral_radius, (first, second), out.damping)
 
 
-def stability_limit(integrator, damping_ratio=1.0):
-    """Largest alpha h for which alpha = damping_ratio x beta is stable; 0 when nothing is."""
-    return _numbers(
-        lib.baum_stability_limit, 1, integrator, number(damping_ratio, "damping_ratio")
-    )[0]
+def stability_limit(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
+    """Largest alpha h [-] for which alpha = damping_ratio x beta is stable; 0 if none is."""
+    ratio = number(damping_ratio, "damping_ratio")
+    return _numbers(lib.baum_stability_limit, 1, integrator, ratio)[0]
 
 
-def stability_intervals(integrator, damping_ratio=1.0):
-    """All intervals of alpha h for which alpha = damping_ratio x beta is stable: array (n, 2)."""
+def stability_intervals(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> Array:
+    """All intervals of alpha h [-] for which alpha = damping_ratio x beta is stable (n x 2)."""
     ratio = number(damping_ratio, "damping_ratio")
     return _arrays(lib.baum_stability_intervals, integrator, ratio)
 
 
-def stability_best(integrator):
-    """The point (alpha h, (beta h)^2) of least spectral radius."""
-    return _numbers(lib.baum_stability_best, 2, integrator)
+def stability_best(integrator: str | Integrator) -> tuple[float, float]:
+    """The point (alpha h, (beta h)^2) [-] of least spectral radius."""
+    return _point(lib.baum_stability_best, integrator)
 
 
-def stability_best_on_ray(integrator, damping_ratio=1.0):
-    """The alpha h of least spectral radius for alpha = damping_ratio x beta; 0 when none is stable."""
-    return _numbers(
-        lib.baum_stability_best_on_ray, 1, integrator, number(damping_ratio, "damping_ratio")
-    )[0]
+def stability_best_on_ray(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
+    """The alpha h [-] of least spectral radius for alpha = damping_ratio x beta; 0 if none is
+    stable."""
+    ratio = number(damping_ratio, "damping_ratio")
+    return _numbers(lib.baum_stability_best_on_ray, 1, integrator, ratio)[0]
 
 
-def stability_deadbeat(integrator):
-    """The point (alpha h, (beta h)^2) where all roots are zero; one-step methods."""
-    return _numbers(lib.baum_stability_deadbeat, 2, integrator)
+def stability_deadbeat(integrator: str | Integrator) -> tuple[float, float]:
+    """The point (alpha h, (beta h)^2) [-] where all roots are zero. Only one-step methods have
+    one."""
+    return _point(lib.baum_stability_deadbeat, integrator)
 
 
-def stability_nearest(integrator, alpha_h, beta2_h2):
-    """The nearest point that damps well, itself when it does."""
-    return _numbers(
+def stability_nearest(
+    integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar
+) -> tuple[float, float]:
+    """The nearest point (alpha h, (beta h)^2) [-] that damps well, or the point itself."""
+    return _point(
         lib.baum_stability_nearest,
-        2,
         integrator,
         number(alpha_h, "alpha_h"),
         number(beta2_h2, "beta2_h2"),
     )
 
 
-def stability_grid(integrator, alpha_h, beta2_h2, shape=(100, 100)):
-    """Spectral radii over a rectangle: alpha_h and beta2_h2 are (first, last), both included.
-
-    Array of `shape` (rows of beta2_h2, columns of alpha_h).
-    """
+def stability_grid(
+    integrator: str | Integrator,
+    alpha_h: ArrayLike,
+    beta2_h2: ArrayLike,
+    shape: tuple[int, int] = (100, 100),
+) -> Array:
+    """Spectral radii over a rectangle: an array of `shape`, rows along beta2_h2 and columns along
+    alpha_h. alpha_h, beta2_h2: first and last value [-], both included."""
     rows, columns = shape
     columns_range = vector(alpha_h, 2, "alpha_h")
     rows_range = vector(beta2_h2, 2, "beta2_h2")
@@ -153,19 +179,19 @@ def stability_grid(integrator, alpha_h, beta2_h2, shape=(100, 100)):
     return radius
 
 
-def stability_outline(integrator, radius=1.0):
-    """Where the spectral radius is `radius`: array (n, 2) of (alpha h, (beta h)^2), closed curves
-    with a row of NaN between them, which is how Matplotlib draws them apart."""
+def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Array:
+    """Points (alpha h, (beta h)^2) [-] where the spectral radius is `radius` (n x 2): closed curves
+    with a row of NaN between them, so that Matplotlib draws them separately."""
     return _arrays(lib.baum_stability_outline, integrator, number(radius, "radius"))
 
 
-def stability_statement(integrator):
-    """What gains do with a method in words, also with one that chooses its steps."""
-    return lib.baum_stability_statement(lookup(integrator).address).decode()
+def stability_statement(integrator: str | Integrator) -> str:
+    """The effect of gains with a method as text, also of a method that chooses its steps."""
+    return text(lib.baum_stability_statement(lookup(integrator).address))
 
 
-def _arrays(function, integrator, value):
-    """Call a function that fills two arrays, first to ask how long they are."""
+def _arrays(function: Any, integrator: Any, value: float) -> Array:
+    """Call a function that fills two arrays, first to request their length."""
     address = lookup(integrator).address
     count = ctypes.c_int32()
     _calls.make(function, address, value, 0, None, None, ctypes.byref(count))
@@ -182,8 +208,13 @@ def _arrays(function, integrator, value):
     return out.T.copy()
 
 
-def _numbers(function, count, integrator, *arguments):
-    """Call a function that gives `count` numbers."""
+def _numbers(function: Any, count: int, integrator: Any, *arguments: float) -> list[float]:
+    """Call a function that returns `count` numbers."""
     outs = [ctypes.c_double() for _ in range(count)]
     _calls.make(function, lookup(integrator).address, *arguments, *map(ctypes.byref, outs))
-    return tuple(out.value for out in outs)
+    return [out.value for out in outs]
+
+
+def _point(function: Any, integrator: Any, *arguments: float) -> tuple[float, float]:
+    alpha_h, beta2_h2 = _numbers(function, 2, integrator, *arguments)
+    return alpha_h, beta2_h2

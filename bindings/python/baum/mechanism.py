@@ -1,48 +1,61 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is simulated: bodies, joints, forces and inputs."""
 
+from __future__ import annotations
+
 import ctypes
 import weakref
-from collections import namedtuple
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from . import _abi, _calls, design
+from . import _abi, _calls, _html, _records, design
+from ._lib import lib, text
+from ._values import number, numbers, vector
 from .adding import Adding
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .elements import CLASSES, GROUND, Element, Entry, one
-from ._lib import lib
-from ._values import number, numbers, vector
+from .elements import CLASSES, GROUND, Body, Element, Entry, Input, one
+from .run import Run
+from .simulation import Simulation, takes_options
+from .typing import Array, ArrayLike, BodyLike, ChannelLike, InputLike, JointLike, Scalar
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .integrators import Integrator
+    from .typing import SimulationOptions
 
 LISTED = 30  # names in a message
 
-Sizes = namedtuple("Sizes", "nq nv nc")
-Sizes.__doc__ = "Numbers of positions, velocities and constraint rows."
+
+class Sizes(NamedTuple):
+    """Numbers of positions nq, velocities nv and constraint rows nc."""
+
+    nq: int
+    nv: int
+    nc: int
 
 
-class Mobility(namedtuple("Mobility", [name for name, _ in _abi.baum_mobility._fields_[1:]])):
-    """What a mechanism can do at its assembled start pose. str() says it in messages, by name."""
-
+class Mobility(_records.Mobility):
+    __doc__ = f"{_records.Mobility.__doc__}"
     __slots__ = ()
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.text
 
 
-class Report(namedtuple("Report", [name for name, _ in _abi.baum_report._fields_[1:]])):
-    """What an evaluation of the accelerations costs in a run, and which work it skips. str() says it
-    in lines, by name, with the reasons."""
-
+class Report(_records.Report):
+    __doc__ = f"{_records.Report.__doc__}"
     __slots__ = ()
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.text
 
 
-def _entry_of(address, family, id):
-    """What there is to know about an element: the library gives the definition to those alone that
-    ask for its kind."""
+def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
+    """The entry of an element. The library returns a definition only to a caller that knows its
+    kind, so all kinds are tried."""
     if family == "input":
         return Entry(family, None, id, 0, 0)
     for kind in KINDS.values():
@@ -55,40 +68,42 @@ def _entry_of(address, family, id):
 
 
 class Mechanism(Adding):
-    """Bodies, joints, forces and inputs: added, then frozen, then constant and shared between
-    threads.
+    """Bodies, joints, forces and inputs. Elements are added; freeze() then makes the mechanism
+    constant, so that it can be simulated and shared between threads.
 
-    gravity: (x, y) or (x, y, z) [m/s^2], default (0, -9.81); characteristic_length: length [m]
-    that tolerances refer to, default the size of the design configuration. Any consistent set of
-    units will do; angles are in radians.
+    gravity: (x, y) or (x, y, z) [m/s^2]. characteristic_length: the length [m] that tolerances
+    refer to, default the size of the design configuration. Any consistent set of units will do;
+    angles are in radians.
 
-    Points: a joint is placed by `point` (ground axes, design configuration) or by `point_a`
-    and `point_b` (body axes). Bodies and joints may be given as handles or by name. Fields left out keep the
-    library's defaults. Functions are called with (t, q) or (t, q, v) of the named bodies and return
-    their value; see callbacks.py.
+    A joint is placed by `point` (ground axes, design configuration) or by `point_a` and `point_b`
+    (body axes). m["A"] is the handle of the element "A". Functions are called with (t, q) or
+    (t, q, v) of the bodies they are given for, and return their value.
     """
 
-    def __init__(self, gravity=None, characteristic_length=None):
+    def __init__(
+        self,
+        gravity: ArrayLike = (0.0, -9.81),
+        characteristic_length: Scalar | None = None,
+    ) -> None:
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_create, ctypes.byref(out))
         self._adopt(out.value)
-        if gravity is not None:
-            self.gravity = gravity
+        self.gravity = gravity
         if characteristic_length is not None:
             self.characteristic_length = characteristic_length
 
-    def _adopt(self, address, like=None):
+    def _adopt(self, address: Any, like: Mechanism | None = None) -> None:
         """Become the owner of a mechanism of the library, with the elements of another one."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
-        self.handle = address
+        self.handle: int = address
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
-        self._handles = weakref.WeakValueDictionary()
+        self._handles: weakref.WeakValueDictionary[str, Element] = weakref.WeakValueDictionary()
 
     @classmethod
-    def of_library(cls, address):
-        """The owner of a mechanism that a function of the library has put together."""
+    def of_library(cls, address: Any) -> Mechanism:
+        """The owner of a mechanism that a function of the library has built."""
         made = cls.__new__(cls)
         made._adopt(address)
         for family in CLASSES:
@@ -99,25 +114,33 @@ class Mechanism(Adding):
                 made._entries[name] = _entry_of(address, family, id)
         return made
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         counts = [self._count(family) for family in CLASSES]
         state = "frozen" if self.frozen else "not frozen"
         return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
-    def _count(self, family):
+    def _repr_html_(self) -> str:
+        """A table of the elements for notebooks."""
+        rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
+        return _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+
+    def _count(self, family: str) -> int:
         return sum(
             entry.family == family and entry is not GROUND for entry in self._entries.values()
         )
 
     # ---- finding and changing --------------------------------------------------------------------
 
-    def __getitem__(self, name):
-        """The body, joint, force or input of that name."""
-        return self._handle(name, CLASSES)
+    def __getitem__(self, name: str) -> Any:
+        """The Body, Joint, Force or Input of that name. Raises KeyError if there is none."""
+        return self._handle(name, list(CLASSES))
 
-    def _handle(self, name, families):
-        """The handle of an element of one of these families. As long as somebody keeps it, it is the
-        same one."""
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self._entries)
+
+    def _handle(self, name: str, families: Sequence[str]) -> Element:
+        """The handle of an element of one of these families. It is the same object as long as
+        somebody keeps it."""
         entry = self._entries.get(name)
         if entry is None:
             known = [known for known, entry in self._entries.items() if entry.family in families]
@@ -131,21 +154,22 @@ class Mechanism(Adding):
             handle = self._handles[name] = CLASSES[entry.family](self, name, entry)
         return handle
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name in self._entries
 
-    def __iter__(self):
-        """Handles of everything that was added."""
+    def __iter__(self) -> Iterator[Any]:
+        """Handles of all added elements, in the order of adding."""
         return (self[name] for name, entry in self._entries.items() if entry is not GROUND)
 
     @property
-    def ground(self):
+    def ground(self) -> Body:
         """The body that does not move."""
-        return self["ground"]
+        found: Body = self["ground"]
+        return found
 
-    def find(self, family, value):
+    def find(self, family: str, value: Any) -> Any:
         """The body, joint or input for a handle, a name or an id of the library; None for the id
-        "none"."""
+        "none". Raises KeyError or TypeError for anything else."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
@@ -153,13 +177,13 @@ class Mechanism(Adding):
             raise TypeError(f"{one(family)} or its name is wanted, not {value!r}")
         return element
 
-    def _of_id(self, family, id):
+    def _of_id(self, family: str, id: Any) -> Any:
         for name, entry in self._entries.items():
             if entry.family == family and entry.id.index1 == id.index1:
                 return self[name]
         return None
 
-    def read(self, element):
+    def read(self, element: Element) -> ctypes.Structure:
         """The library's definition of an element."""
         if element.kind is None:
             raise TypeError("ground has no definition")
@@ -173,7 +197,7 @@ class Mechanism(Adding):
         )
         return struct
 
-    def change(self, element, fields):
+    def change(self, element: Element, fields: Mapping[str, Any]) -> None:
         """Replace some fields of a definition, before freezing. None changes nothing."""
         if not isinstance(fields, dict):
             raise TypeError(f'{element.family} "{element.name}": a dict is wanted, not {fields!r}')
@@ -182,14 +206,14 @@ class Mechanism(Adding):
         if element.family == "input":
             self._change_input(element, fields)
             return
-        definition = Definition(
-            element.kind, f'{element.family} "{element.name}"', self.find, self.read(element)
-        )
+        struct, label = self.read(element), f'{element.family} "{element.name}"'
+        assert element.kind is not None  # read() refuses ground
+        definition = Definition(element.kind, label, self.find, struct)
         definition.fill(fields)
         self._hold(definition)
         self._owner.call(element.kind.function("set"), element.id, ctypes.byref(definition.struct))
 
-    def _change_input(self, element, fields):
+    def _change_input(self, element: Element, fields: Mapping[str, Any]) -> None:
         label = f'input "{element.name}"'
         unknown = [name for name in fields if name != "initial"]
         if unknown:
@@ -198,7 +222,7 @@ class Mechanism(Adding):
             initial = number(fields["initial"], f"{label}: initial")
             self._owner.call(lib.baum_mechanism_set_input, element.id, initial)
 
-    def initial(self, input):
+    def initial(self, input: InputLike) -> float:
         """Initial value of an input."""
         value = ctypes.c_double()
         _calls.make(
@@ -210,77 +234,82 @@ class Mechanism(Adding):
         return value.value
 
     @property
-    def inputs(self):
+    def inputs(self) -> list[Input]:
         """All inputs, in the order of adding."""
         return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
     # ---- the whole -------------------------------------------------------------------------------
 
     @property
-    def gravity(self):
-        """(x, y, z) [m/s^2], of particles and rigid bodies."""
+    def gravity(self) -> tuple[float, float, float]:
+        """(x, y, z) [m/s^2], acts on particles and rigid bodies. Can be set before freezing, also
+        to (x, y)."""
         values = np.empty(3)
         _calls.make(lib.baum_mechanism_get_gravity, self.handle, values.ctypes.data)
-        return tuple(values.tolist())
+        x, y, z = values.tolist()
+        return x, y, z
 
     @gravity.setter
-    def gravity(self, value):
+    def gravity(self, value: ArrayLike) -> None:
         given = vector(value, None, "gravity").tolist()
         if len(given) not in (2, 3):
             raise ValueError(f"gravity: 2 or 3 numbers are wanted, not {len(given)}")
         _calls.make(lib.baum_mechanism_set_gravity, self.handle, *(given + [0.0])[:3])
 
     @property
-    def characteristic_length(self):
-        """Characteristic length [m]; NaN when it was not set and the mechanism is not frozen."""
+    def characteristic_length(self) -> float:
+        """The length [m] that tolerances refer to; NaN if it was not set and the mechanism is not
+        frozen. Can be set before freezing."""
         value = ctypes.c_double()
         _calls.make(lib.baum_mechanism_get_characteristic_length, self.handle, ctypes.byref(value))
         return value.value
 
     @characteristic_length.setter
-    def characteristic_length(self, value):
-        _calls.make(
-            lib.baum_mechanism_set_characteristic_length, self.handle, number(value, "characteristic_length")
-        )
+    def characteristic_length(self, value: Scalar) -> None:
+        length = number(value, "characteristic_length")
+        _calls.make(lib.baum_mechanism_set_characteristic_length, self.handle, length)
 
-    def add_break_times(self, times):
-        """Declare times [s] at which functions of time jump: no step passes one. Before freezing."""
-        times = vector(np.atleast_1d(times), None, "break times")
-        self._owner.call(lib.baum_mechanism_add_break_times, times.ctypes.data, len(times))
+    def add_break_times(self, times: ArrayLike) -> None:
+        """Declare times [s] at which functions of time jump, before freezing. No step passes one of
+        them."""
+        given = vector(np.atleast_1d(times), None, "break times")
+        self._owner.call(lib.baum_mechanism_add_break_times, given.ctypes.data, len(given))
 
     @property
-    def break_times(self):
-        """The break times [s], rising."""
+    def break_times(self) -> Array:
+        """The break times (n) [s], rising."""
         count = ctypes.c_int32()
         place = lib.baum_mechanism_break_times(self.handle, ctypes.byref(count))
-        return np.empty(0) if place is None else numbers(place, count.value)
+        found = numbers(place, count.value)
+        return np.empty(0) if found is None else found
 
-    def freeze(self):
-        """Check everything and make the mechanism constant. Returns it."""
+    def freeze(self) -> Mechanism:
+        """Check everything and make the mechanism constant. Returns the mechanism. Raises
+        baum.Error if it cannot be simulated, for example if it has no body."""
         self._long(lib.baum_mechanism_freeze)
         return self
 
     @property
-    def frozen(self):
-        """Whether it is constant."""
-        return lib.baum_mechanism_is_frozen(self.handle)
+    def frozen(self) -> bool:
+        """Whether freeze() has made it constant."""
+        return bool(lib.baum_mechanism_is_frozen(self.handle))
 
-    def copy(self, **changes):
+    def copy(self, **changes: Mapping[str, Any]) -> Mechanism:
         """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
-        frozen when this one is. Handles of one are good for the other as long as nothing is
-        added.
+        frozen if this mechanism is. Handles of one are valid in the other until elements are added.
 
-        With another position or angle of a body the copy is the same mechanism in another initial
+        With another position or angle of a body, the copy is the same mechanism in another initial
         configuration: joints and forces keep their points in body axes, and the lengths, angles and
-        offsets that they took from the design configuration. Their definitions in the copy have the
-        numbers. Assembly closes the joints, which may move the changed body too: give position and
-        angle that fit, or held=True. A joint or force that is itself changed in `point`, `point_a`
-        or `point_b` is placed in the new design configuration."""
+        offsets that they took from the design configuration. Their definitions in the copy contain
+        the numbers. Assembly closes the joints, which may move the changed body too: give position
+        and angle that fit, or held=True. A joint or force that is itself changed in `point`,
+        `point_a` or `point_b` is placed in the new design configuration.
+        """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
 
-    def thawed(self, **changes):
-        """As copy(), but not frozen, so that something can be added."""
+    def thawed(self, **changes: Mapping[str, Any]) -> Mechanism:
+        """As copy(), but not frozen, so that elements can be added."""
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_copy, self.handle, ctypes.byref(out))
         copy = Mechanism.__new__(Mechanism)
@@ -289,8 +318,10 @@ class Mechanism(Adding):
             copy.change(copy[name], fields)
         return copy
 
-    def _kept_when_moved(self, changes):
-        """What joints and forces must be given so that bodies of other positions do not alter them."""
+    def _kept_when_moved(
+        self, changes: Mapping[str, Any]
+    ) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        """The fields that keep joints and forces as they are although bodies have moved."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle"}}
@@ -300,14 +331,14 @@ class Mechanism(Adding):
                 yield element.name, design.taken(element, moved)
 
     @property
-    def sizes(self):
-        """Numbers nq, nv, nc of a frozen mechanism."""
+    def sizes(self) -> Sizes:
+        """Numbers nq, nv and nc of a frozen mechanism."""
         counts = [ctypes.c_int32() for _ in range(3)]
         _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
         return Sizes(*(count.value for count in counts))
 
-    def rows(self, joint):
-        """Rows of a joint in Phi and lambda of a frozen mechanism, a slice."""
+    def rows(self, joint: JointLike) -> slice:
+        """Rows of a joint in Phi and lambda of a frozen mechanism."""
         first, count = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
             lib.baum_mechanism_rows,
@@ -318,46 +349,47 @@ class Mechanism(Adding):
         )
         return slice(first.value, first.value + count.value)
 
-    def columns(self, body):
-        """Places of a body in q and v of a frozen mechanism, two slices."""
-        body = self.find("body", body)
+    def columns(self, body: BodyLike) -> tuple[slice, slice]:
+        """Places of a body in q and v of a frozen mechanism."""
+        found = self.find("body", body)
         q, v = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
-            lib.baum_mechanism_columns, self.handle, body.id, ctypes.byref(q), ctypes.byref(v)
+            lib.baum_mechanism_columns, self.handle, found.id, ctypes.byref(q), ctypes.byref(v)
         )
-        return slice(q.value, q.value + body.nq), slice(v.value, v.value + body.nv)
+        return slice(q.value, q.value + found.nq), slice(v.value, v.value + found.nv)
 
-    def mobility(self):
-        """Freedoms, redundant and conflicting rows, bodies without a joint, at the assembled start
-        pose."""
-        values = self._survey(lib.baum_mechanism_mobility, _abi.baum_mobility())
+    def mobility(self) -> Mobility:
+        """Degrees of freedom, redundant and conflicting rows and bodies without a joint, at the
+        assembled initial configuration. str() of the result explains it."""
+        values = self._snapshot(lib.baum_mechanism_mobility, _abi.baum_mobility())
         values["worst_joint"] = self.find("joint", values["worst_joint"])
         return Mobility(**values)
 
-    def report(self):
-        """What an evaluation of the accelerations costs: nodes, couplings and islands; and what it
-        does not compute, such as bodies that cannot move."""
-        values = self._survey(lib.baum_mechanism_report, _abi.baum_report())
+    def report(self) -> Report:
+        """What an evaluation of the accelerations costs (nodes, couplings, islands), and which work
+        it skips, such as bodies that cannot move. str() of the result explains it."""
+        values = self._snapshot(lib.baum_mechanism_report, _abi.baum_report())
         values["most_joined"] = self.find("body", values["most_joined"])
         return Report(**values)
 
-    def _survey(self, function, struct):
+    def _snapshot(self, function: Any, struct: Any) -> dict[str, Any]:
         """The fields of a struct that a function of the library fills."""
         self._long(function, ctypes.byref(struct), ctypes.sizeof(struct))
-        values = {name: getattr(struct, name) for name, _ in struct._fields_[1:]}
-        values["text"] = struct.text.decode(errors="replace")
+        values = {field[0]: getattr(struct, field[0]) for field in struct._fields_[1:]}
+        values["text"] = text(struct.text)
         return values
 
-    def check_derivatives(self):
-        """Compare the derivatives that functions give with differences; baum.Error names the wrong
-        entry."""
+    def check_derivatives(self) -> None:
+        """Compare the derivatives that functions return with differences. Raises baum.Error, which
+        names the wrong entry."""
         self._long(lib.baum_mechanism_check_derivatives)
 
-    def _long(self, function, *arguments):
+    def _long(self, function: Any, *arguments: Any) -> None:
         _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
-    def channel(self, value):
-        """The channel for a channel or its name, such as "energy" or "B.phi"."""
+    def channel(self, value: ChannelLike) -> Channel:
+        """The channel for a channel or its name, such as "energy" or "B.phi". Raises KeyError if
+        there is none."""
         if isinstance(value, Channel):
             return value
         if not isinstance(value, str):
@@ -375,16 +407,26 @@ class Mechanism(Adding):
 
     # ---- runs ------------------------------------------------------------------------------------
 
-    def simulation(self, integrator=None, **options):
-        """Start a run that goes step by step; see Simulation for the options."""
-        from .simulation import Simulation
-
+    @takes_options
+    def simulation(
+        self, integrator: str | Integrator | None = None, **options: Unpack[SimulationOptions]
+    ) -> Simulation:
+        """Start a run that is advanced step by step. baum.Simulation describes the options."""
         return Simulation(self, integrator, **options)
 
-    def simulate(self, times, integrator=None, *, record=(), **options):
-        """Run through `times` [s] and return a Run: q, v and the channels in `record`, at each of
-        them. The run begins at the option start_time, 0 when left out. See Simulation for the
-        options."""
-        from .simulation import Simulation
+    @takes_options
+    def simulate(
+        self,
+        times: ArrayLike,
+        integrator: str | Integrator | None = None,
+        *,
+        record: ChannelLike | Sequence[ChannelLike] = (),
+        **options: Unpack[SimulationOptions],
+    ) -> Run:
+        """Run through times (n) [s] and return a Run with q, v and the channels in `record` at each
+        of them.
 
+        The run starts at the option start_time. baum.Simulation describes the options and the
+        errors. Exceptions carry what was recorded before as `run`.
+        """
         return Simulation(self, integrator, **options).sample(times, record)

@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Progress of a study, for people who wait for it."""
+"""Progress bars of runs and studies, in a terminal or a notebook."""
+
+from __future__ import annotations
 
 import collections
 import itertools
 import sys
 import time
+from typing import Any, Sequence, TextIO
 
-INTERVAL = 0.2  # [s] between two messages
+INTERVAL = 0.2  # [s] between two updates
+BAR = 20  # characters
 
 
-def stream():
-    """Where somebody watches: standard output of a notebook, standard error of a terminal; or None."""
-    ipython = sys.modules.get("IPython")
+def stream() -> TextIO | None:
+    """Where progress is shown: standard output of a notebook, standard error of a terminal; None
+    elsewhere."""
+    ipython: Any = sys.modules.get("IPython")
     shell = ipython and ipython.get_ipython()
     if shell is not None and hasattr(shell, "kernel"):
         return sys.stdout
@@ -19,54 +24,89 @@ def stream():
 
 
 class Line:
-    """One line that is written over and over: how far a study is, and an estimate of the time left.
+    """One line that is written over and over: a bar, the percentage and the time left."""
 
-    methods: the number of the method of each row. Every setting of a method is taken to cost twice as
-    much as the coarser one before it. The study goes through all rows from coarse to fine, and then,
-    to time them, in their own order.
+    def __init__(self, out: TextIO, title: str) -> None:
+        self._out = out
+        self._title = title
+        self._begun = self._next = time.monotonic()
+        self._first: float | None = None
+
+    def update(self, fraction: float) -> None:
+        """Show how much is done, 0 to 1, and at the same speed how long the rest takes."""
+        now = time.monotonic()
+        if self._first is None:
+            self._first = fraction
+        if now < self._next:
+            return
+        self._next = now + INTERVAL
+        left = ""
+        if fraction > self._first:
+            seconds = (now - self._begun) * (1 - fraction) / (fraction - self._first)
+            left = f", about {duration(seconds)} left"
+        self.show(f"{bar(fraction)} {100 * fraction:.0f} %{left}")
+
+    def show(self, text: str, end: str = "") -> None:
+        """Replace what the line says."""
+        try:
+            self._out.write(f"\r{self._title}: {text:<{BAR + 28}}{end}")
+            self._out.flush()
+        except (OSError, ValueError):  # nobody watches any more
+            self._next = float("inf")
+
+    def close(self) -> None:
+        """End the line with the time that was spent."""
+        self.show(duration(time.monotonic() - self._begun), end="\n")
+
+
+class RunLine(Line):
+    """The line of a run from one time to another [s]."""
+
+    def __init__(self, out: TextIO, start: float, end: float) -> None:
+        super().__init__(out, f"run to t = {end:g} s")
+        self._start, self._span = start, end - start
+        self._first = 0.0
+
+    def __call__(self, t: float) -> None:
+        if self._span:
+            self.update(min(max((t - self._start) / self._span, 0.0), 1.0))
+
+
+class StudyLine(Line):
+    """The line of a study.
+
+    methods: the index of the method of each entry. Every setting of a method is assumed to cost
+    twice as much as the coarser one before it. The study runs all entries from coarse to fine, and
+    then, to time them, in their own order.
     """
 
-    def __init__(self, out, methods):
-        self._out = out
-        coarser = collections.Counter()
+    def __init__(self, out: TextIO, methods: Sequence[int]) -> None:
+        super().__init__(out, f"study of {len(methods)} settings")
+        coarser: collections.Counter[int] = collections.Counter()
         ranks = []
         for method in methods:
             ranks.append(coarser[method])
             coarser[method] += 1
         costs = [2.0 ** min(rank, 50) for rank in [*sorted(ranks), *ranks]]
         self._spent = [0.0, *itertools.accumulate(costs)]
-        self._settings = len(methods)
-        self._begun = self._next = time.monotonic()
-        self._first = None
-        self._show("reference")
+        self.show("reference")
 
-    def __call__(self, done, total):
-        now = time.monotonic()
+    def __call__(self, done: int, total: int) -> None:
         if self._first is None:
-            self._first = self._spent[done - 1]
-        if now < self._next:
-            return
-        self._next = now + INTERVAL
-        if done == total:
-            self._show("validation")
-            return
-        spent, whole = self._spent[done], self._spent[-1]
-        left = (now - self._begun) * (whole - spent) / (spent - self._first)
-        self._show(f"{100 * spent / whole:.0f} %, about {duration(left)} left")
-
-    def close(self):
-        """End the line."""
-        self._show(duration(time.monotonic() - self._begun), end="\n")
-
-    def _show(self, text, end=""):
-        try:
-            self._out.write(f"\rstudy of {self._settings} settings: {text:<28}{end}")
-            self._out.flush()
-        except (OSError, ValueError):  # nobody watches any more
-            self._next = float("inf")
+            self._first = self._spent[done - 1] / self._spent[-1]
+        if done < total:
+            self.update(self._spent[done] / self._spent[-1])
+        elif time.monotonic() >= self._next:
+            self.show("validation")
 
 
-def duration(seconds):
+def bar(fraction: float) -> str:
+    """A bar of which that part is filled."""
+    filled = int(BAR * fraction)
+    return f"[{'#' * filled}{'.' * (BAR - filled)}]"
+
+
+def duration(seconds: float) -> str:
     """In words, with no more digits than an estimate has."""
     if seconds < 90:
         return f"{seconds:.0f} s"

@@ -1,159 +1,291 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run came to."""
+"""The results of a run."""
+
+from __future__ import annotations
 
 import copy
-from collections import namedtuple
+from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn
 
 import numpy as np
 
-from . import _abi
-from .channels import Channel
+from . import _html, _records, units
+from .channels import Channel, Layout
 from .elements import Element
-from .errors import Status
+from .errors import Status, Warning
+from .typing import Array, ChannelLike
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+    from .mechanism import Mechanism
+
+EnergyAccount = _records.EnergyAccount
 
 
-class ByName:
-    """What a named tuple does that has handles: it is pickled with their names in place of them."""
-
+class _ByName:
+    # A named tuple with handles; it is pickled with their names in place of them.
     __slots__ = ()
 
-    def __reduce__(self):
-        return self._make, ([value.name if isinstance(value, Element) else value for value in self],)
+    def __reduce__(self) -> Any:
+        values: Any = self
+        named = [value.name if isinstance(value, Element) else value for value in values]
+        return values._make, (named,)
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self, memo: Any) -> Any:
         return self
 
 
-class Counters(ByName, namedtuple("Counters", [name for name, _ in _abi.baum_counters._fields_[1:]])):
-    """What a run has cost and how well constraints were kept since it was created; see baum_counters
-    in simulation.h. Joints are handles or None (names, where it was unpickled), times in seconds."""
-
+class Counters(_ByName, _records.Counters):
+    __doc__ = f"{_records.Counters.__doc__}"  # help() does not show that of a base
     __slots__ = ()
 
 
-class NearSingular(
-    ByName, namedtuple("NearSingular", [name for name, _ in _abi.baum_near_singular._fields_[1:]])
-):
-    """An interval in which a run was near a singular configuration; see baum_near_singular in
-    simulation.h. The branch is a word such as "continued" or "left"; the joint is as in Counters."""
-
+class NearSingular(_ByName, _records.NearSingular):
+    __doc__ = f"{_records.NearSingular.__doc__}"  # help() does not show that of a base
     __slots__ = ()
 
 
-EnergyAccount = namedtuple(
-    "EnergyAccount", [name for name, _ in _abi.baum_energy_account._fields_[1:]]
-)
-EnergyAccount.__doc__ = """Where the energy of a run has come from [J]; see baum_energy_account in
-simulation.h."""
+class Event(NamedTuple):
+    """An event that has happened.
 
-Event = namedtuple("Event", "t event direction")
-Event.__doc__ = """An event that has happened: when [s], its number as Simulation.event() has given
-it, and 1 for rising in time or -1 for falling."""
+    t: [s]. event: its number, which Simulation.event() has returned. direction: 1 rising, -1
+    falling in time.
+    """
+
+    t: float
+    event: int
+    direction: int
+
+
+class Account(NamedTuple):
+    """What a simulation knows about itself at the end of a run."""
+
+    counters: Counters
+    explain: str
+    warnings: list[Warning]
+    near_singular: list[NearSingular]
+    events: list[Event]
+    energy_account: EnergyAccount | None
 
 
 class Run:
-    """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x
-    columns) is a recorded channel. Poses and velocities of bodies need no recording, they are parts
-    of q and v.
+    """Samples of a run.
 
-    status: OK, WARNED, or STOP_CANCELLED and STOP_EVENT (then the samples end early); counters;
-    explain: in words how it was done; warnings: a baum.Warning for each kind; near_singular, events: of the whole
-    simulation so far; energy_account: at the end, None without the option. A run can be pickled;
-    `mechanism` is None then.
+    t: times (n) [s]. q: positions (n x nq). v: velocities (n x nv). run["B.phi"] or run[m["B"].phi]
+    is a recorded channel (n x columns). Poses and velocities of bodies need no recording, because
+    they are parts of q and v: run["slider.pose"].
+
+    status: Status.OK, WARNED, or STOP_CANCELLED and STOP_EVENT; with the last two the samples end
+    early. counters: what the run has cost. explain: how it was done, as text. warnings: a
+    baum.Warning for each kind. near_singular, events: lists for the whole simulation so far.
+    energy_account: at the end; None without the option energy_account.
+
+    A run can be pickled; its `mechanism` is then None.
     """
 
-    def __init__(self, mechanism, layout, times, rows, status, account):
-        self.mechanism = mechanism
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        layout: Layout,
+        times: Array,
+        rows: Array,
+        status: Status,
+        account: Account,
+    ) -> None:
+        self.mechanism: Mechanism | None = mechanism
         self.t = times
         self.status = status
-        self.counters, self.explain, self.warnings = account
-        self.near_singular = []
-        self.events = []
-        self.energy_account = None
+        self.counters, self.explain, self.warnings = account[:3]
+        self.near_singular, self.events, self.energy_account = account[3:]
         self._slices = layout.slices
+        self._channels = layout.channels
         self._rows = rows
-        self._bodies = None
+        self._bodies: dict[str, tuple[slice, slice]] | None = None
+        self._units: dict[str, units.Units] = {}
         self.q = self["q"]
         self.v = self["v"]
 
-    def __getstate__(self):
+    def __getstate__(self) -> dict[str, Any]:
         bodies = self._bodies
-        if bodies is None:
+        if bodies is None and self.mechanism is not None:
             bodies = {one.name: one.columns for one in self.mechanism if one.family == "body"}
-        return dict(vars(self), mechanism=None, _bodies=bodies, q=None, v=None)
+        known = {key: self._units_of(key) for key in self}
+        return dict(
+            vars(self), mechanism=None, _bodies=bodies, _units=known, _channels={}, q=None, v=None
+        )
 
-    def __setstate__(self, state):
+    def __setstate__(self, state: dict[str, Any]) -> None:
         vars(self).update(state)
         self.q = self["q"]
         self.v = self["v"]
 
-    def __deepcopy__(self, memo):
+    def __deepcopy__(self, memo: Any) -> Run:
         copied = type(self).__new__(type(self))
         own = {name: copy.deepcopy(value, memo) for name, value in self.__getstate__().items()}
         copied.__setstate__(dict(own, mechanism=self.mechanism, _bodies=self._bodies))
         return copied
 
-    def __array__(self, *how, **also):
+    def __array__(self, *how: Any, **also: Any) -> NoReturn:
         raise TypeError(
-            "a run is several arrays: take one of them, such as run.q, or run.to_dict(), also for a "
-            "table: pandas.DataFrame(run.to_dict())"
+            "a run is several arrays: take one of them, such as run.q, or run.to_dict(); a table "
+            "is run.to_dataframe() or pandas.DataFrame(run.to_dict())"
         )
 
-    def to_dict(self):
-        """All columns by name: "t", and of each recorded channel its key, with the number of the
-        column where it has several, such as "energy[1]". For tables: pandas.DataFrame(run.to_dict())."""
-        named = {"t": self.t}
-        for key in self:
-            columns = self[key].T
-            names = [key] if len(columns) == 1 else [f"{key}[{k}]" for k in range(len(columns))]
-            named.update(zip(names, columns))
-        return named
-
-    def __repr__(self):
+    def __repr__(self) -> str:
         name = self.status.name if isinstance(self.status, Status) else self.status
         return f"<run of {len(self.t)} samples, {self.counters.steps} steps, {name}>"
 
-    def keys(self):
+    def _repr_html_(self) -> str:
+        """A table of the channels for notebooks."""
+        rows = []
+        for key in self:
+            values = self[key]
+            end = ", ".join(f"{value:.4g}" for value in values[-1, :6]) if len(values) else ""
+            more = ", ..." if len(values) and values.shape[1] > 6 else ""
+            rows.append(
+                (key, values.shape[1], ", ".join(self._units_of(key)[:6]) + more, end + more)
+            )
+        return _html.table(repr(self)[1:-1], ("channel", "columns", "units", "at the end"), rows)
+
+    # ---- channels --------------------------------------------------------------------------------
+
+    def keys(self) -> list[str]:
         """Names of the recorded channels."""
         return list(self._slices)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self.keys())
 
-    def __contains__(self, key):
+    def __contains__(self, key: object) -> bool:
         name = key.key if isinstance(key, Channel) else key
         return name in self._slices or self._of_body(name) is not None
 
-    def __getitem__(self, key):
-        """The columns of a channel, given by itself or by name."""
+    def __getitem__(self, key: ChannelLike) -> Array:
+        """The columns (n x columns) of a channel, which is given by itself or by name. Raises
+        KeyError for a channel that was not recorded."""
         name = key.key if isinstance(key, Channel) else key
         place = self._slices.get(name)
         if place is not None:
             return self._rows[:, place]
-        columns = self._of_body(name)
-        if columns is None:
+        found = self._of_body(name)
+        if found is None:
             raise KeyError(
                 f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
                 "velocities of bodies; name others in record=[...]"
             )
-        return columns
+        whole, columns = found
+        return np.ascontiguousarray(self[whole][:, columns])
 
-    def _of_body(self, name):
-        """Pose or velocity of a body out of q and v, or None."""
+    def _ipython_key_completions_(self) -> list[str]:
+        bodies = list(self._bodies or ())
+        if self.mechanism is not None:
+            bodies = [one.name for one in self.mechanism if one.family == "body"]
+        return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
+
+    def _of_body(self, name: object) -> tuple[str, slice] | None:
+        """Where pose or velocity of a body are in q or v, or None."""
         body, _, what = str(name).rpartition(".")
-        if what not in ("pose", "velocity"):
-            return None
-        columns = self._columns_of(body)
+        columns = self._columns_of(body) if what in ("pose", "velocity") else None
         if columns is None:
             return None
-        q, v = columns
-        return np.ascontiguousarray(self.q[:, q] if what == "pose" else self.v[:, v])
+        return ("q", columns[0]) if what == "pose" else ("v", columns[1])
 
-    def _columns_of(self, body):
+    def _columns_of(self, body: str) -> tuple[slice, slice] | None:
         """Places of a body in q and v, or None."""
         if self._bodies is not None:
             return self._bodies.get(body)
-        element = self.mechanism[body] if body in self.mechanism else None
-        if element is None or element.family != "body" or element.kind is None:
+        if self.mechanism is None or body not in self.mechanism:
             return None
-        return element.columns
+        element = self.mechanism[body]
+        if element.family != "body" or element.kind is None:
+            return None
+        places: tuple[slice, slice] = element.columns
+        return places
+
+    # ---- tables and plots ------------------------------------------------------------------------
+
+    @property
+    def columns(self) -> dict[str, str]:
+        """The unit of each column of to_dict() by its name; "" where your functions decide it."""
+        named = {"t": "s"}
+        for key in self:
+            named.update(zip(self._names(key), self._units_of(key)))
+        return named
+
+    def _names(self, key: str) -> list[str]:
+        count = self[key].shape[1]
+        return [key] if count == 1 else [f"{key}[{k}]" for k in range(count)]
+
+    def _units_of(self, key: str) -> units.Units:
+        """The unit of each column of a channel."""
+        if key not in self._units:
+            found = self._of_body(key)
+            if found is not None:
+                return self._units_of(found[0])[found[1]]
+            assert self.mechanism is not None  # a run without one knows its units
+            self._units[key] = units.of_channel(self.mechanism, self._channels[key])
+        return self._units[key]
+
+    def to_dict(self) -> dict[str, Array]:
+        """All columns (n) by name: "t", and of each recorded channel its key, with the index of the
+        column if it has several, such as "energy[1]"."""
+        named = {"t": self.t}
+        for key in self:
+            named.update(zip(self._names(key), self[key].T))
+        return named
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """All columns as a pandas.DataFrame with the time [s] as its index. attrs["units"] has the
+        unit of each column. Raises ImportError without pandas."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Run.to_dataframe() needs pandas: pip install pandas") from error
+        frame = pandas.DataFrame(self.to_dict()).set_index("t")
+        frame.attrs["units"] = self.columns
+        return frame
+
+    def plot(self, *channels: ChannelLike, axes: Any = None) -> list[Axes]:
+        """Plot channels over time with Matplotlib, such as run.plot("slider.velocity").
+
+        channels: by default all recorded ones except q and v. axes: Matplotlib axes to draw into,
+        one for each unit; by default a new figure. Returns the axes, one for each unit. Raises
+        KeyError for a channel that was not recorded, and ImportError without Matplotlib.
+        """
+        keys = [one.key if isinstance(one, Channel) else one for one in channels]
+        curves: dict[str, list[tuple[str, Array]]] = {}
+        for key in keys or [key for key in self if key not in ("q", "v")] or ["q"]:
+            for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
+                curves.setdefault(unit, []).append((name, values))
+        places = _axes(len(curves), axes)
+        for place, (unit, drawn) in zip(places, curves.items()):
+            for name, values in drawn:
+                place.plot(self.t, values, label=name)
+            title = drawn[0][0] if len(drawn) == 1 else _common([name for name, _ in drawn])
+            place.set_ylabel(f"{title} [{unit}]".lstrip() if unit else title)
+            if len(drawn) > 1:
+                place.legend()
+        places[-1].set_xlabel("t [s]")
+        return places
+
+
+def _common(names: list[str]) -> str:
+    """The channel that names of columns share, or ""."""
+    channels = {name.rpartition("[")[0] or name for name in names}
+    return channels.pop() if len(channels) == 1 else ""
+
+
+def _axes(count: int, given: Any) -> list[Axes]:
+    """As many axes as there are units: those given, or those of a new figure."""
+    if given is not None:
+        found = list(np.ravel(given))
+        if len(found) != count:
+            raise ValueError(f"axes: one for each unit is wanted, {count}, not {len(found)}")
+        return found
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("Run.plot() needs Matplotlib: pip install matplotlib") from error
+    figure, frames = plt.subplots(count, sharex=True, squeeze=False, layout="constrained")
+    return list(frames[:, 0])

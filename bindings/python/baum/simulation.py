@@ -1,20 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One run of a frozen mechanism."""
 
+from __future__ import annotations
+
 import ctypes
+import functools
+import inspect
+import math
 import time
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Callable,
+    Iterable,
+    Mapping,
+    Sequence,
+    TypeVar,
+    Union,
+    overload,
+)
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _abi, _calls
+from ._lib import default, lib, text
+from ._values import address, integer, number, truth, vector
 from .callbacks import event_function
-from .channels import Channel, Layout, q as ALL_Q, v as ALL_V
-from .errors import Error, Status, as_warning, warn
+from .channels import Channel, Layout
+from .channels import q as ALL_Q
+from .channels import v as ALL_V
+from .errors import Error, Status, Warning, as_warning, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, integrators, lookup, names
-from ._lib import default, lib
-from .run import Counters, EnergyAccount, Event, NearSingular, Run
-from ._values import address, integer, number, truth, vector
+from .progress import RunLine, stream
+from .run import Account, Counters, EnergyAccount, Event, NearSingular, Run
+from .typing import (
+    Array,
+    ArrayLike,
+    ChannelLike,
+    Formulation,
+    InputLike,
+    JointLike,
+    Progress,
+    Scalar,
+    Solver,
+    Start,
+)
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+Method = TypeVar("Method", bound=Callable[..., Any])
+Watcher = Union[Callable[[float], object], None]
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
@@ -22,10 +60,10 @@ BRANCHES = {value: name for name, value in names(_abi.baum_branch, "BAUM_BRANCH_
 AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
 
-def _word(words, label):
+def _word(words: Mapping[str, int], label: str) -> Callable[[Any], int]:
     """A converter from one of some words."""
 
-    def convert(value):
+    def convert(value: Any) -> int:
         if value not in words:
             raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
         return words[value]
@@ -33,21 +71,21 @@ def _word(words, label):
     return convert
 
 
-def _number(name):
+def _number(name: str) -> Callable[[Any], float]:
     return lambda value: number(value, name)
 
 
-def _truth(name):
+def _truth(name: str) -> Callable[[Any], bool]:
     return lambda value: truth(value, name)
 
 
-def _gains(value):
+def _gains(value: Any) -> Any:
     if not isinstance(value, Gains):
         raise TypeError(f"gains: something like baum.fixed(5, 5) is wanted, not {value!r}")
     return value.struct
 
 
-CONVERT = {
+CONVERT: dict[str, Callable[[Any], Any]] = {
     "formulation": _word(FORMULATIONS, "formulation"),
     "gains": _gains,
     "allow_unstable": _truth("allow_unstable"),
@@ -69,14 +107,23 @@ CONVERT = {
 }
 
 
-def _status_of(error):
-    """Why a run has ended that a Python exception has ended."""
+def _status_of(error: BaseException) -> Status:
+    """The Status of a run that an exception has ended."""
+    if isinstance(error, Error):
+        return error.status
     interrupted = isinstance(error, KeyboardInterrupt)
     return Status.STOP_CANCELLED if interrupted else Status.ERR_CALLBACK
 
 
-def make_options(method, values):
+def _check_names(options: Iterable[str], known: Sequence[str]) -> None:
+    for name in options:
+        if name not in known:
+            raise TypeError(f"no option {name!r}; there are: integrator, {', '.join(known)}")
+
+
+def make_options(method: Any, values: Mapping[str, Any]) -> Any:
     """The library's options from keyword arguments; None keeps a default."""
+    _check_names(values, [*CONVERT, "row_gains"])
     options = default(_abi.baum_simulation_options)
     if isinstance(method, (str, Integrator)):
         options.integrator = lookup(method).address
@@ -86,23 +133,19 @@ def make_options(method, values):
     else:
         raise TypeError(f"integrator: a name is wanted, not {method!r}")
     for name, value in values.items():
-        if name not in CONVERT:
-            raise TypeError(
-                f"no option {name!r}; there are: integrator, progress, "
-                + ", ".join([*CONVERT, "row_gains"])
-            )
         if value is not None:
             setattr(options, name, CONVERT[name](value))
     return options
 
 
-def _progress(holder):
+def _progress(holder: list[Watcher]) -> Any:
     """A progress function of the library that calls holder[0](t), which may change from call to
     call."""
 
-    def call(simulation, t, user):
+    def call(simulation: Any, t: float, user: Any) -> int:
         try:
-            return int(holder[0] is not None and bool(holder[0](t)))
+            watcher = holder[0]
+            return int(watcher is not None and bool(watcher(t)))
         except BaseException as error:
             _calls.raise_later(error)
             return 1
@@ -110,8 +153,8 @@ def _progress(holder):
     return _abi.baum_progress_fn(call)
 
 
-def _row_gains(mechanism, factors):
-    """Factors of all rows from those of some joints."""
+def row_factors(mechanism: Mechanism, factors: Any) -> Array:
+    """Factors of all rows (nc) from those of some joints."""
     if not hasattr(factors, "items"):
         raise TypeError(f"row_gains: {{joint: factor}} is wanted, not {factors!r}")
     values = np.ones(mechanism.sizes.nc)
@@ -126,79 +169,150 @@ def _row_gains(mechanism, factors):
     return values
 
 
-class Simulation:
-    """One run.
+def _checked(progress: Any) -> Any:
+    """A function, True for a bar, or None."""
+    if progress is None or progress is False:
+        return None
+    if progress is not True and not callable(progress):
+        raise TypeError(f"progress: a function or True is wanted, not {progress!r}")
+    return progress
 
-    integrator, and what it takes (baum.integrators() has them with order and formulations):
+
+def takes_options(method: Method) -> Method:
+    """A method that hands **options to Simulation, with these options in its signature."""
+    own = inspect.signature(method)
+    options = [
+        parameter
+        for parameter in inspect.signature(Simulation.__init__).parameters.values()
+        if parameter.kind is parameter.KEYWORD_ONLY
+    ]
+    shown = [parameter for parameter in own.parameters.values() if parameter.name != "options"]
+    known = [parameter.name for parameter in options]
+    named = {parameter.name for parameter in shown}
+
+    @functools.wraps(method)
+    def call(*arguments: Any, **given: Any) -> Any:
+        _check_names([name for name in given if name not in named], known)
+        return method(*arguments, **given)
+
+    call.__signature__ = own.replace(parameters=[*shown, *options])  # type: ignore[attr-defined]
+    return call  # type: ignore[return-value]
+
+
+class Simulation(_calls.Closing):
+    """One run of a frozen mechanism.
+
+    integrator: a name, and the option that it needs:
         "euler", "semi_implicit_euler", "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle",
-        "generalized_alpha"                  step [s]
+        "generalized_alpha"                  step
         "dp5", "rk8"                         step or rtol
         "cvode_adams", "cvode_bdf", "ida"    rtol
-        "kinematics"                         neither: drivers leave no freedom, nothing is integrated
-    formulation: "default", the first that the integrator offers; "unstabilized", "baumgarte",
-        "projection"; of IDA also "index2", "ggl", "index3"; "rattle" and "generalized_alpha" have
-        "index3" alone.
-    gains: baum.fixed(alpha, beta), scaled, frequency, taylor, deadbeat, best_damping, auto; for
-        "baumgarte". row_gains: {joint or its name: factor on alpha and beta}, a number or one per row
-        of the joint. allow_unstable: run with gains that are known to be unstable.
-    atol, added to rtol; tolerance_q, tolerance_v, tolerance_lambda: factors on both for positions,
-        velocities and multipliers (these of IDA with "baumgarte" or "unstabilized" only); max_step
-        [s], for variable steps where a force begins late.
-    energy_account: keep the works of Simulation.energy_account and of the channel "energy_account".
-    error_check: estimate the error of the motion by a second integration (counters.error_estimate),
-        and warn where it is large; with fixed steps this is done in any case where it may matter.
-    start_time [s], default 0. start: "assemble", "exact", "as_given". solver: "auto", "klu", "qr",
-        "block". check_derivatives: compare given derivatives with differences first. max_steps of
-        one call. progress(t) is called every progress_interval seconds of wall time, and cancels
-        when it returns something true.
+        "kinematics"                         neither: drivers prescribe all degrees of freedom
+        baum.integrators() lists them with order and formulations.
+    step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
+    atol: added to rtol [unit of the coordinate] >= 0, default none. max_step: longest variable step
+        [s] > 0, default none; for forces that start late.
+    formulation: "default" is the first that the integrator offers; "unstabilized", "baumgarte",
+        "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
+        "generalized_alpha" have "index3" only.
+    gains: for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(), deadbeat(),
+        best_damping() or auto(); None is the rule of the integrator. row_gains: {joint or its name:
+        factor on alpha and beta}, a number or one for each row of the joint. allow_unstable: run
+        with gains that are known to be unstable.
+    tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
+        and multipliers [-] > 0. tolerance_lambda: finite only for "ida" with "baumgarte" or
+        "unstabilized".
+    start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
+        configuration that violates them; "as_given" takes it as it is.
+    solver: "auto", "klu", "qr" or "block". check_derivatives: compare the derivatives of your
+        functions with differences first. max_steps: of one call, before it fails.
+    energy_account: account for the works that `energy_account` and its channel report.
+    error_check: estimate the error of the motion by a second integration
+        (counters.error_estimate), and warn if it is large. Fixed steps are checked in any case
+        where the error may matter.
+    progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
+        A function progress(t) is called every progress_interval seconds of wall time, and cancels
+        the run if it returns a true value.
 
-    Warnings of the run become Python warnings: subclasses of baum.Warning, and of baum.DoubtWarning
-    where the motion may be wrong. One thread at a time
-    may use it, but for cancel().
+    Warnings of the run become Python warnings: subclasses of baum.Warning, and of
+    baum.DoubtWarning if the motion may be wrong.
+
+    Use it in a `with` block to free its memory at the end of the block. One thread at a time may
+    use it, except for cancel().
+
+    Errors: TypeError and ValueError for options of a wrong type or unknown words; baum.Error for
+    options that the library refuses, and for a mechanism that is not frozen or cannot be assembled.
     """
 
-    def __init__(self, mechanism, integrator=None, *, progress=None, row_gains=None, **options):
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        integrator: str | Integrator | None = None,
+        *,
+        progress: Progress = None,
+        formulation: Formulation = "default",
+        gains: Gains | None = None,
+        row_gains: Mapping[Any, ArrayLike] | None = None,
+        allow_unstable: bool = False,
+        step: Scalar | None = None,
+        rtol: Scalar | None = None,
+        atol: Scalar | None = None,
+        max_step: Scalar | None = None,
+        start_time: Scalar = 0.0,
+        start: Start = "assemble",
+        solver: Solver = "auto",
+        check_derivatives: bool = True,
+        max_steps: int = 1_000_000_000,
+        progress_interval: Scalar = 0.05,
+        tolerance_q: Scalar = 1.0,
+        tolerance_v: Scalar = 1.0,
+        tolerance_lambda: Scalar = math.inf,
+        energy_account: bool = False,
+        error_check: bool = False,
+    ) -> None:
+        given = locals()
+        struct = make_options(integrator, {name: given[name] for name in CONVERT})
         self.mechanism = mechanism
-        if progress is not None and not callable(progress):
-            raise TypeError(f"progress: a function is wanted, not {progress!r}")
-        self._own_progress = progress
-        self._progress = [progress]
-        self._keep = _progress(self._progress)
-        self._has_account = bool(options.get("energy_account"))
-        self._layouts = {}
-        self._event_functions = []
-        self._warned = {}
-        self._seconds_per_step = None
-        struct = make_options(integrator, options)
-        struct.progress = self._keep
+        self._own_progress = _checked(progress)
+        self._own_watcher: Watcher = None if progress is True else self._own_progress
+        self._watcher = [self._own_watcher]
+        self._keep = struct.progress = _progress(self._watcher)
+        self._has_account = bool(energy_account)
+        self._layouts: dict[tuple[str, ...], Layout] = {}
+        self._event_functions: list[Any] = []
+        self._warned: dict[int, int] = {}
+        self._seconds_per_step: float | None = None
         if row_gains is not None:
-            factors = _row_gains(mechanism, row_gains)
+            factors = row_factors(mechanism, row_gains)
             struct.row_gains = factors.ctypes.data
             struct.row_gain_count = len(factors)
         out = ctypes.c_void_p()
+        create = lib.baum_simulation_create
         _calls.interruptible(
-            _calls.make,
-            lib.baum_simulation_create,
-            mechanism.handle,
-            ctypes.byref(struct),
-            ctypes.byref(out),
+            _calls.make, create, mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
         )
-        self._owner = _calls.Handle(out.value, lib.baum_simulation_destroy, "simulation")
+        self._owner = _calls.Handle(_calls.made(out), lib.baum_simulation_destroy, "simulation")
         self._sizes = mechanism.sizes
         self._warn()
 
-    def __repr__(self):
-        return f"<simulation at t = {self.time:g} s>"
+    def __repr__(self) -> str:
+        return (
+            "<simulation, closed>" if self._owner.closed else f"<simulation at t = {self.time:g} s>"
+        )
 
     # ---- moving ----------------------------------------------------------------------------------
 
-    def advance_to(self, t, progress=None):
-        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED, STOP_EVENT or
-        STOP_CANCELLED."""
-        return self._run(progress, lib.baum_simulation_advance_to, number(t, "t"))
+    def advance_to(self, t: Scalar, progress: Progress = None) -> Status:
+        """Advance to the time t [s], forward or backward.
 
-    def step(self, count=1, progress=None):
-        """Take whole steps forward. Returns the Status, as advance_to()."""
+        progress: as the option, for this call. Returns the Status: OK, WARNED, STOP_EVENT or
+        STOP_CANCELLED. Raises baum.Error if the run fails; it then keeps its last good step.
+        """
+        end = number(t, "t")
+        return self._run(progress, lib.baum_simulation_advance_to, end, end=end)
+
+    def step(self, count: int = 1, progress: Progress = None) -> Status:
+        """Take `count` whole steps forward. Returns and raises the same as advance_to()."""
         count = integer(count, "count", 64)
         begun = time.perf_counter()
         try:
@@ -208,102 +322,136 @@ class Simulation:
         finally:
             self._seconds_per_step = (time.perf_counter() - begun) / max(count, 1)
 
-    def _is_short(self, count):
+    def _is_short(self, count: int) -> bool:
         seconds = self._seconds_per_step
         return seconds is not None and seconds * count < AT_ONCE and not self._has_python
 
     @property
-    def _has_python(self):
+    def _has_python(self) -> bool:
         """Whether calls may come back through Python."""
         return self.mechanism.has_python or bool(self._event_functions)
 
-    def sample(self, times, record=()):
-        """Advance through times [s] and return a Run: q, v and the channels in `record` (one or
-        several) at each of them. What is raised, KeyboardInterrupt and exceptions of your functions
-        too, has what was recorded so far as `run`."""
-        times = vector(np.atleast_1d(times), None, "times")
-        if isinstance(record, (str, Channel)):
-            record = [record]
+    def sample(self, times: ArrayLike, record: ChannelLike | Sequence[ChannelLike] = ()) -> Run:
+        """Advance through times (n) [s] and return a Run with q, v and the channels in `record`,
+        one or several, at each of them.
+
+        Raises the same as advance_to(). Exceptions, also KeyboardInterrupt and those of your
+        functions, carry what was recorded so far as `run`.
+        """
+        given = vector(np.atleast_1d(times), None, "times")
+        channels = [record] if isinstance(record, (str, Channel)) else record
         layout = self._layout(
-            [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in record)]
+            [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in channels)]
         )
-        rows = layout.rows(len(times))
+        rows = layout.rows(len(given))
         done = ctypes.c_int64()
         arguments = (
-            address(times),
-            len(times),
+            address(given),
+            len(given),
             layout.structs,
             layout.count,
             address(rows),
             ctypes.byref(done),
         )
         try:
-            status = self._run(None, lib.baum_simulation_sample, *arguments)
+            end = float(given[-1]) if len(given) else None
+            status = self._run(None, lib.baum_simulation_sample, *arguments, end=end)
         except BaseException as error:
             if not self._owner.busy:
-                status = getattr(error, "status", _status_of(error))
-                error.run = self._make_run(layout, times, rows, done.value, status)
+                recorded = self._make_run(layout, given, rows, done.value, _status_of(error))
+                error.run = recorded  # type: ignore[attr-defined]
             raise
-        return self._make_run(layout, times, rows, done.value, status)
+        return self._make_run(layout, given, rows, done.value, status)
 
-    def _make_run(self, layout, times, rows, done, status):
-        account = (self.counters, self.explain, self.warnings)
-        run = Run(self.mechanism, layout, times[:done], rows[:done], status, account)
-        run.near_singular = self.near_singular
-        run.events = self.events
-        run.energy_account = self.energy_account if self._has_account else None
-        return run
+    def _make_run(
+        self, layout: Layout, times: Array, rows: Array, done: int, status: Status
+    ) -> Run:
+        works = self.energy_account if self._has_account else None
+        account = Account(
+            self.counters, self.explain, self.warnings, self.near_singular, self.events, works
+        )
+        return Run(self.mechanism, layout, times[:done], rows[:done], status, account)
 
-    def set_state(self, t, q, v=None):
-        """Replace time [s] and state, which is handled as the option `start` says. v, or parts of
-        it, may be left free: None or NaN."""
+    def set_state(self, t: Scalar, q: ArrayLike, v: ArrayLike | None = None) -> None:
+        """Replace the time t [s] and the state q (nq), v (nv).
+
+        The option `start` decides how constraint violations are handled. v, or parts of it, may be
+        None or NaN with start="assemble": assembly then chooses them. Raises baum.Error if the
+        state cannot be assembled; the run is then unchanged.
+        """
         nq, nv, _ = self._sizes
         q = vector(q, nq, "q")
         v = np.full(nv, np.nan) if v is None else vector(v, nv, "v")
         self._call(lib.baum_simulation_set_state, number(t, "t"), address(q), address(v))
         self._warn()
 
-    def set_input(self, input, value):
-        """Set an input from now on, given as a handle or by name; it is held until it is set again.
-        Variable-step methods restart, which costs multistep ones small steps: a loop that sets
-        inputs often goes best with a fixed step, or with "rk8"."""
-        input = self.mechanism.find("input", input)
-        self._call(lib.baum_simulation_set_input, input.id, number(value, input.name))
+    def set_input(self, input: InputLike, value: Scalar) -> None:
+        """Set an input from the present time on. It is held until it is set again.
 
-    def schedule_input(self, input, times, values):
-        """Give an input values[k] from times[k] [s] on, rising; before the first it has its present
-        one. No step passes a time, and methods with a past restart there. set_input() ends it."""
-        input = self.mechanism.find("input", input)
-        times = vector(np.atleast_1d(times), None, f"{input.name}: times")
-        values = vector(np.atleast_1d(values), len(times), f"{input.name}: values")
-        self._call(
-            lib.baum_simulation_schedule_input, input.id, address(times), address(values), len(times)
-        )
+        Variable-step methods restart, which costs multistep methods small steps. A loop that sets
+        inputs often runs best with a fixed step, or with "rk8".
+        """
+        found = self.mechanism.find("input", input)
+        self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
+
+    def schedule_input(self, input: InputLike, times: ArrayLike, values: ArrayLike) -> None:
+        """Give an input values[k] from times[k] [s] on; before times[0] it keeps its present value.
+
+        times: (n) rising. values: (n). No step passes one of the times, and multistep methods
+        restart there. set_input() ends the schedule.
+        """
+        found = self.mechanism.find("input", input)
+        at = vector(np.atleast_1d(times), None, f"{found.name}: times")
+        what = vector(np.atleast_1d(values), len(at), f"{found.name}: values")
+        schedule = lib.baum_simulation_schedule_input
+        self._call(schedule, found.id, address(at), address(what), len(at))
 
     @property
-    def inputs(self):
+    def inputs(self) -> dict[str, float]:
         """Present values of all inputs by name, a copy."""
         return {
-            input.name: lib.baum_simulation_input(self._owner._address, input.id)
+            input.name: lib.baum_simulation_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
         }
 
-    def set_driver(self, driver, value, rate=0.0, acceleration=0.0):
-        """Give a driver another law, for this run only: with the present time t0 its coordinate is
-        value + rate (t - t0) + acceleration (t - t0)^2 / 2, until it is set again. Lead on from
-        where the coordinate is: a jump in value or rate is a violation, which the formulation
-        treats as any other."""
-        driver = self.mechanism.find("joint", driver)
-        law = {"value": value, "rate": rate, "acceleration": acceleration}
-        law = [number(part, f"{driver.name}: {name}") for name, part in law.items()]
-        self._call(lib.baum_simulation_set_driver, driver.id, *law)
+    def set_driver(
+        self,
+        driver: JointLike,
+        value: Scalar,
+        rate: Scalar = 0.0,
+        acceleration: Scalar = 0.0,
+    ) -> None:
+        """Give a driver another law in this run, until it is set again. With the present time t0,
+        its coordinate is value + rate (t - t0) + acceleration (t - t0)^2 / 2.
 
-    def event(self, joint=None, value=0.0, *, function=None, direction=0, terminal=True, name=None,
-              tolerance=None):
-        """Add an event, from the present state on, and return its number: the coordinate of a joint
-        passes value, or function(t, q, v) of the whole run passes zero; direction 1 rising, -1
-        falling in time, 0 both. A terminal one ends the call with Status.STOP_EVENT, and the run
-        stands at it; the next call goes on. See `events`."""
+        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. Continue
+        from the present coordinate: a jump in value or rate is a constraint violation, which the
+        formulation treats like any other.
+        """
+        found = self.mechanism.find("joint", driver)
+        law = {"value": value, "rate": rate, "acceleration": acceleration}
+        parts = [number(part, f"{found.name}: {name}") for name, part in law.items()]
+        self._call(lib.baum_simulation_set_driver, found.id, *parts)
+
+    def event(
+        self,
+        joint: JointLike | None = None,
+        value: Scalar = 0.0,
+        *,
+        function: Callable[[float, Array, Array], ArrayLike] | None = None,
+        direction: int = 0,
+        terminal: bool = True,
+        name: str | None = None,
+        tolerance: Scalar | None = None,
+    ) -> int:
+        """Add an event from the present state on, and return its number.
+
+        The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
+        function(t, q, v) of the whole state passes zero. direction: 1 rising, -1 falling in time, 0
+        both. terminal: the call ends with Status.STOP_EVENT at the event, and the next call
+        continues; otherwise it is only recorded in `events`. name: for messages. tolerance: of the
+        time [s], default chosen by the library.
+        """
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()
         if joint is not None:
@@ -321,9 +469,9 @@ class Simulation:
         return index.value
 
     @property
-    def events(self):
-        """What has happened so far, of which the last 1024 are kept: Event(t, event, direction)."""
-        count = lib.baum_simulation_event_count(self._owner._address)
+    def events(self) -> list[Event]:
+        """Events that have happened so far; the last 1024 are kept."""
+        count = lib.baum_simulation_event_count(self._owner.address)
         record = _abi.baum_event_record()
         happened = []
         for k in range(max(0, count - 1024), count):
@@ -332,38 +480,55 @@ class Simulation:
             happened.append(Event(record.t, record.event, record.direction))
         return happened
 
-    def save(self):
-        """The run as bytes, to be restored in this or another process. Methods of several steps and
-        those that choose their step restart from here, so that this run and a restored one go on
-        alike, bit for bit."""
+    def save(self) -> bytes:
+        """The state of the run as bytes, for restore() in this or another process.
+
+        Integrator history is not saved; saving discards it just as restoring does, so that both
+        runs continue identically, bit for bit.
+        """
         size = ctypes.c_size_t()
         self._call(lib.baum_simulation_save, None, 0, ctypes.byref(size))
         buffer = ctypes.create_string_buffer(size.value)
         self._call(lib.baum_simulation_save, buffer, size.value, ctypes.byref(size))
         return buffer.raw[: size.value]
 
-    def restore(self, saved):
-        """Put this run back to where `saved` was: a run of the same mechanism and options. Anything
-        else is refused with Status.ERR_BUFFER. Warnings of the saved run are not given again."""
-        saved = bytes(memoryview(saved))
-        self._call(lib.baum_simulation_restore, saved, len(saved))
+    def restore(self, saved: bytes | bytearray | memoryview) -> None:
+        """Return to the state that save() has returned, in a run of the same mechanism and options.
+
+        Raises baum.Error with Status.ERR_BUFFER for anything else. Warnings of the saved run are
+        not repeated.
+        """
+        given = bytes(memoryview(saved))
+        self._call(lib.baum_simulation_restore, given, len(given))
         self._warned = {warning.code: warning.count for warning in self.warnings}
 
-    def continue_from(self, other):
-        """Go on where another run of the same mechanism stands, also one that has failed: with its
-        state, inputs and laws of drivers, and the options of this one."""
+    def continue_from(self, other: Simulation) -> None:
+        """Continue where another run of the same mechanism stands, also one that has failed: with
+        its state, inputs and driver laws, and the options of this run."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
-        self._call(lib.baum_simulation_continue, other._owner._address)
+        self._call(lib.baum_simulation_continue, other._owner.address)
         self._warn()
 
-    def cancel(self):
-        """Ask a run to stop after its present step. From any thread or signal handler."""
-        lib.baum_simulation_cancel(self._owner._address)
+    def cancel(self) -> None:
+        """Ask the run to stop after its present step. May be called from any thread or signal
+        handler."""
+        lib.baum_simulation_cancel(self._owner.address)
 
-    def _run(self, progress, function, *arguments, at_once=False):
-        """A call that moves the run."""
-        self._progress[0] = progress or self._own_progress
+    def _run(
+        self,
+        progress: Progress,
+        function: Any,
+        *arguments: Any,
+        at_once: bool = False,
+        end: float | None = None,
+    ) -> Status:
+        """A call that moves the run, to the time `end` if that is known."""
+        wanted = _checked(progress) if progress is not None else self._own_progress
+        out = stream() if wanted is True and end is not None else None
+        line = None if out is None or end is None else RunLine(out, self.time, end)
+        self._watcher[0] = line or (wanted if callable(wanted) else None)
+        status: Status
         try:
             if at_once:
                 status = self._owner.call(function, *arguments)
@@ -375,13 +540,15 @@ class Simulation:
             self._warn()
             raise
         finally:
-            self._progress[0] = self._own_progress
+            self._watcher[0] = self._own_watcher
+            if line is not None:
+                line.close()
         if status != Status.OK:
             self._warn()
         return status
 
-    def _call(self, function, *arguments):
-        """A short call; in a thread of its own only when it may come back through Python."""
+    def _call(self, function: Any, *arguments: Any) -> Any:
+        """A short call, in a second thread only if it may come back through Python."""
         if self._has_python:
             return _calls.interruptible(self._owner.call, function, *arguments)
         return self._owner.call(function, *arguments)
@@ -389,65 +556,67 @@ class Simulation:
     # ---- reading ---------------------------------------------------------------------------------
 
     @property
-    def time(self):
+    def time(self) -> float:
         """Present time [s]."""
-        return lib.baum_simulation_time(self._owner._address)
+        return float(lib.baum_simulation_time(self._owner.address))
 
     @property
-    def q(self):
+    def q(self) -> Array:
         """Present positions (nq), a copy."""
         return self._copy(lib.baum_simulation_q, self._sizes.nq)
 
     @property
-    def v(self):
+    def v(self) -> Array:
         """Present velocities (nv), a copy."""
         return self._copy(lib.baum_simulation_v, self._sizes.nv)
 
-    def _copy(self, function, size):
-        place = function(self._owner._address)
+    def _copy(self, function: Any, size: int) -> Array:
+        place = function(self._owner.address)
         return np.array((ctypes.c_double * size).from_address(place))
 
-    def get(self, *channels):
-        """A channel at the present state: an array of its columns; a tuple of arrays for
-        several."""
-        channels = [self.mechanism.channel(channel) for channel in channels]
-        layout = self._layout(channels)
+    @overload
+    def get(self, channel: ChannelLike, /) -> Array: ...
+    @overload
+    def get(
+        self, one: ChannelLike, two: ChannelLike, /, *more: ChannelLike
+    ) -> tuple[Array, ...]: ...
+    def get(self, *channels: ChannelLike) -> Array | tuple[Array, ...]:
+        """Channels at the present state: an array (columns) for one channel, a tuple of arrays for
+        several. Raises KeyError for a channel that does not exist."""
+        found = [self.mechanism.channel(channel) for channel in channels]
+        layout = self._layout(found)
         row = layout.rows(1)
         self._call(lib.baum_simulation_get, layout.structs, layout.count, address(row))
-        parts = tuple(row[0, layout.slices[channel.key]] for channel in channels)
+        parts = tuple(row[0, layout.slices[channel.key]] for channel in found)
         return parts[0] if len(parts) == 1 else parts
 
-    def _layout(self, channels):
+    def _layout(self, channels: Sequence[Channel]) -> Layout:
         key = tuple(channel.key for channel in channels)
         if key not in self._layouts:
             self._layouts[key] = Layout(self.mechanism, channels)
         return self._layouts[key]
 
     @property
-    def unique_multipliers(self):
-        """Which multipliers have no choice at the present state, one bool per constraint row."""
+    def unique_multipliers(self) -> NDArray[np.bool_]:
+        """Which multipliers are unique at the present state: one bool per constraint row (nc)."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)
         return np.array(unique, dtype=bool)
 
     @property
-    def energy_account(self):
-        """Where the energy has come from; with the option energy_account=True."""
+    def energy_account(self) -> EnergyAccount:
+        """Where the energy has come from. Raises baum.Error without energy_account=True."""
         struct = _abi.baum_energy_account()
-        self._call(
-            lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct)
-        )
+        self._call(lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct))
         return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
 
     @property
-    def near_singular(self):
-        """Intervals in which the run was near a singular configuration, the first 64."""
+    def near_singular(self) -> list[NearSingular]:
+        """Intervals in which the run was near a singular configuration; the first 64 are kept."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()
-            self._call(
-                lib.baum_simulation_near_singular, k, ctypes.byref(out), ctypes.sizeof(out)
-            )
+            self._call(lib.baum_simulation_near_singular, k, ctypes.byref(out), ctypes.sizeof(out))
             values = {name: getattr(out, name) for name in NearSingular._fields}
             values["branch"] = BRANCHES[values["branch"]]
             values["joint"] = self.mechanism.find("joint", values["joint"])
@@ -455,36 +624,28 @@ class Simulation:
         return found
 
     @property
-    def counters(self):
-        """What the run has cost and how well constraints were kept."""
+    def counters(self) -> Counters:
+        """What the run has cost and how well it has kept the constraints."""
         struct = _abi.baum_counters()
         self._call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
         values = [getattr(struct, name) for name in Counters._fields]
-        return Counters(
-            *(
-                (
-                    self.mechanism.find("joint", value)
-                    if isinstance(value, ctypes.Structure)
-                    else value
-                )
-                for value in values
-            )
+        return Counters._make(
+            self.mechanism.find("joint", value) if isinstance(value, ctypes.Structure) else value
+            for value in values
         )
 
     @property
-    def warnings(self):
-        """A baum.Warning for each kind of warnings so far, with the time and count of it."""
+    def warnings(self) -> list[Warning]:
+        """A baum.Warning for each kind of warnings so far, with its times and count."""
         found = []
         for k in range(self.counters.warnings):
             out = _abi.baum_warning()
-            self._owner.call(
-                lib.baum_simulation_warning, k, ctypes.byref(out), ctypes.sizeof(out)
-            )
+            self._owner.call(lib.baum_simulation_warning, k, ctypes.byref(out), ctypes.sizeof(out))
             found.append(as_warning(out, self.mechanism.find("joint", out.joint)))
         return found
 
-    def _warn(self):
-        """Hand warnings that are new, or came again, to Python."""
+    def _warn(self) -> None:
+        """Issue warnings that are new or have occurred again."""
         before, self._warned = self._warned, {}
         for warning in self.warnings:
             self._warned[warning.code] = warning.count
@@ -492,12 +653,12 @@ class Simulation:
                 warn(warning)
 
     @property
-    def explain(self):
-        """In words: formulation, integrator, gains and why, stability, solver, redundancy,
-        tolerances."""
-        return lib.baum_simulation_explain(self._owner._address).decode(errors="replace")
+    def explain(self) -> str:
+        """How the run is done: formulation, integrator, gains and their reason, stability, solver,
+        redundancy, tolerances."""
+        return text(lib.baum_simulation_explain(self._owner.address))
 
     @property
-    def message(self):
-        """The message of the last failure or stop, "" at first."""
-        return lib.baum_simulation_message(self._owner._address).decode(errors="replace")
+    def message(self) -> str:
+        """The message of the last failure or stop, "" before."""
+        return text(lib.baum_simulation_message(self._owner.address))

@@ -1,21 +1,35 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Speed against accuracy: many runs of one mechanism, what each costs, and which one to take."""
+"""Accuracy against cost: many runs of one mechanism, the cost of each, and a recommendation."""
+
+from __future__ import annotations
 
 import ctypes
+import math
 import os
-from collections import namedtuple
+from typing import TYPE_CHECKING, Any, Callable, Literal, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
-from . import _abi, _calls
-from ._lib import default, lib
+from . import _abi, _calls, _html
+from ._lib import default, lib, text
+from ._records import StudyEntry, StudyMethod, StudyReference
 from ._values import address, integer, number, numbers, truth, vector
 from .channels import Channel
 from .errors import Status, Warning, as_status, warn
 from .gains import Gains
-from .integrators import FORMULATIONS, lookup, names
-from .progress import Line, stream
-from .simulation import SOLVERS, STARTS, _row_gains, make_options
+from .integrators import FORMULATIONS, Integrator, lookup, names
+from .progress import StudyLine, stream
+from .simulation import SOLVERS, STARTS, make_options, row_factors
+from .typing import Array, ArrayLike, ChannelLike, Cost, Formulation, Scalar
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .mechanism import Mechanism
+    from .typing import SettingOptions
+
+StudyProgress = Union[Callable[[int, int], object], Literal[False], None]
+Solution = Callable[[float], Sequence[ArrayLike]]
 
 COSTS = names(_abi.baum_study_cost, "BAUM_STUDY_")
 FORMS = names(_abi.baum_report_form, "BAUM_REPORT_")
@@ -23,39 +37,27 @@ SUFFIXES = {".txt": "text", ".csv": "csv", ".json": "json", ".html": "page"}
 WHY_SIZE = 2048
 
 
-def _swap(words):
+def _swap(words: Mapping[str, int]) -> dict[int, str]:
     return {value: word for word, value in words.items()}
 
 
-def _record(name, struct, doc):
-    made = namedtuple(name, [field for field, _ in struct._fields_[1:]])
-    made.__doc__ = doc
-    return made
+class ReferenceSamples(NamedTuple):
+    """Samples of the reference of a study; NaN where not known.
+
+    t: times (n) [s]. q: (n x nq). v: (n x nv). lambda_: (n x nc).
+    """
+
+    t: Array
+    q: Array
+    v: Array
+    lambda_: Array
 
 
-StudyEntry = _record(
-    "StudyEntry",
-    _abi.baum_study_entry,
-    """What a setting costs and how exact it is; see baum_study_entry in study.h. Integrator,
-formulation, gains and state are words or objects of this package, NaN is not known.""",
-)
-StudyMethod = _record(
-    "StudyMethod",
-    _abi.baum_study_method,
-    """Entries with the same integrator, formulation and gains; see baum_study_method in study.h.""",
-)
-StudyReference = _record(
-    "StudyReference",
-    _abi.baum_study_reference,
-    """How far the reference of a study can be trusted; see baum_study_reference in study.h.""",
-)
+class Recommendation(dict[str, Any]):
+    """Options for Mechanism.simulate() and simulation(): m.simulate(t, **best). why: the reason,
+    with the measured figures."""
 
-
-class Recommendation(dict):
-    """Keyword options for Mechanism.simulate() and simulation(): m.simulate(t, **best). `why` is a
-    message with what was measured."""
-
-    def __init__(self, options, why):
+    def __init__(self, options: Mapping[str, Any], why: str) -> None:
         super().__init__(options)
         self.why = why
 
@@ -74,7 +76,7 @@ GAINS = {
 RULES = _swap(names(_abi.baum_gain_rule, "BAUM_GAINS_"))
 
 
-def _gains(struct):
+def _gains(struct: Any) -> Gains | None:
     """The Gains of a struct; None for the rule of the integrator."""
     rule = RULES[struct.rule]
     if rule == "default":
@@ -82,10 +84,10 @@ def _gains(struct):
     return Gains(rule, **dict(zip(GAINS[rule], struct.value)))
 
 
-def _value(name, value):
-    """A field of a struct as this package has it."""
+def _value(name: str, value: Any) -> Any:
+    """A field of a struct in the types of this package."""
     if isinstance(value, bytes):
-        return value.decode(errors="replace")
+        return text(value)
     if name == "integrator":
         return lib.baum_integrator_name(value).decode()
     if name == "formulation":
@@ -99,7 +101,7 @@ def _value(name, value):
     return as_status(value) if name == "status" else value
 
 
-def _cost(word):
+def _cost(word: str) -> int:
     if word not in COSTS:
         raise ValueError(f"no cost {word!r}; there are: {', '.join(COSTS)}")
     return COSTS[word]
@@ -108,114 +110,154 @@ def _cost(word):
 # ---- studies -------------------------------------------------------------------------------------
 
 
-class Study:
+class Study(_calls.Closing):
     """Many runs of one frozen mechanism from t0 to t1 [s].
 
         best = baum.study(m, 0, 2).run().recommend(1e-6)
         print(best.why)
         run = m.simulate(t, **best)
 
-    error: channels or their names whose largest difference from the reference, over `unit`, is what
-        error means; left out all positions, lengths by the scale and angles in radians.
-    reference: (times, q), (times, q, v) or (times, q, v, lambda_) with a sample a line, or
-        solution(t), which returns (q, v) or (q, v, lambda_), in place of the study's own; `digits`
-        says how far it can be trusted.
-    samples, repeats, entry_limit [s of CPU time], time_budget [s of wall time], energy_account,
-        validate, file: see baum_study_options in study.h. threads: left out as many as there are
-        processors, but one for a mechanism with functions of Python.
-    grid: what run() adds to a study without settings: "quick", which takes about a minute where
-        functions of Python are called and seconds otherwise, or "full", about 25 times as long.
-    progress: left out, a line with an estimate of the time left where somebody watches, in a terminal
-        or a notebook; False: nothing. progress(done, total) is called after entries, of which timed ones
-        count twice, and cancels when it returns something true; of the study it can use cancel() and
-        len() alone.
+    error: channels or their names; the error is their largest difference from the reference,
+        divided by `unit`. By default all positions, with lengths relative to the characteristic
+        length and angles in radians.
+    reference, solution, digits: a reference instead of the study's own. reference is (times, q),
+        (times, q, v) or (times, q, v, lambda_) with a row for each time; solution(t) returns (q, v)
+        or (q, v, lambda_). digits: the number of digits that can be trusted.
+    samples: times at which errors are taken, 2 to 1e6. repeats: most runs for the CPU time of an
+        entry. entry_limit: longest run of an entry, CPU time [s]. time_budget: of one run(), wall
+        time [s]. threads: default the number of processors, but 1 for a mechanism with Python
+        functions. energy_account: measure the works of the stabilization. validate: also run
+        entries that may be recommended over twice the span and from other starts.
+    file: path of a file that keeps the results, from which a later study continues.
+    grid: what run() adds to a study without settings: "quick", which takes seconds, or about a
+        minute with Python functions; or "full", about 25 times as long.
+    progress: by default a bar with an estimate of the time left, in a terminal or a notebook;
+        False: nothing. A function progress(done, total) is called after entries, of which timed
+        ones count twice, and cancels if it returns a true value; of the study it may use cancel()
+        and len() only.
+
+    Use it in a `with` block to free its memory and file at the end of the block.
+
+    Errors: TypeError and ValueError for arguments of a wrong type or unknown words; baum.Error for
+    values that the library refuses.
     """
 
-    def __init__(self, mechanism, t0, t1, *, error=None, unit=1.0, reference=None, solution=None,
-                 digits=None, progress=None, threads=None, file=None, grid="quick", **options):
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        t0: Scalar,
+        t1: Scalar,
+        *,
+        error: ChannelLike | Sequence[ChannelLike] | None = None,
+        unit: Scalar = 1.0,
+        reference: Sequence[ArrayLike | None] | None = None,
+        solution: Solution | None = None,
+        digits: Scalar | None = None,
+        samples: int = 100,
+        threads: int | None = None,
+        repeats: int = 5,
+        entry_limit: Scalar = 10.0,
+        time_budget: Scalar = math.inf,
+        energy_account: bool = True,
+        validate: bool = True,
+        file: str | os.PathLike[str] | None = None,
+        grid: Literal["quick", "full"] = "quick",
+        progress: StudyProgress = None,
+    ) -> None:
         self.mechanism = mechanism
         if grid not in ("quick", "full"):
-            raise ValueError(f'no grid {grid!r}; there are: quick, full')
+            raise ValueError(f"no grid {grid!r}; there are: quick, full")
         if not (progress is None or progress is False or callable(progress)):
             raise TypeError(f"progress: a function or False is wanted, not {progress!r}")
         self._quick = grid == "quick"
-        self._progress = progress
+        self._progress: Callable[[int, int], object] | None = progress or None
+        self._silent = progress is False
         out = ctypes.c_void_p()
-        _calls.make(lib.baum_study_create, mechanism.handle, number(t0, "t0"), number(t1, "t1"),
-                    ctypes.byref(out))
-        self._owner = _calls.Handle(out.value, lib.baum_study_destroy, "study")
-        self._error = None
-        self._keep = []
+        start, end = number(t0, "t0"), number(t1, "t1")
+        _calls.make(lib.baum_study_create, mechanism.handle, start, end, ctypes.byref(out))
+        self._owner = _calls.Handle(_calls.made(out), lib.baum_study_destroy, "study")
+        self._error: BaseException | None = None
+        self._keep: list[Any] = []
         if threads is None:
             threads = 1 if mechanism.has_python else os.cpu_count() or 1
-        self._set_options(file, dict(options, threads=threads))
+        options = default(_abi.baum_study_options)
+        options.samples = integer(samples, "samples")
+        options.threads = integer(threads, "threads")
+        options.repeats = integer(repeats, "repeats")
+        options.entry_limit = number(entry_limit, "entry_limit")
+        options.time_budget = number(time_budget, "time_budget")
+        options.energy_account = truth(energy_account, "energy_account")
+        options.validate = truth(validate, "validate")
+        options.file = None if file is None else os.fsencode(file)
+        options.progress = self._hold(_abi.baum_study_progress_fn, self._call_progress)
+        self._owner.call(lib.baum_study_set_options, ctypes.byref(options))
         if error is not None:
             self._set_error(error, unit)
         if (reference is None and solution is None) != (digits is None):
-            raise TypeError("reference or solution and digits, which says how many of its digits "
-                            "can be trusted, go together")
+            raise TypeError(
+                "reference or solution and digits, which says how many of its digits can be "
+                "trusted, go together"
+            )
         if reference is not None:
             self._set_reference(reference, number(digits, "digits"))
         if solution is not None:
             self._set_solution(solution, number(digits, "digits"))
 
-    def __repr__(self):
-        return f"<study of {len(self)} entries>"
+    def __repr__(self) -> str:
+        return "<study, closed>" if self._owner.closed else f"<study of {len(self)} entries>"
 
-    def __len__(self):
-        return lib.baum_study_entry_count(self._owner._address)
+    def _repr_html_(self) -> str:
+        """A table of the front for notebooks."""
+        rows = [
+            (entry.name, entry.error, entry.work, entry.cpu, entry.max_phi)
+            for entry in (self.entries[k] for k in self.front())
+        ]
+        caption = f"study of {len(self)} entries: the front"
+        header = ("setting", "error", "work [evaluations]", "CPU time [s]", "max |Phi| [m or rad]")
+        return _html.table(caption, header, rows)
+
+    def __len__(self) -> int:
+        return int(lib.baum_study_entry_count(self._owner.address))
 
     # ---- what is studied -------------------------------------------------------------------------
 
-    def _set_options(self, file, values):
-        struct = default(_abi.baum_study_options)
-        whole = {"samples", "threads", "repeats"}
-        for name, value in values.items():
-            if name not in whole | {"entry_limit", "time_budget", "energy_account", "validate"}:
-                raise TypeError(f"a study has no option {name!r}")
-            if name in whole:
-                value = integer(value, name)
-            setattr(struct, name, value)
-        struct.file = None if file is None else os.fsencode(file)
-        struct.progress = self._hold(_abi.baum_study_progress_fn, self._call_progress)
-        self._owner.call(lib.baum_study_set_options, ctypes.byref(struct))
-
-    def _hold(self, kind, function):
+    def _hold(self, kind: Any, function: Any) -> Any:
         """A function of the library that lives as long as the study."""
         self._keep.append(kind(function))
         return self._keep[-1]
 
-    def _call_progress(self, study, done, total, user):
+    def _call_progress(self, study: Any, done: int, total: int, user: Any) -> int:
         try:
-            return int(bool(self._progress and self._progress(done, total)))
+            return int(self._progress is not None and bool(self._progress(done, total)))
         except BaseException as error:
             self._error = error
             return 1
 
-    def _set_error(self, error, unit):
-        error = [error] if isinstance(error, (str, Channel)) else error
-        structs = [self.mechanism.channel(channel).struct for channel in error]
+    def _set_error(self, error: ChannelLike | Sequence[ChannelLike], unit: Scalar) -> None:
+        given = [error] if isinstance(error, (str, Channel)) else error
+        structs = [self.mechanism.channel(channel).struct for channel in given]
+        if not structs:
+            raise ValueError("error: one channel or several are wanted, not none")
         channels = (_abi.baum_channel * len(structs))(*structs)
         self._owner.call(lib.baum_study_set_error, channels, len(structs), number(unit, "unit"))
 
-    def _set_reference(self, reference, digits):
-        times, *parts = reference
-        times = vector(np.atleast_1d(times), None, "reference: times")
-        sizes = self.mechanism.sizes
-        arrays = []
-        for part, size, label in zip(parts, sizes, ("q", "v", "lambda_")):
+    def _set_reference(self, reference: Sequence[ArrayLike | None], digits: float) -> None:
+        times = vector(np.atleast_1d(np.asarray(reference[0])), None, "reference: times")
+        arrays: list[Array | None] = []
+        for part, size, label in zip(reference[1:], self.mechanism.sizes, ("q", "v", "lambda_")):
             if part is not None:
                 part = np.asarray(part, dtype=float).reshape(-1)
                 part = vector(part, len(times) * size, f"reference: {label}")
             arrays.append(part)
         arrays += [None] * (3 - len(arrays))
-        self._owner.call(lib.baum_study_set_reference, address(times), len(times),
-                         *map(address, arrays), digits)
+        places = map(address, arrays)
+        set_reference = lib.baum_study_set_reference
+        self._owner.call(set_reference, address(times), len(times), *places, digits)
 
-    def _set_solution(self, solution, digits):
+    def _set_solution(self, solution: Solution, digits: float) -> None:
         sizes = self.mechanism.sizes
 
-        def call(t, q, v, lambda_, user):
+        def call(t: float, q: Any, v: Any, lambda_: Any, user: Any) -> int:
             try:
                 for place, size, part in zip((q, v, lambda_), sizes, solution(t)):
                     if part is not None:
@@ -231,77 +273,104 @@ class Study:
 
     # ---- settings --------------------------------------------------------------------------------
 
-    def add(self, integrator, *, row_gains=None, **options):
-        """Add one setting, with the options of Simulation. Returns the study."""
+    def add(
+        self,
+        integrator: str | Integrator,
+        *,
+        row_gains: Mapping[Any, ArrayLike] | None = None,
+        **options: Unpack[SettingOptions],
+    ) -> Study:
+        """Add one setting: an integrator with options of baum.Simulation. Returns the study."""
         struct = make_options(integrator, options)
         if row_gains is not None:
-            factors = _row_gains(self.mechanism, row_gains)
+            factors = row_factors(self.mechanism, row_gains)
             struct.row_gains = factors.ctypes.data
             struct.row_gain_count = len(factors)
         self._owner.call(lib.baum_study_add, ctypes.byref(struct))
         return self
 
-    def add_standard(self, integrator=None, formulation="default", **grid):
-        """Add the full standard grid, or with quick=True the quick one, or what of it is of one
-        integrator or formulation; settings, constants, coarsest [s], finest: see baum_study_grid in
-        study.h. Returns the study."""
+    def add_standard(
+        self,
+        integrator: str | Integrator | None = None,
+        formulation: Formulation = "default",
+        *,
+        settings: int = 8,
+        constants: int = 2,
+        coarsest: Scalar | None = None,
+        finest: Scalar | None = None,
+        quick: bool = False,
+    ) -> Study:
+        """Add the standard grid, or its part of one integrator or formulation. Returns the study.
+
+        settings: steps or tolerances of each method, 1 to 64. constants: constant gains beside the
+        rules, 0 to 4. coarsest: longest step of methods of order 2 and more [s], default by the
+        speed of the motion. finest: least rtol [-], default 1e-13, or 1e-11 if derivatives are
+        computed by differences. quick: the quick grid with at most 5 settings of each integrator.
+        """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
             struct.integrator = lookup(integrator).address
         if formulation not in FORMULATIONS:
-            raise ValueError(f"no formulation {formulation!r}; there are: {', '.join(FORMULATIONS)}")
+            raise ValueError(
+                f"no formulation {formulation!r}; there are: {', '.join(FORMULATIONS)}"
+            )
         struct.formulation = FORMULATIONS[formulation]
-        for name, value in grid.items():
-            if name not in ("settings", "constants", "coarsest", "finest", "quick"):
-                raise TypeError(f"the standard grid has no option {name!r}")
-            setattr(struct, name, truth(value, name) if name == "quick" else value)
+        struct.settings = integer(settings, "settings")
+        struct.constants = integer(constants, "constants")
+        if coarsest is not None:
+            struct.coarsest = number(coarsest, "coarsest")
+        if finest is not None:
+            struct.finest = number(finest, "finest")
+        struct.quick = truth(quick, "quick")
         self._long(lib.baum_study_add_standard, ctypes.byref(struct))
         return self
 
-    def add_stress(self, integrator=None):
-        """Add stress settings of all integrators or of one: extreme steps, tolerances and gains; see
-        baum_study_add_stress() in study.h. Returns the study."""
-        address = None if integrator is None else lookup(integrator).address
-        self._long(lib.baum_study_add_stress, address)
+    def add_stress(self, integrator: str | Integrator | None = None) -> Study:
+        """Add stress settings of all integrators or of one: extreme steps, tolerances and gains.
+        Returns the study."""
+        place = None if integrator is None else lookup(integrator).address
+        self._long(lib.baum_study_add_stress, place)
         return self
 
     # ---- running ---------------------------------------------------------------------------------
 
-    def run(self):
-        """Make the reference and run the entries that are not done; without any the grid of the study
-        is added first. A reference that is not to be trusted, and a budget that is spent, are Python
-        warnings. Where a function of the mechanism raises, the entry fails, and its message tells
-        what was raised. Returns the study."""
+    def run(self) -> Study:
+        """Compute the reference and run the entries that are not done. Returns the study.
+
+        A study without entries first adds its grid. A reference that cannot be trusted and a spent
+        budget are Python warnings. If a function of the mechanism raises, the entry fails, and its
+        message contains the exception.
+        """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
-        out = stream() if self._progress is None else None
+        out = None if self._silent or self._progress is not None else stream()
         if out is None:
             status, message = self._long(lib.baum_study_run)
         else:
-            self._progress = Line(out, [entry.method for entry in self.entries])
+            self._progress = line = StudyLine(out, [entry.method for entry in self.entries])
             try:
                 status, message = self._long(lib.baum_study_run)
             finally:
-                self._progress.close()
+                line.close()
                 self._progress = None
         if status != Status.OK:
             warn(Warning(message))
         return self
 
-    def cancel(self):
-        """Ask run() to stop; from any thread."""
-        lib.baum_study_cancel(self._owner._address)
+    def cancel(self) -> None:
+        """Ask run() to stop. May be called from any thread."""
+        lib.baum_study_cancel(self._owner.address)
 
-    def _long(self, function, *arguments):
-        """A call that may take long, and its message. What a function of the user raised is raised
-        here, whichever thread it was called from."""
+    def _long(self, function: Any, *arguments: Any) -> tuple[Status, str]:
+        """A call that may take long, and its message. An exception of a function of the user is
+        raised here, whichever thread called it."""
 
-        def call():
+        def call() -> tuple[Status, str]:
             return self._owner.call(function, *arguments), _calls.message()
 
         self._error = None
         try:
-            result = _calls.interruptible(call, cancel=self.cancel)
+            result: tuple[Status, str] = _calls.interruptible(call, cancel=self.cancel)
         except Exception as failure:
             if self._error is not None:
                 raise self._error from failure
@@ -312,12 +381,12 @@ class Study:
 
     # ---- reading ---------------------------------------------------------------------------------
 
-    def _read(self, function, struct, made, *arguments):
+    def _read(self, function: Any, struct: Any, made: Any, *arguments: Any) -> Any:
         self._owner.call(function, *arguments, ctypes.byref(struct), ctypes.sizeof(struct))
         return made(*(_value(name, getattr(struct, name)) for name in made._fields))
 
     @property
-    def entries(self):
+    def entries(self) -> list[StudyEntry]:
         """All entries, in the order of adding."""
         return [
             self._read(lib.baum_study_entry_at, _abi.baum_study_entry(), StudyEntry, k)
@@ -325,85 +394,95 @@ class Study:
         ]
 
     @property
-    def methods(self):
-        """Methods and the price of a digit with each."""
-        count = lib.baum_study_method_count(self._owner._address)
+    def methods(self) -> list[StudyMethod]:
+        """Methods, and the cost of a digit with each."""
+        count = lib.baum_study_method_count(self._owner.address)
         return [
             self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
             for k in range(count)
         ]
 
     @property
-    def reference(self):
+    def reference(self) -> StudyReference:
         """How far the reference can be trusted; known after run()."""
         struct = _abi.baum_study_reference()
-        return self._read(lib.baum_study_reference_read, struct, StudyReference)
+        found: StudyReference = self._read(lib.baum_study_reference_read, struct, StudyReference)
+        return found
 
-    def reference_samples(self):
-        """The reference: times (n), q (n x nq), v (n x nv), lambda (n x nc), NaN where not known."""
+    def reference_samples(self) -> ReferenceSamples:
+        """The reference: t, q, v, lambda_."""
         count = self.reference.samples
         times = np.empty(count)
         arrays = [np.empty((count, size)) for size in self.mechanism.sizes]
         for k in range(count):
             places = [address(part[k:]) for part in (times, *arrays)]
             self._owner.call(lib.baum_study_reference_sample, k, *places)
-        return (times, *arrays)
+        return ReferenceSamples(times, *arrays)
 
     @property
-    def error_text(self):
-        """In words what error means."""
-        return lib.baum_study_error_text(self._owner._address).decode(errors="replace")
+    def error_text(self) -> str:
+        """What the error means."""
+        return text(lib.baum_study_error_text(self._owner.address))
 
     # ---- answers ---------------------------------------------------------------------------------
 
-    def front(self, cost="work"):
-        """Numbers of the entries than which none is both cheaper and more exact, from cheap to exact;
-        cost is "work", the same on every machine, or "cpu"."""
+    def front(self, cost: Cost = "work") -> list[int]:
+        """Indices of the entries on the Pareto front: no other entry is both cheaper and more
+        accurate. From cheap to accurate. cost: "work", the same on every machine, or "cpu"."""
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
         self._owner.call(lib.baum_study_front, _cost(cost), len(self), entries, ctypes.byref(count))
         return list(entries[: count.value])
 
-    def cost_at(self, method, error, cost="work"):
-        """What the method of that number costs at an error."""
+    def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
+        """The cost of the method of that index at an error [-]: evaluations for "work", CPU time
+        [s] for "cpu"."""
         out = ctypes.c_double()
-        self._owner.call(lib.baum_study_cost_at, integer(method, "method"), number(error, "error"),
-                         _cost(cost), ctypes.byref(out))
+        given = integer(method, "method"), number(error, "error"), _cost(cost)
+        self._owner.call(lib.baum_study_cost_at, *given, ctypes.byref(out))
         return out.value
 
-    def compare(self, a, b, error, cost="work"):
-        """Cost of method a over that of method b at the same error."""
+    def compare(self, a: int, b: int, error: Scalar, cost: Cost = "work") -> float:
+        """The cost of the method of index a over that of index b, at the same error [-]."""
         out = ctypes.c_double()
-        self._owner.call(lib.baum_study_compare, integer(a, "a"), integer(b, "b"),
-                         number(error, "error"), _cost(cost), ctypes.byref(out))
+        given = integer(a, "a"), integer(b, "b"), number(error, "error"), _cost(cost)
+        self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
-    def recommend(self, error, cost="work"):
-        """The cheapest setting for an error, which holds for starts nearby and twice the span too:
-        a Recommendation."""
+    def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
+        """The cheapest setting for an error [-] that also holds for nearby starts and over twice
+        the span. Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
-    def recommend_budget(self, seconds):
-        """The most exact setting for a CPU time [s] on this machine: a Recommendation."""
+    def recommend_budget(self, seconds: Scalar) -> Recommendation:
+        """The most accurate setting for a CPU time [s] on this machine. Raises baum.Error if there
+        is none."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
-    def _answer(self, function, *arguments):
+    def _answer(self, function: Any, *arguments: Any) -> Recommendation:
         best = default(_abi.baum_simulation_options)
         why = ctypes.create_string_buffer(WHY_SIZE)
-        status = self._owner.call(function, *arguments, ctypes.byref(best), ctypes.sizeof(best),
-                                  why, WHY_SIZE)
+        size = ctypes.sizeof(best)
+        status = self._owner.call(function, *arguments, ctypes.byref(best), size, why, WHY_SIZE)
         if status != Status.OK:
             warn(Warning(_calls.message()))
-        return Recommendation(self._keywords(best), why.value.decode(errors="replace"))
+        return Recommendation(self._keywords(best), text(why.value))
 
-    def _keywords(self, best):
+    def _keywords(self, best: Any) -> dict[str, Any]:
         """What differs from the defaults, as keywords of Simulation."""
         plain = default(_abi.baum_simulation_options)
         found = {"integrator": _value("integrator", best.integrator)}
         words = {"formulation": FORMULATIONS, "start": STARTS, "solver": SOLVERS}
-        left_out = {"struct_size", "integrator", "gains", "progress", "user", "row_gains",
-                    "row_gain_count"}
-        for name, _ in best._fields_:
+        left_out = {
+            "struct_size",
+            "integrator",
+            "gains",
+            "progress",
+            "user",
+            "row_gains",
+            "row_gain_count",
+        }
+        for name in (field[0] for field in best._fields_):
             value = getattr(best, name)
             if name in left_out or value == getattr(plain, name) or value != value:
                 continue
@@ -412,45 +491,44 @@ class Study:
         if gains is not None:
             found["gains"] = gains
         if best.row_gains:
-            found["row_gains"] = self._row_gains(numbers(best.row_gains, best.row_gain_count))
+            factors = numbers(best.row_gains, best.row_gain_count)
+            found["row_gains"] = self._row_gains(factors)
         return found
 
-    def _row_gains(self, factors):
+    def _row_gains(self, factors: Any) -> dict[str, Array]:
         joints = [element for element in self.mechanism if element.family == "joint"]
         rows = {joint.name: self.mechanism.rows(joint) for joint in joints}
         return {name: factors[place] for name, place in rows.items() if place.stop > place.start}
 
     # ---- reports ---------------------------------------------------------------------------------
 
-    def report(self, form="text", title=None):
-        """A report as a string: "text", "csv", "json", or "page" in HTML."""
+    def report(self, form: str = "text", title: str | None = None) -> str:
+        """A report as a string. form: "text", "csv", "json", or "page" for HTML."""
         how = (_form(form), _title(title))
         size = ctypes.c_size_t()
         self._owner.call(lib.baum_study_print, *how, None, 0, ctypes.byref(size))
-        text = ctypes.create_string_buffer(size.value + 1024)  # its date is another one
-        self._owner.call(lib.baum_study_print, *how, text, len(text), None)
-        return text.value.decode(errors="replace")
+        room = ctypes.create_string_buffer(size.value + 1024)  # its date is another one
+        self._owner.call(lib.baum_study_print, *how, room, len(room), None)
+        return room.value.decode(errors="replace")
 
-    def write(self, path, title=None):
-        """Write a report into a file, in the form that its name ends with: .txt, .csv, .json, .html.
-        A file that is there already is replaced when the new one is complete."""
+    def write(self, path: str | os.PathLike[str], title: str | None = None) -> None:
+        """Write a report to a file, in the form of its suffix: .txt, .csv, .json or .html. An
+        existing file is replaced when the new one is complete."""
         suffix = os.path.splitext(os.fspath(path))[1]
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")
-        self._owner.call(lib.baum_study_write, _form(SUFFIXES[suffix]), _title(title),
-                         os.fsencode(path))
+        how = (_form(SUFFIXES[suffix]), _title(title))
+        self._owner.call(lib.baum_study_write, *how, os.fsencode(path))
 
 
-def _title(text):
-    return None if text is None else text.encode()
+def _title(title: str | None) -> bytes | None:
+    return None if title is None else title.encode()
 
 
-def _form(word):
+def _form(word: str) -> int:
     if word not in FORMS:
         raise ValueError(f"no form {word!r} of a report; there are: {', '.join(FORMS)}")
     return FORMS[word]
 
 
-def study(mechanism, t0, t1, **options):
-    """A Study of a frozen mechanism from t0 to t1 [s]; see Study for the options."""
-    return Study(mechanism, t0, t1, **options)
+study = Study

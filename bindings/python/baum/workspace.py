@@ -1,118 +1,130 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Evaluation of a frozen mechanism at a point, without a run."""
+"""Evaluation of a frozen mechanism at a state, without a run."""
+
+from __future__ import annotations
 
 import ctypes
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _abi, _calls
-from .channels import Channel, width
 from ._lib import lib
 from ._values import address, number, vector
+from .channels import Channel, width
+from .typing import Array, ArrayLike, BodyLike, InputLike, JointLike, Scalar
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
 
 _Q = _abi.baum_quantity
 
 
-class Workspace:
-    """Phi, J, nu, gamma, M, g, accelerations and more at (t, q, v), t in seconds, q (nq), v (nv).
+class Workspace(_calls.Closing):
+    """Phi, J, nu, gamma, M, g, accelerations and more of a frozen mechanism at (t, q, v).
 
-    Rows and columns are in the order of adding. One thread at a time may use it.
+    t: [s]. q: positions (nq). v: velocities (nv). Rows and columns are in the order of adding. One
+    thread at a time may use it.
+
+    Errors: TypeError and ValueError for values of a wrong type or size; baum.Error if the library
+    cannot evaluate the state; exceptions of your own functions.
     """
 
-    def __init__(self, mechanism):
+    def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         out = ctypes.c_void_p()
         _calls.interruptible(
             _calls.make, lib.baum_workspace_create, mechanism.handle, ctypes.byref(out)
         )
-        self._owner = _calls.Handle(out.value, lib.baum_workspace_destroy, "workspace")
+        self._owner = _calls.Handle(_calls.made(out), lib.baum_workspace_destroy, "workspace")
         self._sizes = mechanism.sizes
 
-    def _call(self, function, *arguments):
-        """A call; in a thread of its own when it may come back through Python."""
+    def _call(self, function: Any, *arguments: Any) -> None:
+        """A call, in a second thread only if it may come back through Python."""
         if self.mechanism.has_python:
             _calls.interruptible(self._owner.call, function, *arguments)
         else:
             self._owner.call(function, *arguments)
 
-    def _evaluate(self, function, shape, t, q, v=None):
+    def _evaluate(
+        self, function: Any, shape: Any, t: Scalar, q: ArrayLike, v: ArrayLike | None = None
+    ) -> Array:
         """An array from a function of (t, q) or (t, q, v)."""
-        out = np.empty(shape)
-        q = self._q(q)
-        state = (q,) if v is None else (q, self._v(v))
+        out: Array = np.empty(shape)
+        state = [self._q(q)] if v is None else [self._q(q), self._v(v)]
         self._call(function, number(t, "t"), *map(address, state), address(out))
         return out
 
-    def _q(self, q):
+    def _q(self, q: ArrayLike) -> Array:
         return vector(q, self._sizes.nq, "q")
 
-    def _v(self, v):
+    def _v(self, v: ArrayLike) -> Array:
         return vector(v, self._sizes.nv, "v")
 
-    def set_input(self, input, value):
-        """Set an input, given as a handle or by name; before, it has its initial value."""
-        input = self.mechanism.find("input", input)
-        self._owner.call(lib.baum_workspace_set_input, input.id, number(value, input.name))
+    def set_input(self, input: InputLike, value: Scalar) -> None:
+        """Set an input. Before, it has its initial value."""
+        found = self.mechanism.find("input", input)
+        self._owner.call(lib.baum_workspace_set_input, found.id, number(value, found.name))
 
     @property
-    def inputs(self):
+    def inputs(self) -> dict[str, float]:
         """Present values of all inputs by name, a copy."""
         return {
-            input.name: lib.baum_workspace_input(self._owner._address, input.id)
+            input.name: lib.baum_workspace_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
         }
 
-    def design(self):
-        """Design configuration (nq) and given velocities (nv), NaN where free."""
+    def design(self) -> tuple[Array, Array]:
+        """The design configuration q (nq) and the given velocities v (nv), NaN where free."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
         self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
-    def rate(self, q, v):
-        """Rates of positions q' = N(q) v (nq): v itself unless positions are not a vector."""
-        out = np.empty(self._sizes.nq)
+    def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
+        """Rates of positions q' = N(q) v (nq): v itself, unless positions are not a vector."""
+        out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
         return out
 
-    def move(self, dx, q):
-        """q (nq) moved by a displacement dx (nv): q + dx unless positions are not a vector."""
+    def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
+        """q (nq) moved by a displacement dx (nv): q + dx, unless positions are not a vector."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
 
-    def difference(self, start, end):
-        """The displacement (nv) by which move() leads from one configuration to another."""
+    def difference(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """The displacement (nv) by which move() goes from one configuration to another."""
         out = np.empty(self._sizes.nv)
         start, end = self._q(start), self._q(end)
         self._call(lib.baum_workspace_difference, address(start), address(end), address(out))
         return out
 
-    def phi(self, t, q):
+    def phi(self, t: Scalar, q: ArrayLike) -> Array:
         """Constraint residual Phi (nc)."""
         return self._evaluate(lib.baum_workspace_phi, self._sizes.nc, t, q)
 
-    def jacobian(self, t, q):
+    def jacobian(self, t: Scalar, q: ArrayLike) -> Array:
         """Velocity Jacobian J (nc x nv)."""
         return self._evaluate(lib.baum_workspace_jacobian, (self._sizes.nc, self._sizes.nv), t, q)
 
-    def nu(self, t, q):
-        """nu (nc), so that J v = nu."""
+    def nu(self, t: Scalar, q: ArrayLike) -> Array:
+        """Right side nu (nc) of J v = nu."""
         return self._evaluate(lib.baum_workspace_nu, self._sizes.nc, t, q)
 
-    def gamma(self, t, q, v):
-        """gamma (nc), so that J a = gamma."""
+    def gamma(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> Array:
+        """Right side gamma (nc) of J a = gamma."""
         return self._evaluate(lib.baum_workspace_gamma, self._sizes.nc, t, q, v)
 
-    def mass(self, t, q):
+    def mass(self, t: Scalar, q: ArrayLike) -> Array:
         """Mass matrix M (nv x nv)."""
         return self._evaluate(lib.baum_workspace_mass, (self._sizes.nv, self._sizes.nv), t, q)
 
-    def force(self, t, q, v):
-        """Force vector g (nv): applied, gravity and velocity terms."""
+    def force(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> Array:
+        """Force vector g (nv): applied forces, gravity and velocity terms."""
         return self._evaluate(lib.baum_workspace_force, self._sizes.nv, t, q, v)
 
-    def energy(self, t, q, v):
+    def energy(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> tuple[float, float]:
         """Kinetic and potential energy [J]."""
         kinetic, potential = ctypes.c_double(), ctypes.c_double()
         q, v = self._q(q), self._v(v)
@@ -126,9 +138,11 @@ class Workspace:
         )
         return kinetic.value, potential.value
 
-    def acceleration(self, t, q, v, alpha=0.0, beta=0.0):
-        """Accelerations a (nv) and multipliers lambda (nc), with Baumgarte's gains [1/s] if
-        given."""
+    def acceleration(
+        self, t: Scalar, q: ArrayLike, v: ArrayLike, alpha: Scalar = 0.0, beta: Scalar = 0.0
+    ) -> tuple[Array, Array]:
+        """Accelerations a (nv) and multipliers lambda (nc). alpha, beta: Baumgarte's gains
+        [1/s]."""
         a, lambda_ = np.empty(self._sizes.nv), np.empty(self._sizes.nc)
         q, v = self._q(q), self._v(v)
         self._call(
@@ -143,10 +157,11 @@ class Workspace:
         )
         return a, lambda_
 
-    def reaction(self, t, q, lambda_, joint):
-        """Force [N] and moment [N m] of a joint on its body_b; of a user constraint -J^T lambda."""
-        joint = self.mechanism.find("joint", joint)
-        channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=joint.id)
+    def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
+        """Reaction of a joint as in its channel `reaction`: for most joints the force [N] and the
+        moment [N m] on body_b (3). lambda_: multipliers (nc), as acceleration() returns them."""
+        found = self.mechanism.find("joint", joint)
+        channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))
         q, lambda_ = self._q(q), vector(lambda_, self._sizes.nc, "lambda")
         self._call(
@@ -154,26 +169,35 @@ class Workspace:
             number(t, "t"),
             address(q),
             address(lambda_),
-            joint.id,
+            found.id,
             address(out),
         )
         return out
 
-    def assemble(self, t=0.0, q=None, v=None, held=()):
-        """The nearest q with Phi = 0, and v: finite entries are held, NaN ones follow. Left out,
-        both are those of the design configuration. held: bodies whose positions stay."""
+    def assemble(
+        self,
+        t: Scalar = 0.0,
+        q: ArrayLike | None = None,
+        v: ArrayLike | None = None,
+        held: Sequence[BodyLike] = (),
+    ) -> tuple[Array, Array]:
+        """The nearest q (nq) with Phi = 0, and v (nv) with J v = nu.
+
+        q, v: where to start, default the design configuration. Finite entries of v are kept, NaN
+        entries follow. held: bodies whose positions do not change. Raises baum.Error if the joints
+        cannot be closed.
+        """
         design_q, design_v = self.design()
         q = design_q if q is None else self._q(q)
         v = design_v if v is None else self._v(v)
         bodies = [self.mechanism.find("body", body).id for body in held]
         ids = (_abi.baum_body_id * len(bodies))(*bodies)
-        self._call(
-            lib.baum_workspace_assemble, number(t, "t"), address(q), address(v), ids, len(bodies)
-        )
+        assemble = lib.baum_workspace_assemble
+        self._call(assemble, number(t, "t"), address(q), address(v), ids, len(bodies))
         return q, v
 
-    def project(self, t, q, v):
-        """q and v moved the least onto the constraints, in the metric of M."""
+    def project(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
+        """q (nq) and v (nv) moved onto the constraints by the least amount in the metric of M."""
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_project, number(t, "t"), address(q), address(v))
         return q, v

@@ -1,21 +1,35 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write baum/_abi.py: the public headers as ctypes.
+"""Write baum/_abi.py and baum/_records.py: the public headers as ctypes and as named tuples.
 
-usage: generate_abi.py [--check] [INCLUDE_DIR [OUTPUT]]
+usage: generate_abi.py [--check] [INCLUDE_DIR [FOLDER]]
 
-Reads baum/baum.h and baum/catalog.h and what they include. It knows the C that those headers use and refuses anything
-else, so a declaration is never dropped in silence. --check writes nothing and fails when the output
-would change.
+Reads baum/baum.h and baum/catalog.h and the headers that they include. It knows the C that these
+headers use and refuses anything else, so no declaration is omitted silently. --check writes nothing
+and fails if the output would change.
 """
+
 import argparse
 import csv
+import importlib.util
 import re
 import sys
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-OUTPUT = Path(__file__).resolve().parents[1] / "baum" / "_abi.py"
+FOLDER = Path(__file__).resolve().parents[1] / "baum"
 WIDTH = 100
+
+
+def load_words():
+    """The module of the package that translates texts; the package itself needs the library."""
+    spec = importlib.util.spec_from_file_location("_words", FOLDER / "_words.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+in_python = load_words().in_python
 
 HEAD = '''\
 # SPDX-License-Identifier: BSD-3-Clause
@@ -30,21 +44,90 @@ from ctypes import (
 )
 '''
 
+RECORDS_HEAD = '''\
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results of the library as named tuples. Made by tools/generate_abi.py from the headers; do not
+edit. Units are in brackets, and [-] means a pure number."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .elements import Body, Joint
+    from .errors import Status
+    from .gains import Gains
+'''
+
+# The structs that Python reads, and what each of them is.
+RECORDS = {
+    "baum_mobility": "What a mechanism can do at its assembled initial configuration.",
+    "baum_report": "What an evaluation of the accelerations costs, and which work it skips.",
+    "baum_counters": "What a run has cost since it was created, and how well it has kept the "
+    "constraints. Joints are handles or None, and names after unpickling.",
+    "baum_energy_account": "Where the energy of a run has come from.",
+    "baum_near_singular": "An interval in which a run was near a singular configuration. branch is "
+    '"continued", "left" or "unknown". The joint is a handle or None, and a name after unpickling.',
+    "baum_study_entry": "What a setting costs and how accurate it is; NaN: not known.",
+    "baum_study_method": "Entries of a study with the same integrator, formulation and gains.",
+    "baum_study_reference": "How far the reference of a study can be trusted.",
+    "baum_catalog_parameter": "A number that a mechanism of the catalogue depends on.",
+    "baum_catalog_entry": "A mechanism of the catalogue.",
+    "baum_catalog_error": "How far a run is from the reference of the catalogue.",
+}
+
+# What Python adds to a struct: name, type, comment.
+ADDED = {
+    "baum_catalog_entry": [
+        ("parameters", "dict[str, CatalogParameter]", "Its parameters by name."),
+    ],
+}
+
+# Types of fields in Python, by type in ctypes and by name.
+PYTHON = {
+    "c_double": "float",
+    "c_bool": "bool",
+    "c_int32": "int",
+    "c_int64": "int",
+    "c_char_p": "str",
+    "c_char": "str",
+    "baum_joint_id": "Joint | None",
+    "baum_body_id": "Body | None",
+    "baum_gains": "Gains | None",
+}
+WORDS = {
+    "integrator": "str",
+    "formulation": "str",
+    "state": "str",
+    "origin": "str",
+    "branch": "str",
+    "status": "Status | int",
+}
+
 NUMBERS = {
-    "int": "c_int", "int32_t": "c_int32", "int64_t": "c_int64", "uint32_t": "c_uint32",
-    "size_t": "c_size_t", "double": "c_double", "bool": "c_bool", "char": "c_char",
+    "int": "c_int",
+    "int32_t": "c_int32",
+    "int64_t": "c_int64",
+    "uint32_t": "c_uint32",
+    "size_t": "c_size_t",
+    "double": "c_double",
+    "bool": "c_bool",
+    "char": "c_char",
 }
 
 
 # ---- from files to declarations ------------------------------------------------------------------
+
 
 def read_headers(include, name="baum/baum.h", seen=None):
     """Text of a header and of those it includes, each once, included ones first."""
     seen = set() if seen is None else seen
     seen.add(name)
     text = (include / name).read_text(encoding="utf-8")
-    parts = [read_headers(include, wanted, seen)
-             for wanted in re.findall(r"#include <(baum/\w+\.h)>", text) if wanted not in seen]
+    parts = [
+        read_headers(include, wanted, seen)
+        for wanted in re.findall(r"#include <(baum/\w+\.h)>", text)
+        if wanted not in seen
+    ]
     return "\n".join([*parts, text])
 
 
@@ -68,8 +151,10 @@ def expand_lists(text):
 
     def expand(match):
         arguments, body, name = re.split(r", *", match[1]), match[2], match[3]
-        return " ".join(re.sub(r"\w+", lambda word: dict(zip(arguments, line)).get(word[0], word[0]),
-                               body) for line in lists[name])
+        return " ".join(
+            re.sub(r"\w+", lambda word: dict(zip(arguments, line)).get(word[0], word[0]), body)
+            for line in lists[name]
+        )
 
     return re.sub(r"#define BAUM_X\((.*?)\) *(.*)\n\s*(\w+_LIST)\(BAUM_X\)", expand, text)
 
@@ -86,7 +171,54 @@ def split(text):
         raise SystemExit(f"not understood: {text[start:].strip()[:80]}")
 
 
+# ---- comments of fields -------------------------------------------------------------------------
+
+
+def field_comments(text, struct):
+    """What a header says of the fields of a struct, by name."""
+    body = re.search(rf"typedef struct {struct} \{{(.*?)\n\}} {struct};", text, flags=re.S)[1]
+    body = re.sub(r"\n\s*\*(?!/)", "\n", body)
+    name = r"(\w+)(?:\[\w+\])*;"
+    said = dict(re.findall(name + r"\s*/\*\*<(.*?)\*/", body, flags=re.S))
+    before = re.findall(r"/\*\*(?!<)((?:(?!\*/).)*)\*/[^;#/]*?" + name, body, flags=re.S)
+    said.update((field, comment) for comment, field in before)
+    for entries in re.findall(r"(\w+_LIST)\(BAUM_X\)", body):
+        lines = re.search(rf"#define {entries}\(X\)(.*?)\n\n", text, flags=re.S)[1]
+        for line in re.findall(r'X\(((?:[^()"]|"[^"]*")*)\)', lines):
+            _, field, _, unit, meaning = next(csv.reader([line], skipinitialspace=True))
+            said[field] = f"[{'-' if unit == '1' else unit}] {meaning}" if unit else meaning
+    return {field: in_python(" ".join(comment.split())) for field, comment in said.items()}
+
+
+def record(text, struct, fields):
+    """A struct as a class of named tuples, without its size."""
+    comments = field_comments(text, struct)
+    types = {
+        field: WORDS.get(field) or PYTHON[re.match(r"[a-z_0-9]+", spelled)[0]]
+        for field, spelled in fields
+    }
+    for field, kind, comment in ADDED.get(struct, ()):
+        types[field], comments[field] = kind, comment
+    missing = types.keys() - comments.keys()
+    if missing:
+        raise SystemExit(f"not understood: no comment on {', '.join(sorted(missing))} of {struct}")
+    name = "".join(word.capitalize() for word in struct.split("_")[1:])
+    said = textwrap.wrap(f'"""{RECORDS[struct]}', WIDTH - 4)
+    lines = [f"\n\nclass {name}(NamedTuple):", *(f"    {line}" for line in said), ""]
+    for field in types:
+        lines += textwrap.wrap(
+            f"{field}: {comments[field]}",
+            WIDTH - 4,
+            initial_indent="    ",
+            subsequent_indent="        ",
+        )
+    lines += ['    """', ""]
+    lines += [f"    {field}: {kind}" for field, kind in types.items()]
+    return "\n".join([*lines, ""])
+
+
 # ---- types ---------------------------------------------------------------------------------------
+
 
 class Types:
     """Names that were declared so far, and how C types are spelled in ctypes."""
@@ -149,6 +281,7 @@ def arguments(types, text):
 
 # ---- declarations to Python ----------------------------------------------------------------------
 
+
 def wrap(opening, items, closing, indent="    "):
     """`opening items closing` on one line, or the items on lines of their own."""
     line = opening + ", ".join(items) + closing
@@ -169,24 +302,31 @@ class Writer:
 
     def __init__(self):
         self.types = Types()
-        self.parts, self.structs, self.initialised = [], [], []
+        self.parts, self.structs, self.initialised = [], {}, []
         self.prototypes = {"BAUM_API": [], "BAUM_CATALOG_API": []}
 
     def opaque(self, name):
         self.types.handles.add(name)
 
     def struct(self, name, body):
-        fields = [f'("{field}", {spelled})' for part in body.split(";") if part.strip()
-                  for field, spelled in declarators(self.types, part.strip(), in_struct=True)]
+        fields = [
+            field
+            for part in body.split(";")
+            if part.strip()
+            for field in declarators(self.types, part.strip(), in_struct=True)
+        ]
         self.types.structs.add(name)
-        self.structs.append(name)
-        lines = "\n".join(f"        {field}," for field in fields)
+        self.structs[name] = fields
+        lines = "\n".join(f'        ("{field}", {spelled}),' for field, spelled in fields)
         self.parts.append(f"\n\nclass {name}(Structure):\n    _fields_ = [\n{lines}\n    ]\n")
 
     def enumeration(self, name, body):
         self.types.enums.add(name)
-        rows = [re.fullmatch(r"(\w+) = \(?(-?\d+)\)?", item.strip()) for item in body.split(",")
-                if item.strip()]
+        rows = [
+            re.fullmatch(r"(\w+) = \(?(-?\d+)\)?", item.strip())
+            for item in body.split(",")
+            if item.strip()
+        ]
         if not all(rows):
             raise SystemExit(f"not understood: values of {name}")
         lines = "\n".join(f"    {row[1]} = {row[2]}" for row in rows)
@@ -203,9 +343,10 @@ class Writer:
             raise SystemExit(f"not understood: result of {name}")
         spelled = self.types.spell(match[1], len(match[2]))
         self.prototypes[library].append(
-            wrap(f'    "{name}": ({spelled}, [', arguments(self.types, text), "]),", " " * 8))
+            wrap(f'    "{name}": ({spelled}, [', arguments(self.types, text), "]),", " " * 8)
+        )
         if name.endswith("_init"):
-            self.initialised.append(name[:-len("_init")])
+            self.initialised.append(name[: -len("_init")])
 
     def constant(self, kind, name, values):
         self._line(f"{name} = {kind}({values})")
@@ -219,16 +360,26 @@ class Writer:
         """The whole text."""
         defaults = [f'    {name}: "{name}_init",' for name in self.initialised]
         structs = [f"    {name}," for name in self.structs]
-        return "".join([
-            HEAD.format(version=version), f'\nVERSION = "{version}"\n', *self.parts,
-            "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
-            "\n".join(self.prototypes["BAUM_API"]), "\n}\n",
-            "\n# Those of the library of the catalogue.\nCATALOG_PROTOTYPES = {\n",
-            "\n".join(self.prototypes["BAUM_CATALOG_API"]), "\n}\n",
-            "\n# Structs that the caller fills, and the function that sets their defaults.\n",
-            "DEFAULTS = {\n",
-            "\n".join(defaults), "\n}\n",
-            "\nSTRUCTS = [\n", "\n".join(structs), "\n]\n"])
+        return "".join(
+            [
+                HEAD.format(version=version),
+                f'\nVERSION = "{version}"\n',
+                *self.parts,
+                "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
+                "\n".join(self.prototypes["BAUM_API"]),
+                "\n}\n",
+                "\n# Those of the library of the catalogue.\nCATALOG_PROTOTYPES = {\n",
+                "\n".join(self.prototypes["BAUM_CATALOG_API"]),
+                "\n}\n",
+                "\n# Structs that the caller fills, and the function that sets their defaults.\n",
+                "DEFAULTS = {\n",
+                "\n".join(defaults),
+                "\n}\n",
+                "\nSTRUCTS = [\n",
+                "\n".join(structs),
+                "\n]\n",
+            ]
+        )
 
 
 RULES = [
@@ -252,28 +403,31 @@ def translate(declaration, writer):
 
 
 def generate(include):
-    """The text of _abi.py for the headers in `include`."""
+    """The texts of _abi.py and _records.py for the headers in `include`, by name."""
     seen = set()
-    text = "\n".join(read_headers(Path(include), f"baum/{name}.h", seen)
-                     for name in ("baum", "catalog"))
+    text = "\n".join(
+        read_headers(Path(include), f"baum/{name}.h", seen) for name in ("baum", "catalog")
+    )
     version = re.search(r'#define BAUM_VERSION +"([^"]+)"', text)[1]
     writer = Writer()
     for declaration in split(strip(text)):
         translate(declaration, writer)
-    return writer.module(version)
+    records = [record(text, name, writer.structs[name][1:]) for name in RECORDS]
+    return {"_abi.py": writer.module(version), "_records.py": "".join([RECORDS_HEAD, *records])}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("include", nargs="?", type=Path, default=ROOT / "include")
-    parser.add_argument("output", nargs="?", type=Path, default=OUTPUT)
+    parser.add_argument("folder", nargs="?", type=Path, default=FOLDER)
     parser.add_argument("--check", action="store_true", help="write nothing, fail on a change")
     options = parser.parse_args()
-    text = generate(options.include)
-    if not options.check:
-        options.output.write_text(text, encoding="utf-8")
-    elif options.output.read_text(encoding="utf-8") != text:
-        sys.exit(f"{options.output} is not what the headers give: run {Path(__file__).name}")
+    for name, text in generate(options.include).items():
+        output = options.folder / name
+        if not options.check:
+            output.write_text(text, encoding="utf-8")
+        elif output.read_text(encoding="utf-8") != text:
+            sys.exit(f"{output} is not what the headers give: run {Path(__file__).name}")
 
 
 if __name__ == "__main__":

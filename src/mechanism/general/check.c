@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Are the derivatives that a user gives those of the functions given?
+/* Checks whether the derivatives that a user gives are those of the user's functions.
  *
- * A given value g is compared with differences d at a row of shrinking steps.
- * It is right as soon as
+ * The check compares a given value g with differences d at a sequence of shrinking steps. The value
+ * is right as soon as
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * at one of them; the second part is what rounding may do to an entry that is small beside the
- * others of its row. It is wrong when it never is, and the best d, and one more, differ from it by
- * more than d's own error as well: 20 times the disagreement of the two orders (difference.c), plus
- * that of neighbouring steps, plus rounding. And only where the function has a derivative at all:
- * at a kink, such as dry friction at rest, the two sides differ by as much at any step.
+ * holds at one step. The second term allows for the rounding of an entry that is small beside the
+ * others of its row. The value is wrong if this never holds, and if the best d and one more d
+ * differ from it by more than the error of d: 20 times the disagreement of the two orders
+ * (difference.c), plus that of neighbouring steps, plus rounding. At a kink, such as dry friction
+ * at rest, the two sides differ by as much at any step. The function has no derivative there, and
+ * the check passes.
  *
- * Configurations are the design one and three beside it, where nothing is zero or symmetric by
- * chance. Phi is not zero there: derivatives must be those of the function, not only where the
- * constraint is met. A configuration that a function of an element refuses says nothing; only when
- * it refuses them all is that the result. (The design one alone may be refused without fault:
- * velocities that will follow from the constraints are taken as zero there.)
+ * The check evaluates the design configuration and three configurations near it, where nothing is
+ * zero or symmetric by chance. Phi is not zero there, so the derivatives must be those of the
+ * function and not only hold where the constraint is met. If a function refuses a configuration,
+ * the check skips it; if it refuses all of them, the check fails. (A function may refuse the design
+ * configuration for a good reason: free velocities are taken as zero there.)
  */
 #include "mechanism/general/check.h"
 
@@ -33,7 +34,7 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* What is known of the entries of one ray so far. */
+/* Results for the entries of one ray so far. */
 typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value one step before */
@@ -44,7 +45,7 @@ typedef struct trial {
   double *wrong;    /* number of steps at which the given value looks wrong */
 } trial;
 
-/* Where the given values of a ray are, and what rounding may do to them. */
+/* The given values of a ray, and the sizes for their rounding. */
 typedef struct column {
   const baum_i_claim *claim;
   const baum_i_stencil *stencil;
@@ -84,7 +85,7 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Keep the best step; the first, whose error is NaN, never is. */
+/* Keep the best step. The first step has an error of NaN and is never the best. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -97,8 +98,8 @@ static void keep_best(const trial *t, int i, double value, double error, double 
   }
 }
 
-/* Take in the present step; true when all given values are found right. */
-static bool weigh(const column *c, const trial *t, double step)
+/* Judge the given values by the present step; true when all are found right. */
+static bool judge_step(const column *c, const trial *t, double step)
 {
   bool right = true;
   for (int i = 0; i < c->field->size; i++) {
@@ -120,7 +121,7 @@ static bool weigh(const column *c, const trial *t, double step)
   return right;
 }
 
-/* How far the derivatives of the two sides are apart, seen at a distance. */
+/* Difference of the derivatives of the two sides at this distance. */
 static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
                    double step, int i)
 {
@@ -129,7 +130,7 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* At a smooth place the sides approach each other with the distance; at a kink they do not. */
+/* Where the function is smooth, the difference of the sides vanishes with the distance. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
   double far = kink(c, at, &t->now, t->step[i], i);
@@ -137,7 +138,7 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
-/* Wrong at the best step, and not at that one alone, which may be by luck of rounding. */
+/* Wrong at the best step and at one more: a single step may be wrong by rounding. */
 static bool is_wrong(const column *c, const trial *t, int i)
 {
   double deviation = fabs(given(c, i) - t->value[i]);
@@ -167,9 +168,9 @@ static baum_status compare(const column *c, const baum_i_local *at)
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
-      return BAUM_OK; /* so near the edge of where it can be evaluated, nothing can be told */
+      return BAUM_OK; /* so near the edge of the function's domain differences tell nothing */
     }
-    if (status == BAUM_OK && weigh(c, &t, step)) {
+    if (status == BAUM_OK && judge_step(c, &t, step)) {
       return BAUM_OK;
     }
     step *= c->stencil->shrink;
@@ -224,7 +225,7 @@ baum_status baum_i_compare_entries(const baum_i_user_function *function, const c
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &derived, ray, &here);
 }
 
-/* Largest given entry of each row, each times what its coordinate relevantly changes. */
+/* Largest given entry of each row, times the relevant change of its coordinate. */
 static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
                           baum_i_variable variable, int size, double *direction, double *row_size)
 {
@@ -260,7 +261,7 @@ baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field
 
 /* ---- the whole mechanism ---- */
 
-/* A place to evaluate at, with its own memory. */
+/* A configuration to evaluate, with its own memory. */
 typedef struct place {
   baum_i_point point;
   double *q;
@@ -290,8 +291,9 @@ static double spread(int k)
   return k % 2 == 0 ? size : -size;
 }
 
-enum { POSE_COUNT = 4 };
-/* [1/s] Velocities, of the scales, that are rounding: what they move is lost in that of q. */
+enum { CONFIGURATIONS = 4 };
+/* [1/s] Velocities below this many scales count as zero: their effect is lost in the rounding of
+ * q. */
 static const double REST = 1e-12;
 
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
@@ -316,27 +318,27 @@ baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
   return BAUM_OK;
 }
 
-/* Pose 0 is the design one, with the velocities given; others are beside it and move. */
-static void set_pose(place *p, int pose)
+/* Configuration 0 is the design one with the given velocities. The others are near it and move. */
+static void set_configuration(place *p, int k)
 {
-  static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};
+  static const double times[CONFIGURATIONS] = {0.0, 0.0, 0.37, 1.3};
   const baum_mechanism *mechanism = p->point.mechanism;
   memcpy(p->q, mechanism->design_q, (size_t)mechanism->nq * sizeof *p->q);
-  for (int i = 0; i < mechanism->nv && pose > 0; i++) {
-    p->v[i] = mechanism->scale[i] * spread(3 * i + pose);
+  for (int i = 0; i < mechanism->nv && k > 0; i++) {
+    p->v[i] = mechanism->scale[i] * spread(3 * i + k);
   }
-  if (pose > 0) {
+  if (k > 0) {
     baum_i_move(mechanism, 0.3, p->v, p->q);
   }
   for (int i = 0; i < mechanism->nv; i++) {
     double design_v = mechanism->design_v[i];
-    if (pose > 0) {
-      p->v[i] = mechanism->scale[i] * spread(3 * i + 8 * pose + 1);
+    if (k > 0) {
+      p->v[i] = mechanism->scale[i] * spread(3 * i + 8 * k + 1);
     } else {
       p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0; /* NaN: free */
     }
   }
-  baum_i_point_set(&p->point, times[pose], p->q, p->v);
+  baum_i_point_set(&p->point, times[k], p->q, p->v);
 }
 
 static bool is_refusal(baum_status status)
@@ -350,8 +352,8 @@ static baum_status check_element(const baum_i_element *element, place *p)
     return BAUM_OK;
   }
   bool any = false;
-  for (int pose = 0; pose < POSE_COUNT; pose++) {
-    set_pose(p, pose);
+  for (int k = 0; k < CONFIGURATIONS; k++) {
+    set_configuration(p, k);
     baum_status status = element->definition->check_derivatives(element, &p->point);
     if (status != BAUM_OK && !is_refusal(status)) {
       return status;
@@ -361,7 +363,7 @@ static baum_status check_element(const baum_i_element *element, place *p)
   if (any) {
     return BAUM_OK;
   }
-  set_pose(p, 0); /* for the message of the design configuration */
+  set_configuration(p, 0); /* for the message of the design configuration */
   return element->definition->check_derivatives(element, &p->point);
 }
 

@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Comparing derivatives that a user gives with differences.
- * How the verdict is found is told in check.c. */
+/* Compares derivatives that a user gives with differences. check.c describes the criterion. */
 #ifndef BAUM_I_MECHANISM_GENERAL_CHECK_H
 #define BAUM_I_MECHANISM_GENERAL_CHECK_H
 
 #include "mechanism/general/difference.h"
 
-/* A derivative to be doubted. */
+/* A given derivative to check. */
 typedef struct baum_i_claim {
   const baum_i_user_function *function; /* "jacobian", with its shape */
   const char *source;                   /* what was differenced, for the message: "phi" */
   const double *given;                  /* its values at the place */
 } baum_i_claim;
 
-/* Compare with the derivative of order 1 or 2 of a field along a ray. BAUM_OK also where
- * differences cannot tell; else BAUM_ERR_ARGUMENT: `joint 2 "circle": gamma()[0] is 3 but
+/* Compare with the derivative of order 1 or 2 of a field along a ray. Returns BAUM_OK also where
+ * differences cannot decide, otherwise BAUM_ERR_ARGUMENT: `joint 2 "circle": gamma()[0] is 3 but
  * differences of phi give 2`. */
 baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
                                const baum_i_field *field, const baum_i_ray *ray,
@@ -30,13 +29,13 @@ typedef struct baum_i_derived {
   int of;
 } baum_i_derived;
 
-/* Compare entries of a function (field->size) with the derivatives of other ones along a ray. The
- * function itself may fail, too. */
+/* Compare entries of a function (field->size) with the derivatives of other entries along a ray.
+ * Also returns a failure of the function at this point. */
 baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
                                    const baum_i_field *field, const baum_i_derived *pairs,
                                    int pair_count, const baum_i_ray *ray, const baum_i_local *at);
 
-/* A function whose element says that it does not depend on velocities, against itself at rest. */
+/* Compare a function that must not depend on velocities with itself at rest. */
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
                                      const baum_i_field *field, const baum_i_local *at);
 

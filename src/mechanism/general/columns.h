@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Columns that kernels write over, the same number for each body of a span, and what the bodies
- * have of them. In the plane these are three, of which a particle has no angle; in space six, the
- * velocity of the origin in ground axes and the angular velocity in body axes. A particle in space
- * has the first three; a planar body x, y and the rotation about z. Ground has none.
+/* Packing of columns. Kernels write the same number of columns for each body: three in the plane, x,
+ * y and angle; six in space, the velocity of the origin in ground axes and the angular velocity in
+ * body axes. Packing keeps the columns that a body has. A planar particle has no angle, a spatial
+ * one no angular velocity, ground has no columns. In space a planar body has x, y and the rotation
+ * about z.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -13,11 +14,12 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* A vector over v as `width` numbers of each body; zeros where absent, all for NULL. */
+/* Gather `width` numbers of each body from a vector over v. Absent columns, and all for NULL, are
+ * zero. */
 void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
                            const double *x, double *wide);
 
-/* Add numbers to the bodies' places in a vector over v. */
+/* Add such numbers to a vector over v. */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *x);
 
@@ -54,11 +56,11 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
   }
 }
 
-/* Rows of `width` for each body to rows of nl. */
+/* Pack rows of `width` numbers for each body to rows of nl. */
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed);
 
-/* The same of three for each body; nearly always of two bodies with all of them, or of one on the
+/* The same in the plane. The fast cases are two bodies with all their columns, and one body and
  * ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
@@ -78,12 +80,12 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
   }
 }
 
-/* Such a square matrix to nl x nl. */
+/* Pack a square matrix over all columns to nl x nl. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);
 
-/* Second derivatives of a joint's rows over `width` columns of each body to where they are wanted.
- * nu_q stays zero: no joint with such rows has one. */
+/* Pack second derivatives of a joint's rows over all columns to the wanted blocks. nu_q stays zero,
+ * because it is zero for all joints with such rows. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 int width, const baum_i_joint_blocks *wide,
                                 const baum_i_joint_blocks *blocks);

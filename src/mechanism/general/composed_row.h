@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A row G(c_0, c_1) of two coordinates: both those of a point on a curve, or those of two joints
- * that are coupled.
+/* A row G(c_0, c_1) of two coordinates: the two coordinates of a point on a curve, or the
+ * coordinates of two coupled joints.
  *
- * Its columns are three for each of up to four bodies, in the order of the row's span; those of a
- * coordinate are six of them.
+ * The row has three columns for each of up to four bodies, in the order of its span. A coordinate
+ * uses six of them.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 #define BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
@@ -30,7 +30,7 @@ typedef struct baum_i_outer {
 /* The six columns of a coordinate from those of the row. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
 
-/* What is wanted of a row at its joint's place. */
+/* Write the wanted parts of a row at the places of its joint. */
 void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point,
                              const baum_i_inner x[2], const baum_i_outer *g,
                              const baum_i_rows *out);

@@ -22,7 +22,7 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
 
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)
 {
-  /* The two bodies alone, renumbered: a coordinate sees no other. */
+  /* A coordinate depends on its two bodies only, so they are renumbered 0 and 1. */
   int pair[2] = {0, 1};
   baum_i_frame frames[2] = {baum_i_design_frame(mechanism, joint->span.bodies[0]),
                             baum_i_design_frame(mechanism, joint->span.bodies[1])};

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized coordinates of the user: q and v of any size, mass M(q, t) and force g(q, v, t) by
- * functions; v = q', or q' = N(q) v with the functions of coordinates_manifold.c.
+/* Generalized coordinates of the user: q and v of any size, with functions for the mass M(q, t) and
+ * the force g(q, v, t). v = q', or q' = N(q) v with the functions of coordinates_manifold.c.
  *
- * Where the derivatives of g are not given they come from differences,
- * as always those of M a (difference.c).
+ * Derivatives of g that are not given come from differences (difference.c). Those of M a always do.
  */
 #include <math.h>
 #include <string.h>
@@ -262,7 +261,7 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
     for (int j = 0; j < i; j++) {
       double a = block[i * n + j];
       double b = block[j * n + i];
-      /* Far above rounding, also where large terms cancel in an entry, and far below any
+      /* Far above rounding, even where large terms cancel in an entry, and far below any
        * mistake. */
       double size = sqrt(fabs(block[i * n + i] * block[j * n + j]));
       if (fabs(a - b) > 1e-6 * fmax(fabs(a), fabs(b)) + 1e-9 * size) {
@@ -276,7 +275,7 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
   return BAUM_OK;
 }
 
-/* In the design configuration alone: beside it, coordinates may be where M is none. */
+/* Only in the design configuration: coordinates near it may lie where M has no meaning. */
 static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, const double *block)
 {
   int n = body->nv;
@@ -293,8 +292,7 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   return BAUM_OK;
 }
 
-/* constant_mass is the claim that a derivative is zero: compare with the design configuration at t
- * = 0. */
+/* Check constant_mass: compare with the design configuration at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {

@@ -58,7 +58,7 @@ int baum_i_coordinates_positions(const baum_coordinates_def *def)
   return def->position_count > 0 ? def->position_count : def->size;
 }
 
-/* Farther from the manifold than by rounding of what was typed in. */
+/* Whether q is off the manifold by more than the rounding of typed numbers. */
 static bool is_off(const baum_coordinates_def *def, const double *normal)
 {
   static const double NEAR = 1e-6;
@@ -73,9 +73,7 @@ static bool is_off(const baum_coordinates_def *def, const double *normal)
 static baum_status check_design(const baum_coordinates_def *def, const char *label)
 {
   double *normal = baum_i_copy(def->q, (size_t)baum_i_coordinates_positions(def), sizeof *def->q);
-  if (!normal) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(normal));
   def->normalize(normal, def->user);
   bool off = is_off(def, normal);
   baum_i_free(normal);
@@ -152,7 +150,7 @@ static baum_status compare_second(const baum_i_body *body, const baum_i_ray *ray
   return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, ray, &here);
 }
 
-/* There and back. */
+/* Compare `difference` with a move there. */
 static baum_status compare_difference(const baum_i_body *body, const baum_i_local *at)
 {
   static const double AGREEMENT = 1e-6;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coupling: one row that ties the coordinates of two joints.
+/* Coupling: one row that couples the coordinates of two joints.
  *
  *   Phi  = c_b - f(c_a)                  (1)
  *   f(x) = ratio x + offset, or the user's law: a cam whose follower is a joint
  *
- * J, gamma and second derivatives by the chain rule of composed_row.c; c and its derivatives are
- * those of the joints' types. The third derivative of a law, which only gamma_q needs, is a
- * difference of the second one.
+ * J, gamma and second derivatives follow from the chain rule of composed_row.c; the types of the
+ * joints give c and its derivatives. The third derivative of a law, which only gamma_q needs, comes
+ * from differences of the second one.
  *
- * The joints may share bodies, and then their columns add up: the row's bodies are those of joint_a
- * and those of joint_b, each once.
+ * The row acts on the bodies of joint_a and joint_b, each once. Where the joints share a body,
+ * their columns add up.
  */
 #include <math.h>
 #include <string.h>
@@ -24,7 +24,7 @@
 /* Parameters. */
 enum { RATIO, OFFSET, PARAMETER_COUNT };
 
-/* Of the law. */
+/* Entries of the law. */
 enum { VALUE, SLOPE, CURVATURE, LAW_SIZE };
 
 static const baum_i_def_field fields[] = {
@@ -39,7 +39,7 @@ static const baum_i_def_field fields[] = {
 
 /* ---- definition ---- */
 
-/* Number 0: joint_a, 1: joint_b; of a definition that has been checked. */
+/* The joint of number 0 (joint_a) or 1 (joint_b) of a checked definition. */
 static const baum_i_joint *coupled(const baum_mechanism *mechanism, const void *given, int number)
 {
   const baum_coupling_def *def = given;
@@ -104,7 +104,7 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "law", LAW_SIZE, 0, def->user};
 }
 
-/* The law's own place, to call and to difference at; values (q, v, scale) stay the caller's. */
+/* The point at which the law is called and differentiated; it refers to values (q, v, scale). */
 static baum_i_local place_at(baum_i_point *point, const double values[3])
 {
   return (baum_i_local){.point = point,

@@ -5,22 +5,21 @@
  *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
  *
  * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant
- * changes the best steps are near 2^-8 and 2^-6; they are taken somewhat small, so that functions
- * that move three times as fast as announced lose nothing: about 1e-13 and 1e-11 remain.
+ * changes the best steps are near 2^-8 and 2^-6. The steps here are a little smaller, so functions
+ * that vary three times as fast as announced lose nothing. The errors are about 1e-13 and 1e-11.
  *
  * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two
- * orders agree to 1e-7, the sixth is good to about 1e-11; first derivatives can afford to ask for
- * 1e-9. Where they do not agree, the announced scale was too large for F, and the step is shrunk
- * until they do: a scale that is wrong by 1e6 costs time, not truth. The search ends when
+ * orders agree to 1e-7, the sixth order is good to about 1e-11; first derivatives can require 1e-9.
+ * Where they do not agree, the announced scale is too large for F, and the step shrinks until they
+ * do. A scale that is wrong by 1e6 costs time, but no accuracy. The search ends when the
  * disagreement is rounding.
  *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
- * q, so that q + k h is exact also after ten thousand turns of a crank.
+ * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
  *
- * Where q is no vector, a moved q is rounded, and F with it, however small F is itself.
+ * Where q is no vector, a moved q is rounded, and F inherits this rounding, however small F is.
  *
- * Central differences look to both sides: in t, F is evaluated up to 3 h before and after the
- * present.
+ * Central differences use both sides: F is evaluated up to 3 h before and after the present time.
  */
 #include "mechanism/general/difference.h"
 
@@ -40,7 +39,7 @@ const baum_i_stencil baum_i_stencil_first = {
   .agreement = 1e-9,
 };
 
-/* For a field that carries an error of 1e-11 already, which must not be divided by a small step. */
+/* For fields with an error of 1e-11, which must not be divided by a small step. */
 static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
@@ -61,7 +60,7 @@ const baum_i_stencil baum_i_stencil_second = {
   .agreement = 1e-7,
 };
 
-/* Rounding of F in units of its own last place, allowing for larger terms inside F that cancel. */
+/* Relative rounding of F. The factor allows for larger terms that cancel inside F. */
 static const double rounding = 64.0 * DBL_EPSILON;
 
 /* ---- rays ---- */
@@ -100,7 +99,7 @@ double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
 
 /* ---- one step size ---- */
 
-/* The steps of all coordinates, and where the field is evaluated. */
+/* The steps of all coordinates, and the point at which the field is evaluated. */
 typedef struct probe {
   const baum_i_field *field;
   const baum_i_ray *ray;
@@ -153,7 +152,7 @@ static void move_along(const probe *p, int k, const double *dq)
   }
 }
 
-/* F at k steps. */
+/* Evaluate F after k steps. */
 static baum_status sample(const probe *p, int k, double *out)
 {
   if (p->at->span) {
@@ -175,7 +174,7 @@ static baum_status sample(const probe *p, int k, double *out)
   return p->field->evaluate(p->field->context, &there, out);
 }
 
-static void begin(const baum_i_estimate *out, int size)
+static void clear_estimate(const baum_i_estimate *out, int size)
 {
   for (int i = 0; i < size; i++) {
     out->value[i] = 0.0;
@@ -219,9 +218,9 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* F where q alone is moved by half a relevant change, whose size tells what the rounding of a moved
- * q does to it: along a motion F may be zero all the way. What fails there tells nothing. */
-static void see_size(const probe *p, const baum_i_estimate *out, double *beside)
+/* Evaluate F where q alone is moved by half a relevant change. Its size there bounds the effect of
+ * the rounding of q, because F may be zero all along a motion. A failure there is ignored. */
+static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;
   if (!p->at->span || !p->ray->dq) {
@@ -248,8 +247,8 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
   double *minus = baum_i_take(&here, field->size);
   double *centre = stencil->order == 2 ? baum_i_take(&here, field->size) : NULL;
   p.free = here.free;
-  begin(out, field->size);
-  see_size(&p, out, plus);
+  clear_estimate(out, field->size);
+  estimate_noise(&p, out, plus);
   BAUM_I_TRY(centre ? sample(&p, 0, centre) : BAUM_OK);
   for (int k = 0; k < 3; k++) {
     BAUM_I_TRY(sample(&p, k + 1, plus));
@@ -262,11 +261,11 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Take over the entries that got better. best (size) is how far the orders were apart at best, in
- * units of how much F varied; < 0 when good enough. True when a smaller step is not worth
- * trying. */
-static bool settle(const baum_i_estimate *now, double agreement, double *out, double *best,
-                   int size)
+/* Keep the entries that improved. best (size) is the smallest disagreement of the orders so far,
+ * relative to the variation of F; < 0 when good enough. Returns true when a smaller step is not
+ * worth trying. */
+static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
+                          int size)
 {
   bool settled = true;
   for (int i = 0; i < size; i++) {
@@ -278,8 +277,7 @@ static bool settle(const baum_i_estimate *now, double agreement, double *out, do
       best[i] = -1.0;
       continue;
     }
-    /* Worth it while it helps, and while the orders disagree by far more than rounding can
-     * explain. */
+    /* Go on while it helps, and while the orders disagree by far more than rounding explains. */
     double apart = now->error[i] / now->variation[i];
     bool helps = apart < 0.5 * best[i];
     bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];
@@ -307,13 +305,13 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
   for (int k = 0; k < stencil->steps; k++) {
     here.point->retry = false;
     status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
-    /* A function that cannot be evaluated that far away may be near the edge of where it can. */
+    /* A function that fails at this distance may be near the edge of its domain. */
     if (status != BAUM_OK && !here.point->retry) {
       return status;
     }
     if (status == BAUM_OK) {
       any = true;
-      if (settle(&now, stencil->agreement, out, best, field->size)) {
+      if (keep_improved(&now, stencil->agreement, out, best, field->size)) {
         break;
       }
     }

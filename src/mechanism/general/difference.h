@@ -1,45 +1,45 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives by central differences, for what a user does not give and for checking what is given.
+/* Derivatives by central differences: for derivatives that the user does not give, and to check
+ * those that the user gives.
  *
- * Everything is a derivative at s = 0 along a ray in (t, q, v):
+ * All are derivatives at s = 0 along a ray in (t, q, v):
  *
  *   f(s) = F(t + s dt, q + s dq, v + s dv)
  *
- * where q is no vector, q + s dq is q moved by s dq (manifold.h).
- *
- * How differences are taken, and how far they can be trusted, is told in difference.c.
+ * Where q is no vector, q + s dq means q moved by s dq (manifold.h). difference.c describes the
+ * method and its accuracy.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_DIFFERENCE_H
 #define BAUM_I_MECHANISM_GENERAL_DIFFERENCE_H
 
 #include "mechanism/general/user_function.h"
 
-/* F: size values at a place. It may move along the ray to where a user function fails. */
+/* F: writes `size` values at a point. It may fail at some points of the ray. */
 typedef baum_status baum_i_field_fn(const void *context, const baum_i_local *at, double *out);
 
 typedef struct baum_i_field {
   baum_i_field_fn *evaluate;
   const void *context;
   int size;
-  bool rough; /* values come from differences themselves and carry their error */
+  bool rough; /* the values are themselves differences, with their error */
 } baum_i_field;
 
 typedef struct baum_i_ray {
   double dt;
   const double *dq; /* (nl), or NULL for zeros */
-  /* (nl) where q is no vector: it is moved by s times this first, then by s dq. NULL: zeros. */
+  /* (nl) where q is no vector: q is first moved by s times this, then by s dq. NULL: zeros. */
   const double *dq_first;
   const double *dv; /* (nl), or NULL for zeros */
-  double rate;      /* > 0; a relevant change takes s = 1 / rate */
+  double rate;      /* > 0; s = 1 / rate is a relevant change */
 } baum_i_ray;
 
-/* Derivatives of all columns are taken with respect to one of these. */
+/* The variable of derivatives by all columns. */
 typedef enum baum_i_variable { BAUM_I_VARIABLE_Q, BAUM_I_VARIABLE_V } baum_i_variable;
 
-/* Largest |v_i| / scale_i: how many relevant changes per unit of time. */
+/* Largest |v_i| / scale_i: relevant changes per unit of time. */
 double baum_i_local_rate(const baum_i_local *at);
 
-/* Ray along one coordinate; direction (nl) is set and kept by the ray. */
+/* Ray along one coordinate. Sets direction (nl), to which the ray refers. */
 baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, int column,
                              double *direction);
 
@@ -53,7 +53,7 @@ baum_status baum_i_difference_second(const baum_i_field *field, const baum_i_ray
 baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable variable,
                                       const baum_i_local *at, double *out);
 
-/* ---- one step size at a time, for those who judge ---- */
+/* ---- one step size at a time, for check.c ---- */
 
 /* Weights of a derivative of order 1 or 2. */
 typedef struct baum_i_stencil {
@@ -62,18 +62,18 @@ typedef struct baum_i_stencil {
   double fourth[3];
   double step;      /* first step, in relevant changes */
   double shrink;    /* factor to the next step */
-  int steps;        /* at most so many */
-  double agreement; /* of the two orders, relative, that ends the search */
+  int steps;        /* maximum number */
+  double agreement; /* relative disagreement of the orders that ends the search */
 } baum_i_stencil;
 
 extern const baum_i_stencil baum_i_stencil_first;
 extern const baum_i_stencil baum_i_stencil_second;
 
-/* What one step size tells; arrays (size). */
+/* Result of one step size; arrays (size). */
 typedef struct baum_i_estimate {
   double *value;     /* of sixth order */
-  double *error;     /* distance of the orders: far above value's when the step is good */
-  double *noise;     /* what rounding of F alone may do to value */
+  double *error;     /* disagreement of the orders: far above the error of value at a good step */
+  double *noise;     /* effect of the rounding of F on value */
   double *variation; /* largest pair of the stencil, in units of value */
 } baum_i_estimate;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The row of a driver, whatever gives its motion s(t). */
+/* The row of a driver with any motion s(t). */
 #include "mechanism/general/driven.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 const baum_i_joint *baum_i_driven_by(const baum_mechanism *mechanism, const void *def)
 {
-  const baum_i_driver_head *head = def; /* which has been checked */
+  const baum_i_driver_head *head = def; /* of a checked definition */
   return mechanism->joints[head->joint.index1 - 1];
 }
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What drivers share: one row that prescribes the coordinate c(q) of another joint.
+/* Common part of drivers: one row that prescribes the coordinate c(q) of another joint.
  *
  *   Phi = c(q) - s(t),   J = c_q,   nu = s',   gamma = s'' - (c_q v)_q v,   nu_q = 0
  *
- * c, c_q and their derivatives are those of the driven joint's type;
- * the driver acts on the same bodies.
+ * The type of the driven joint gives c, c_q and their derivatives. The driver acts on the same
+ * bodies.
  *
- * The numbers of every driver begin with those of a polynomial in t - t0. Where it is in
- * force it is the motion: from the start when the definition gives one, or because a run has put it
- * in the place of what the definition gives, in a copy of the numbers of its own.
+ * The numbers of every driver begin with those of a polynomial in t - t0. While it is active the
+ * polynomial is the motion. It is active from the start if the definition gives it, or because a
+ * run replaced the law in its own copy of the numbers.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 #define BAUM_I_MECHANISM_GENERAL_DRIVEN_H
@@ -28,14 +28,14 @@ enum {
   BAUM_I_DRIVER_DS,
   BAUM_I_DRIVER_DDS,
   BAUM_I_DRIVER_T0,
-  BAUM_I_DRIVER_POLYNOMIAL, /* 1: in force, 0: the type's motion is */
+  BAUM_I_DRIVER_POLYNOMIAL, /* 1: active; 0: the type's motion is */
   BAUM_I_DRIVER_NUMBERS
 };
 
-/* Put a polynomial in force; the replace_law of types. */
+/* Make a polynomial the motion; the replace_law of types. */
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
-/* Check that s is finite; source says in the message where it comes from: "law()". */
+/* Check that s is finite. The message names the source: "law()". */
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3]);
 

@@ -36,7 +36,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 
 enum { LAW_SIZE = 3 };
 
-/* The user's, at any time. */
+/* Call the user's law at any time. */
 static baum_status law_at(const baum_i_joint *joint, baum_i_point *point, double t,
                           double s[LAW_SIZE])
 {
@@ -64,7 +64,7 @@ static baum_status law_field(const void *joint, const baum_i_local *at, double *
   return law_at(joint, at->point, at->t, out);
 }
 
-/* A law may begin and end where it likes: where it refuses, nothing is to be told. */
+/* A law may be defined for a limited time. Where it refuses, there is nothing to compare. */
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
   static const baum_i_derived pairs[] = {{1, 0}, {2, 1}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A force by functions of the user, of generalized coordinates or of a force on bodies: its value,
- * derivatives that are given or come from differences, and a potential.
+/* A force by user functions, of user coordinates or of a user force: its value, its derivatives,
+ * which are given or come from differences, and its potential.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
 #define BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
@@ -16,7 +16,7 @@ typedef struct baum_i_given_force {
   void *user;
 } baum_i_given_force;
 
-/* Of a definition that has members of these names. */
+/* From a definition that has members of these names. */
 #define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
                         .force = (DEF)->force,                             \
@@ -28,7 +28,7 @@ typedef struct baum_i_given_force {
 baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,
                                   double *out); /* (nl) */
 
-/* Its derivative by q or v (nl x nl); none where out is NULL. */
+/* Derivative by q or v (nl x nl). Does nothing where out is NULL. */
 baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
                                      baum_i_variable variable, double *out);
 

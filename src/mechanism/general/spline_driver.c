@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver along a cubic spline, natural or periodic. The natural one goes on with its end slopes, so
- * that s'' stays continuous. */
+/* Driver along a cubic spline, natural or periodic. The natural spline continues with its end
+ * slopes, so s'' stays continuous. */
 #include <baum/spline.h>
 
 #include <math.h>
@@ -14,10 +14,10 @@
 #include "mechanism/general/driven.h"
 #include "mechanism/general/user_function.h"
 
-/* Fewer leave a natural spline a line, and a periodic one constant. */
+/* With fewer points a natural spline is a line, and a periodic one is constant. */
 enum { COUNT_MIN = 3 };
 
-/* A motion that is closed but for rounding. */
+/* Relative difference of first and last value of a periodic spline that counts as rounding. */
 static const double SAME_VALUE = 1e-12;
 
 static const baum_i_def_field fields[] = {
@@ -41,8 +41,8 @@ static baum_status check_given(const baum_spline_driver_def *def, const char *la
   return baum_i_check_given(label, "values", def->values != NULL);
 }
 
-/* Both numbers, and the slope from the place before. */
-static baum_status check_place(const baum_spline_driver_def *def, int32_t k, const char *label)
+/* Check both numbers and the slope from the previous point. */
+static baum_status check_knot(const baum_spline_driver_def *def, int32_t k, const char *label)
 {
   const double *t = def->times + k;
   const double *s = def->values + k;
@@ -55,7 +55,7 @@ static baum_status check_place(const baum_spline_driver_def *def, int32_t k, con
                        label, (int)k, t[0], t[-1]);
   }
   if (k > 0 && !isfinite((s[0] - s[-1]) / (t[0] - t[-1]))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the slope between places %d and %d is not finite",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the slope between points %d and %d is not finite",
                        label, (int)k - 1, (int)k);
   }
   return BAUM_OK;
@@ -72,9 +72,10 @@ static baum_status check_closed(const baum_spline_driver_def *def, const char *l
   if (fabs(last - first) <= SAME_VALUE * largest) {
     return BAUM_OK;
   }
-  return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: values[%d] is %.9g, must be values[0], %.9g, of a periodic spline", label,
-                     (int)def->count - 1, last, first);
+  return baum_i_fail(
+    BAUM_ERR_ARGUMENT,
+    "%s: values[%d] is %.9g, must equal values[0], %.9g, because the spline is periodic", label,
+    (int)def->count - 1, last, first);
 }
 
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
@@ -83,14 +84,14 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   BAUM_I_TRY(baum_i_driver_check(mechanism, def, label));
   BAUM_I_TRY(check_given(def, label));
   for (int32_t k = 0; k < def->count; k++) {
-    BAUM_I_TRY(check_place(def, k, label));
+    BAUM_I_TRY(check_knot(def, k, label));
   }
   return def->periodic ? check_closed(def, label) : BAUM_OK;
 }
 
-/* ---- what a copy owns ---- */
+/* ---- memory of an element's copy ---- */
 
-/* The copy's times and values point to the first numbers, followed by the bends. */
+/* The numbers are the copy's times, its values and the bends. */
 typedef struct curve {
   baum_i_cubic_spline spline;
   double numbers[];
@@ -134,7 +135,7 @@ static void release(void *copy)
 
 /* ---- motion ---- */
 
-/* The time between the first and the last that t stands for. */
+/* The time in the range of the spline that corresponds to t. */
 static double time_within(const baum_spline_driver_def *def, double t)
 {
   double first = def->times[0];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What springs share: the tension as a function of one length and its rate, which are an angle and
- * its rate for a torsion spring.
+/* Common part of springs: the tension as a function of a length and its rate. For a torsion spring
+ * these are an angle and its rate.
  *
  *   T = k (l - l_0) + c l',   V = k (l - l_0)^2 / 2,   or the user's law without V
  */
@@ -19,7 +19,7 @@ typedef struct baum_i_spring_law {
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
   baum_spring_fn *law;   /* replaces the numbers; or NULL */
   void *user;
-  bool depends_on_rate; /* so does the law */
+  bool depends_on_rate; /* the law does */
 } baum_i_spring_law;
 
 /* T and its derivatives by l and l'. */
@@ -53,7 +53,7 @@ static inline double baum_i_spring_potential(const baum_i_spring_law *spring, do
   return spring->law ? 0.0 : 0.5 * spring->numbers[BAUM_I_STIFFNESS] * stretch * stretch;
 }
 
-/* Adds the power of the tension at l' without that of V: of a user's law all of it. */
+/* Add the power of the tension at l' without that of V. A user's law has no V. */
 static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
                                               double length, double rate, double sum[BAUM_I_POWERS])
 {
@@ -68,7 +68,7 @@ static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, b
 }
 
 /* Compare the derivatives that a user's law gives with differences; scale is a relevant change of
- * length. Returns as the `check` of types. */
+ * length. */
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                     double length, double rate, double scale);
 

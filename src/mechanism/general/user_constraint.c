@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints given by functions of the user: Phi(q, t), and what else is given of
+/* Constraints by user functions: Phi(q, t), and any of
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
- * What is missing comes from differences (difference.c). A straight line q + s v, t + s has no
- * acceleration, and Phi'' = J a - gamma, so along it
+ * Missing functions are replaced by differences (difference.c). Along a straight line q + s v, t +
+ * s there is no acceleration, and Phi'' = J a - gamma, so
  *
  *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
  *
- * the second of which is the more accurate, and is used when J and nu are known.
- * Second derivatives of Phi without J:
+ * The second form is more accurate and is used when J and nu are given. Second derivatives of Phi
+ * without J:
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
- * The unit of time is unknown where nothing moves; differences in t then start from one relevant
- * change per unit of time. A constraint whose own time is very much longer does well to give nu and
- * gamma.
+ * Where nothing moves the time scale is unknown. Differences in t then assume one relevant change
+ * per unit of time. For a constraint that varies much more slowly, give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
@@ -26,7 +25,6 @@
 #include "mechanism/general/check.h"
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
-#include "mechanism/identify.h"
 
 static const baum_i_def_field fields[] = {
   BAUM_I_ARRAY(baum_user_constraint_def, bodies, BODIES, FINITE, body_count, body_count),
@@ -48,7 +46,7 @@ static int rows(const void *given)
   return def->row_count;
 }
 
-/* What difference.c leaves in second and in first derivatives. */
+/* The errors of second and of first derivatives by difference.c. */
 static double noise(const void *given)
 {
   const baum_user_constraint_def *def = given;
@@ -129,7 +127,7 @@ static baum_i_field field_of(baum_i_field_fn *evaluate, const baum_i_joint *join
   return (baum_i_field){.evaluate = evaluate, .context = joint, .size = joint->rows};
 }
 
-/* ---- what is given, or differences ---- */
+/* ---- given functions, or differences ---- */
 
 static baum_status jacobian_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
 {
@@ -152,7 +150,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
   return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
-/* Whether Phi changes with t alone, seen from a small step to both sides. */
+/* Whether Phi changes with t alone, judged by a small step to both sides. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -169,13 +167,13 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   return BAUM_OK;
 }
 
-/* The line of motion: where it goes, how fast, and whether Phi may change with t. */
+/* Find the line of motion: its direction, its speed, and whether Phi may change with t. */
 static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
                              bool *moves)
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* When fast the step is the same in any case; then only a missing nu has to be told from zero. */
+  /* In fast motion the step is the same in any case, and only a missing nu matters. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
@@ -229,7 +227,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 
 /* ---- second derivatives ---- */
 
-/* One joint's blocks while they are made. */
+/* Blocks of one joint in the making. */
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
@@ -344,7 +342,8 @@ static baum_status linearize_products(const second *s, const baum_i_local *at)
   return def_of(s->joint)->jacobian ? products_by_columns(s, at) : products_by_pairs(s, at);
 }
 
-/* (size x nl) of what may itself come from differences; none where out is NULL. */
+/* Differentiate (size x nl) a function that may itself come from differences. Does nothing where
+ * out is NULL. */
 static baum_status linearize_by(const baum_i_joint *joint, baum_i_field_fn *call, bool is_given,
                                 baum_i_variable variable, const baum_i_local *at, double *out)
 {
@@ -405,7 +404,7 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* By the more accurate of the two ways; jacobian and nu are checked before. */
+/* By the more accurate of the two forms; jacobian and nu are already checked. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

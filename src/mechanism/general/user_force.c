@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized force g(q, v, t) on the named bodies, by functions of the user.
+/* Generalized force g(q, v, t) on the named bodies, by user functions.
  *
  * Derivatives that are not given come from differences (difference.c).
  */

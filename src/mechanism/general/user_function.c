@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User functions: gathering, calling, judging. */
+/* User functions: gather coordinates, call, check the result. */
 #include "mechanism/general/user_function.h"
 
 #include <assert.h>
@@ -13,8 +13,8 @@
 
 int64_t baum_i_scratch_size(int columns, int rows)
 {
-  /* Differences may be nested twice, each level with a dozen vectors; matrices are never
-   * differenced as a whole, but up to three of them (given, evaluated, one more) are kept. */
+  /* Differences may be nested twice, with a dozen vectors at each level. Up to three matrices are
+   * kept at a time. */
   int64_t vectors = 48 * ((int64_t)columns + rows);
   int64_t matrices = 3 * ((int64_t)columns * rows);
   return vectors + matrices;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of body_b's marker from body_a's along a direction fixed in body_a: with the normal of
- * an axis the first row of the translational joint and the row of the pin in a slot, with the axis
- * itself their coordinate; also part of the rack and pinion and of the point on a curve.
+/* Distance of body_b's marker from body_a's along a direction fixed in body_a. Along the normal of
+ * an axis it is the first row of the translational joint and the row of the pin in a slot. Along
+ * the axis it is their coordinate. The rack and pinion and the point on a curve use it, too.
  *
  * Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u,
  * p_b the arm of body_b's marker, r the origins, and D = r_b + p_b - r_a (u . p_a is constant, both
@@ -26,15 +26,14 @@
 
 /* ---- an axis in definitions ---- */
 
-/* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`.
- * The axis has those axes that the points have: with `point` (given or NaN) it is drawn on the
- * ground. */
+/* Find the unit axis and its normal k x axis (or NULL) in the axes of body_a, whose design frame is
+ * `a`. If `point` is given (not NaN), the definition's axis is in ground axes, as the point is. */
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2]);
 
-/* ---- the row; inline, so that a joint that wants all of it finds what is common once ---- */
+/* ---- the row; inline, so that common subexpressions are evaluated once ---- */
 
-/* What all of the above is made of. */
+/* Common terms of the equations above. */
 typedef struct baum_i_axis {
   double u[2];
   double n[2];

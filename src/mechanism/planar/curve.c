@@ -6,8 +6,8 @@
  *   (x, y) = A_a^T d, both projections of axis_row.c, on (1, 0) and (0, 1)
  *   Phi    = F(x, y)                     (1)
  *
- * J, gamma and second derivatives by the chain rule of composed_row.c. The third derivatives of F,
- * which only gamma_q needs, are differences of the second ones.
+ * J, gamma and second derivatives follow from the chain rule of composed_row.c. The third
+ * derivatives of F, which only gamma_q needs, come from differences of the second ones.
  */
 #include <string.h>
 
@@ -16,7 +16,7 @@
 #include "mechanism/general/composed_row.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Of the curve function. */
+/* Entries of the curve function. */
 enum { F, F_X, F_Y, F_XX, F_XY, F_YY, CURVE_SIZE };
 
 static const baum_i_def_field fields[] = {
@@ -36,8 +36,8 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "curve", CURVE_SIZE, 0, def->user};
 }
 
-/* A place in the curve's axes, to call and to difference at; values (q, v, scale) stay the
- * caller's. */
+/* The point at which the curve is called and differentiated, in the axes of the curve; it refers to
+ * values (q, v, scale). */
 static baum_i_local place_at(baum_i_point *point, const double values[6])
 {
   return (baum_i_local){.point = point,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint, planar: a rod without mass keeps two points at length L. With d from body_a's
+/* Distance joint, planar: a massless rod keeps two points at distance L. With d from body_a's
  * point to body_b's and F, G of separation.h:
  *
  *   Phi   = (d . d - L^2) / (2 L)          (1), change of length to first order, smooth at d = 0

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The frames of all bodies at once. */
+/* The kernel that sets the frames of all bodies. */
 #ifndef BAUM_I_MECHANISM_PLANAR_FRAMES_H
 #define BAUM_I_MECHANISM_PLANAR_FRAMES_H
 

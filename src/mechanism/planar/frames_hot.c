@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The frames of all bodies, some at a time: angles side by side, their sines and cosines as
- * vectors, then the frames. Where all bodies are planar bodies their coordinates need no looking
- * up.
+/* The frames of all bodies in batches: first the angles, then their sines and cosines as vectors,
+ * then the frames. Where all bodies are planar bodies, no table of coordinates is needed.
  */
 #include <math.h>
 
@@ -10,7 +9,7 @@
 #include "base/sincos.h"
 #include "mechanism/planar/frames.h"
 
-/* Bodies at a time; whole vectors. */
+/* Bodies in a batch, in whole vectors. */
 enum { SOME = 32, LANES = 4 };
 
 typedef double vector __attribute__((vector_size(LANES * sizeof(double))));
@@ -37,8 +36,8 @@ BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
   return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
 }
 
-/* Zero where a body has no angle. Stored a vector at a time, as they are read again at once: of
- * single numbers the reader would have to wait until they are in memory. */
+/* Bodies without an angle get zero. Angles are stored as vectors, because they are read as vectors
+ * at once: after stores of single numbers the load would stall. */
 BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
   int i = 0;
@@ -55,7 +54,7 @@ BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *an
   }
 }
 
-/* Whether no angle is beyond own sincos, of which sine and cosine mean nothing. */
+/* Returns false if an angle is beyond the range of baum_i_sincos(). */
 static bool set_sines(const double *restrict angle, int count, double *restrict sine,
                       double *restrict cosine)
 {
@@ -71,8 +70,8 @@ static bool set_sines(const double *restrict angle, int count, double *restrict 
   return (far[0] | far[1] | far[2] | far[3]) == 0;
 }
 
-/* Far angles, and infinite ones. */
-static void mend_far(const double *angle, int count, double *sine, double *cosine)
+/* Use the C library for angles beyond the range, and for infinite ones. */
+static void set_far_sines(const double *angle, int count, double *sine, double *cosine)
 {
   for (int i = 0; i < count; i++) {
     if (!(fabs(angle[i]) <= baum_i_sincos_limit)) {
@@ -104,7 +103,7 @@ BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v
   double cosine[SOME];
   gather_angles(some, q, angle);
   if (!set_sines(angle, some->count, sine, cosine)) {
-    mend_far(angle, some->count, sine, cosine);
+    set_far_sines(angle, some->count, sine, cosine);
   }
   for (int k = 0; k < some->count; k++) {
     baum_i_frame *frame = &frames[some->first + k];

@@ -7,8 +7,8 @@
  *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9), constant
  *   gamma = 0, and so are all second derivatives
  *
- * Its reaction is moments alone, and they add up to nothing: what the teeth push and what the pins
- * of the wheels hold against it are pairs.
+ * Its reaction consists of moments alone, which add up to zero, because the forces of the teeth and
+ * of the wheels' pins form couples.
  */
 #include <math.h>
 
@@ -55,7 +55,7 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return check_carrier(mechanism, def, label);
 }
 
-/* Of the three angles. */
+/* Left side of the row, by the three angles. */
 static double rolled(const double *numbers, double a, double b, double carrier)
 {
   return numbers[RADIUS_A] * (a - carrier) + numbers[RADIUS_B] * (b - carrier);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pin in a slot (point on a line), planar: body_b's point stays on an axis fixed in body_a and may
- * turn there (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in body_a,
- * n = A_a (k x e), d from body_a's marker to body_b's:
+/* Pin in a slot (point on a line), planar: body_b's point stays on an axis fixed in body_a, and
+ * body_b may rotate (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in
+ * body_a, n = A_a (k x e), d from body_a's marker to body_b's:
  *
  *   Phi = n . d             (1), a row of axis_row.c
  *

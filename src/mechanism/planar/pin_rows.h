@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two rows that hold both markers at one place: all of the revolute joint,
- * and the first rows of the fixed one. */
+/* Two rows of coincident markers: all rows of the revolute joint and the first two of the fixed
+ * joint. */
 #ifndef BAUM_I_MECHANISM_PLANAR_PIN_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PIN_ROWS_H
 

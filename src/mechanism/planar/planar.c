@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What planar joints and forces share: checks of their common fields, points in body axes.
+/* Common part of planar joints and forces: checks of their common fields, and points in body axes.
  *
- * A point given in ground axes of the design configuration becomes s = A^T (point - r) on a body
- * drawn at r.
+ * A point in ground axes of the design configuration becomes s = A^T (point - r) on a body at r.
  */
 #include "mechanism/planar/planar.h"
 
@@ -12,7 +11,7 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* A design configuration in decimal numbers puts a particle and a pin at the same place only to
+/* Relative tolerance: decimal numbers place a particle and a pin at the same point only to
  * rounding. */
 static const double SAME_PLACE = 1e-9;
 
@@ -31,7 +30,7 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
   baum_i_frame_kind kind = baum_i_frame_of(body);
   if (kind == BAUM_I_FRAME_NONE || baum_i_is_spatial(kind)) {
     char text[BAUM_I_LABEL_SIZE];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no place in the plane", label,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no position in the plane", label,
                        field, baum_i_label(&body->element, text));
   }
   return BAUM_OK;
@@ -74,7 +73,7 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 
 /* ---- points ---- */
 
-/* All of a point, or nothing. */
+/* Either all numbers of a point are given, or none. */
 static bool is_given(const double point[2])
 {
   return !isnan(point[0]);
@@ -84,9 +83,9 @@ static baum_status check_with_point(const baum_i_planar_head *head, const char *
                                     bool point_allowed)
 {
   if (!point_allowed) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: point is given and leaves no length; give point_a and point_b instead",
-                       label);
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: point is given, but the length would be zero; give point_a and point_b instead", label);
   }
   bool a = is_given(head->point_a);
   if (a || is_given(head->point_b)) {
@@ -165,7 +164,7 @@ baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void
   return baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
 }
 
-/* A point in ground axes, design configuration, to a body's axes. */
+/* Convert a point of the design configuration from ground axes to a body's axes. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
                             const baum_i_element *element, double s[2])
 {
@@ -186,7 +185,7 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
   char label[BAUM_I_LABEL_SIZE];
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: point is (%g, %g) m, must be at the particle %s, drawn at (%g, %g) m",
+                     "%s: point is (%g, %g) m, must be at the particle %s, at (%g, %g) m",
                      baum_i_label(element, label), point[0], point[1],
                      baum_i_label(&body->element, text), frame.x, frame.y);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What planar joints and forces share: placing and markers.
+/* Common part of planar joints and forces: points and markers.
  *
  * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
  * p' = k x p = (-p_y, p_x):
@@ -26,7 +26,7 @@ typedef struct baum_i_planar_head {
   double point_b[2];
 } baum_i_planar_head;
 
-/* Their rows in a table of fields. */
+/* Their entries in a table of fields. */
 #define BAUM_I_PLANAR_BODIES(DEF) BAUM_I_FIELD(DEF, body_a, BODY), BAUM_I_FIELD(DEF, body_b, BODY)
 #define BAUM_I_PLANAR_FIELDS(DEF)                                     \
   BAUM_I_PLANAR_BODIES(DEF), BAUM_I_OPTIONAL(DEF, point, POINT, "m"), \
@@ -73,9 +73,9 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* Checks of definitions whose fields hold one by one. */
+/* Checks of definitions whose single fields are already checked. */
 
-/* Check that a body has a place in the plane. */
+/* Check that a body has a position in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);
 
@@ -83,27 +83,27 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
 baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* The `check` of definitions by bodies and points, which must be given in exactly one way: */
+/* The `check` of definitions with bodies and points, which must be given in exactly one way: */
 baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
                                            const char *label);
-/* without `point`, for elements of non-zero length; */
+/* without `point`, for elements with a length; */
 baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
-/* where both bodies, or body_a alone, must have an angle. */
+/* with an angle of both bodies, or of body_a. */
 baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
                                         const char *label);
 baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
                                      const char *label);
 
-/* A body that has passed the checks above must have an angle (ground does); both bodies. */
+/* Check that a body that passed the checks above has an angle (ground has); likewise both
+ * bodies. */
 baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Points on both bodies from an element's definition and the design configuration, s[0..1] on a,
- * s[2..3] on b. A particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are
- * checked when they are given). */
+/* Find the points on both bodies from an element's definition and the design configuration: s[0..1]
+ * on a, s[2..3] on b. Returns BAUM_ERR_ARGUMENT if `point` is away from a particle. */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                  double s[4]);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies in the plane, with the centre of mass at (x, y) and v = q': rigid bodies,
- * q = (x, y, angle), and particles, q = (x, y).
+/* Bodies in the plane, with the centre of mass at (x, y) and v = q': rigid bodies, q = (x, y,
+ * angle), and particles, q = (x, y).
  *
  *   M = diag(m, m, I)   or diag(m, m)
  *   g = (m g_x, m g_y, 0)   or without the last, by gravity; V = -m (g_x x + g_y y)

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load on one body, planar: force f at the point s, and torque t, both times the input u if there
- * is one. With p = A s, over x, y, angle, and u in f and t already:
+/* Load on one body, planar: force f at the point s, and torque t, both multiplied by the input u if
+ * there is one. With p = A s, over x, y, angle, and with u included in f and t:
  *
  *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
  *                  V = -f . (r + p) when t = 0
  *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
  *
- * where x x y = x_1 y_2 - x_2 y_1. A load in ground axes with a torque counts as having no
- * potential, because a torque's work depends on the turns; nor has one with an input, whose changes
- * would make the potential jump where no work is done.
+ * where x x y = x_1 y_2 - x_2 y_1. A load with a torque has no potential, because the work of a
+ * torque depends on the number of revolutions. A load with an input has none, because changes of
+ * the input would change the potential without doing work.
  */
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -27,7 +27,7 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* `input` lies in what was padding after `follows_body`. */
+/* `input` uses former padding after `follows_body`. */
 static const size_t former[] = {
   offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
   0,
@@ -94,7 +94,7 @@ typedef struct load {
   bool has_potential;
 } load;
 
-/* f, in ground axes and with the input; returns what the input is. */
+/* Set f, in ground axes and with the input; returns the input. */
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {
@@ -135,7 +135,7 @@ static void set_force_q(const load *l, double out[9])
 
 /* ---- type ---- */
 
-/* Without what only energy and derivatives need. */
+/* Leaves out what only energy and derivatives need. */
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A planar joint as kernels: what one joint does, over six columns, seen by its two markers.
+/* Planar joints by kernels, which evaluate one joint over six columns from its two markers.
  *
- * The loops over a group and the packing are here once. They are inline so that a joint's own file,
- * which knows its kernel, compiles to a loop without calls through pointers.
+ * The loops over a group and the packing stand here once. They are inline, so that the file of a
+ * joint, which knows its kernels, compiles to a loop without calls through pointers.
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
@@ -40,7 +40,7 @@ typedef struct baum_i_planar_blocks {
 /* Sets rows values, or rows x 6. */
 typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
 
-/* w (6), lambda (rows); out arrives zeroed. */
+/* w (6), lambda (rows); out is zeroed before. */
 typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
                                          const double *lambda, baum_i_planar_blocks *out);
 
@@ -73,8 +73,8 @@ static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
   return pair->frame_b->angle - pair->frame_a->angle;
 }
 
-/* What one joint computes; static const beside the kernels, so that the loop below needs no calls
- * through pointers. */
+/* The kernels of a joint; static const in its file, so that the loop below needs no calls through
+ * pointers. */
 typedef struct baum_i_planar_kernels {
   int rows;
   baum_i_planar_kernel *phi;
@@ -105,7 +105,7 @@ BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
                       jacobian + joint->jacobian);
 }
 
-/* Phi, J and gamma, which have much in common: found first, stored then. */
+/* Phi, J and gamma share terms, so all are evaluated before the first is stored. */
 BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
                                          const baum_i_planar_pair *pair,
                                          const baum_i_planar_kernels *kernels,
@@ -163,7 +163,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* The member functions of a type of so many rows by its kernels. */
+/* Define the member functions of a type by its kernels. */
 #define BAUM_I_PLANAR_EVALUATE(ROWS, PHI, JACOBIAN, GAMMA)                          \
   static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point, \
                               const baum_i_rows *out)                               \
@@ -179,12 +179,12 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
     return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
   }
 
-/* What definitions, and members of types, of joints of two bodies share; their points come before
- * OWN numbers. */
+/* Common members of definitions and types of joints of two bodies. The parameters begin with the
+ * points, followed by OWN numbers. */
 #define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)                                 \
   .kind = (TITLE), .size = sizeof(baum_##NAME##_def), .fields = fields, .check = (CHECK), \
   .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)
-#define BAUM_I_PLANAR_MEMBERS(ROWS)                                                         \
+#define BAUM_I_PLANAR_MEMBERS(ROWS)                                                                \
   .width = BAUM_I_PLANE, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
   .place = baum_i_planar_place
 #define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                 \
@@ -193,8 +193,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
-/* Its points from the design configuration; then the joint lowers its own numbers. Fails where a
- * particle is drawn off `point`. */
+/* Lower the points; the joint then lowers its own numbers. Fails if `point` is away from a
+ * particle. */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

@@ -9,8 +9,8 @@
  *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
  *   g_v = -c h h^T                                                            (6 x 6)
  *
- * With the user's law T(l, l') without V, k and c are its derivatives.
- * At l = 0 there is no direction; force and derivatives are zero there.
+ * For a user's law T(l, l'), which has no V, k and c are its derivatives.
+ * At l = 0 there is no direction, and force and derivatives are zero.
  */
 #include <float.h>
 #include <math.h>
@@ -74,7 +74,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   s.line = baum_i_separation_of(&a, &b);
   s.length = baum_i_separation_length(&s.line);
   if (s.length < DBL_MIN) {
-    /* Of a denormal length the reciprocal is not finite. */
+    /* The reciprocal of a denormal length is not finite. */
     return (spring){.line = s.line};
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
@@ -134,8 +134,8 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* -T h, as pairs: T e and its moment on body a, the opposite on b. Of all that springs do this
- * alone is done in every evaluation. */
+/* Add -T h as pairs: T e and its moment on body a, the opposite on b. Every evaluation calls this
+ * function, but none of the others. */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;

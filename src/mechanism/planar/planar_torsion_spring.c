@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Torsion spring and damper in parallel between two bodies, planar. With the relative angle
- * phi = angle_b - angle_a, continuous over turns, stiffness k, damping c, free angle phi_0, over
+ * phi = angle_b - angle_a, which counts revolutions, stiffness k, damping c, free angle phi_0, over
  * the six columns x_a y_a angle_a x_b y_b angle_b:
  *
- *   T   = k (phi - phi_0) + c phi'                 torque that turns phi back
+ *   T   = k (phi - phi_0) + c phi'                 restoring torque
  *   h   = phi_q = (0 0 -1 0 0 1)                   (6)
  *   g   = -T h                                     (6)
  *   V   = k (phi - phi_0)^2 / 2
  *   g_q = -k h h^T,   g_v = -c h h^T               (6 x 6)
  *
- * With the user's law T(phi, phi') without V, k and c are its derivatives.
+ * For a user's law T(phi, phi'), which has no V, k and c are its derivatives.
  */
 #include <math.h>
 

@@ -7,8 +7,8 @@
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6)
  *   gamma = that of s, as are all second derivatives: the angles are linear
  *
- * Where they touch the pinion is at rest against the rack: its centre goes by R w along u, and the
- * point at R n, n = k x u, by R w u + w k x R n = 0. So the pitch line is at R n from the centre.
+ * At the contact the pinion is at rest relative to the rack: its centre moves at R w u, and its
+ * point at R n, n = k x u, at R w u + w k x R n = 0. So the pitch line is at R n from the centre.
  */
 #include <math.h>
 
@@ -28,7 +28,7 @@ static const baum_i_def_field fields[] = {
 
 /* ---- definition ---- */
 
-/* Displacement along the rack less what has been rolled off. */
+/* Displacement along the rack minus the arc that has rolled off. */
 static double rolled(const baum_i_planar_pair *pair)
 {
   return baum_i_axis_value(pair, pair->numbers + AXIS) -

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The line between two markers, and half of its squared length with first and second derivatives;
- * shared by the distance joint and the spring.
+/* The line between two markers, and half of its squared length with first and second derivatives.
+ * The distance joint and the spring use it.
  *
  * With d = P_b - P_a, p the arms, over the six columns x_a y_a angle_a x_b y_b angle_b:
  *
@@ -30,7 +30,7 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
   };
 }
 
-/* By way of hypot() only where squares could overflow or vanish. */
+/* hypot() is slower and only needed where squares could overflow or vanish. */
 static inline double baum_i_length_of(double x, double y)
 {
   double square = x * x + y * y;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Translational joint (slider), planar: body_b slides along an axis fixed in body_a and does not
- * turn against it. With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to
+ * rotate relative to it. With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to
  * body_b's:
  *
  *   Phi = [ n . d                           distance from the axis, a row of axis_row.c

@@ -1,0 +1,459 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results of the library as named tuples. Made by tools/generate_abi.py from the headers; do not
+edit. Units are in brackets, and [-] means a pure number."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from .elements import Body, Joint
+    from .errors import Status
+    from .gains import Gains
+
+
+class Mobility(NamedTuple):
+    """What a mechanism can do at its assembled initial configuration.
+
+    degrees_of_freedom: [-] nv - rank of J at nearby configurations; -1: cannot be assembled.
+    redundant_rows: [-] rows that depend on others at every nearby configuration.
+    conflicting_rows: [-] rows that cannot be met together with the others.
+    free_bodies: [-] bodies without a joint.
+    near_singular: The initial configuration has fewer independent rows than its neighbours, or
+        is within 1e-5 of one that has, relative to the scales.
+    worst_phi: [m or rad] largest |Phi| after assembly.
+    worst_joint: Joint of worst_phi.
+    text: The same as a message that names the elements.
+    """
+
+    degrees_of_freedom: int
+    redundant_rows: int
+    conflicting_rows: int
+    free_bodies: int
+    near_singular: bool
+    worst_phi: float
+    worst_joint: Joint | None
+    text: str
+
+
+class Report(NamedTuple):
+    """What an evaluation of the accelerations costs, and which work it skips.
+
+    bodies: [-] without ground.
+    joints: [-] with drivers and user constraints.
+    forces: [-] without gravity.
+    velocities: [-] nv.
+    rows: [-] nc.
+    degrees_of_freedom: [-] nv - rank of J; -1: not known, see mobility().
+    redundant_rows: [-] rows omitted from every solution.
+    constant_rows: [-] rows that do not depend on time.
+    islands: [-] groups of bodies connected by joints, without fixed bodies.
+    fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are wanted.
+    constant_mass: All masses are constant and inverted once.
+    constant_force: All forces are constant.
+    blocks: Solved by blocks ("block"), otherwise by KLU.
+    nodes: [-] pairs of rows; 0 for KLU.
+    couplings: [-] between nodes during elimination; 0 for KLU.
+    fill: [-] couplings that elimination adds; 0 for KLU.
+    most_couplings: [-] of one node; 0 for KLU.
+    most_joints: [-] of one body that is not fixed.
+    most_joined: That body; none if there are no joints.
+    text: The same as lines of text that name elements and reasons.
+    """
+
+    bodies: int
+    joints: int
+    forces: int
+    velocities: int
+    rows: int
+    degrees_of_freedom: int
+    redundant_rows: int
+    constant_rows: int
+    islands: int
+    fixed_bodies: int
+    constant_mass: bool
+    constant_force: bool
+    blocks: bool
+    nodes: int
+    couplings: int
+    fill: int
+    most_couplings: int
+    most_joints: int
+    most_joined: Body | None
+    text: str
+
+
+class Counters(NamedTuple):
+    """What a run has cost since it was created, and how well it has kept the constraints. Joints
+    are handles or None, and names after unpickling.
+
+    steps: [-] accepted.
+    rejected: [-] steps that failed an error test or an iteration.
+    short_steps: [-] shorter steps of a fixed-step method to a target off its grid.
+    evaluations: [-] of (7) or of the residual.
+    factorizations: [-] refactorizations of the matrix in (7), and of those of IDA and CVODE.
+    full_factorizations: [-] of these, those that chose new pivots and may allocate.
+    nonlinear_iterations: [-] of CVODE, IDA, kinematics.
+    restarts: [-] of multistep and variable-step methods.
+    near_singular: [-] evaluations in which the matrix was close to singular.
+    warnings: [-] kinds of warnings, see warnings.
+    wall: [s] inside advance_to, step and sample.
+    max_phi: [m or rad] largest |Phi| over all steps.
+    max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
+    max_phi_joint: Joint of max_phi.
+    max_phi_rate_joint: Joint of max_phi_rate.
+    predicted_phi: [m or rad] (alpha/beta^2) h max |gamma_i|, for both Eulers with stable gains
+        of at least 0.1/h; NaN: not predicted.
+    predicted_phi_rate: [m/s or rad/s] (h/2) max |gamma_i|; NaN likewise.
+    energy_change: [J] change of kinetic and potential energy since the start, including the
+        work of drivers, inputs and dampers.
+    start_change: [-] largest displacement of the last assembly, relative to the scales.
+    alpha: [1/s] in use.
+    beta: [1/s] in use.
+    spectral_radius: [-] factor by which a step multiplies a violation in the long run; NaN
+        without "baumgarte" and with variable steps.
+    damping: [1/s] effective, -ln(spectral_radius) / h: alpha for small gains with alpha = beta;
+        infinite for dead-beat gains, negative if violations grow; NaN likewise.
+    near_singular_intervals: [-] see near_singular.
+    branch_warnings: [-] of these, those after which the motion is or may be on another branch.
+    forced_steps: [-] steps of rk8 and dp5 across a singular configuration, taken regardless of
+        their error estimate.
+    energy_residual: [J] of the energy account: energy that the method itself has added so far;
+        NaN without the option energy_account.
+    doubts: [-] kinds of warnings that doubt the motion.
+    error_estimate: [-] largest estimated global error of the positions since the start,
+        relative to the characteristic length and to radians. 0 while the local errors of fixed
+        steps are negligible. NaN if unknown: with variable steps without the option
+        error_check, or if the estimate would cost more than the run.
+    """
+
+    steps: int
+    rejected: int
+    short_steps: int
+    evaluations: int
+    factorizations: int
+    full_factorizations: int
+    nonlinear_iterations: int
+    restarts: int
+    near_singular: int
+    warnings: int
+    wall: float
+    max_phi: float
+    max_phi_rate: float
+    max_phi_joint: Joint | None
+    max_phi_rate_joint: Joint | None
+    predicted_phi: float
+    predicted_phi_rate: float
+    energy_change: float
+    start_change: float
+    alpha: float
+    beta: float
+    spectral_radius: float
+    damping: float
+    near_singular_intervals: int
+    branch_warnings: int
+    forced_steps: int
+    energy_residual: float
+    doubts: int
+    error_estimate: float
+
+
+class EnergyAccount(NamedTuple):
+    """Where the energy of a run has come from.
+
+    kinetic: [J] v^T M v / 2 at present.
+    potential: [J] of gravity, linear springs, constant loads and user potentials.
+    start: [J] kinetic plus potential at the start.
+    loads: [J] of loads with an input or a torque, and of those that follow their body.
+    springs: [J] of springs with a user law.
+    dampers: [J] of the damping of linear springs.
+    user_forces: [J] of user forces, without the change of their potential.
+    bodies: [J] of the forces of user coordinates, without the change of their potential, plus
+        v^T M' v / 2 of theirs; 0 if the force has the velocity terms of Lagrange's equations.
+    drivers: [J] -nu^T lambda: of drivers and other rows that depend on time.
+    violation: [J] -Phi'^T lambda: of rows with Phi' not 0.
+    projection: [J] changes of kinetic and potential energy by projections.
+    gains: [J] work of the gains; a part of drivers and violation, do not add it.
+    residual: [J] kinetic + potential - start - all works except gains.
+    evaluations: [-] of (5) and (7) for the account; the counters exclude them.
+    """
+
+    kinetic: float
+    potential: float
+    start: float
+    loads: float
+    springs: float
+    dampers: float
+    user_forces: float
+    bodies: float
+    drivers: float
+    violation: float
+    projection: float
+    gains: float
+    residual: float
+    evaluations: int
+
+
+class NearSingular(NamedTuple):
+    """An interval in which a run was near a singular configuration. branch is "continued", "left"
+    or "unknown". The joint is a handle or None, and a name after unpickling.
+
+    begin: [s] last step before it.
+    end: [s] first step after it.
+    t: [s] time of the smallest pivot, also between steps.
+    pivot: [-] smallest pivot, relative to the usual one; also between steps.
+    jump: [-] difference of the velocity from the smooth continuation of the earlier motion,
+        relative to its size; NaN: unknown.
+    jump_error: [-] estimated error of jump; NaN: unknown.
+    branch: How the motion continues.
+    joint: With the smallest pivot; none if unknown.
+    """
+
+    begin: float
+    end: float
+    t: float
+    pivot: float
+    jump: float
+    jump_error: float
+    branch: str
+    joint: Joint | None
+
+
+class StudyEntry(NamedTuple):
+    """What a setting costs and how accurate it is; NaN: not known.
+
+    name: Such as "rk8 projection, rtol 1e-06".
+    message: Why it is refused or failed, or its first warning, or "".
+    integrator: Of the options.
+    formulation: The actual one, never "default".
+    gains: Of the options.
+    step: [s] NaN for entries with rtol.
+    rtol: [-] NaN for entries with a step.
+    method: [-] see methods.
+    state: done, refused, failed, timed_out or waiting
+    status: of its run
+    at_floor: error is at the uncertainty of the reference
+    untrusted: the reference is not trusted, so the errors are not either
+    off: another motion: error_q above 0.1, or a branch warning
+    unstable: its gains do not damp with this step
+    alpha: [1/s] of the gains in use; 0: none
+    beta: [1/s] of the gains in use; 0: none
+    error: [-] as defined by error
+    error_final: [-] error at the last sample
+    error_half: [-] error over the first half of the samples
+    error_q: [-] of positions, relative to the scales
+    error_q_final: [-] of positions at the last sample
+    error_v: [-] of velocities, relative to scales and largest velocity
+    error_v_final: [-] of velocities at the last sample
+    error_lambda: [-] of multipliers, times the displacement of their rows
+    error_lambda_final: [-] of multipliers at the last sample
+    energy_error: [J] drift of energy against the reference
+    energy_error_final: [J] drift of energy at the last sample
+    error_estimate: [-] as in counters
+    error_validated: [-] over twice the span and from perturbed starts
+    max_phi: [m or rad] largest constraint violation |Phi| over all steps
+    max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
+    violation_work: [J] work of violated constraints, see energy_account
+    projection_work: [J] change of energy by projections
+    gains_work: [J] work of the gains, see energy_account
+    work: [evaluations] see "work"; the same on every machine
+    cpu: [s] least CPU time of a run with its creation, without samples
+    cpu_spread: [s] second least CPU time minus the least
+    repeats: [-] runs for the CPU time
+    evaluations: [-] right-hand sides or residuals, without samples
+    factorizations: [-] of matrices, without samples
+    nonlinear_iterations: [-] of implicit methods
+    steps: [-] accepted
+    rejected: [-] steps that were repeated
+    forced_steps: [-] over singular configurations
+    near_singular_intervals: [-] of its run
+    warnings: [-] of its run
+    branch_warnings: [-] of its run
+    doubts: [-] kinds of warnings that doubt the motion
+    """
+
+    name: str
+    message: str
+    integrator: str
+    formulation: str
+    gains: Gains | None
+    step: float
+    rtol: float
+    method: int
+    state: str
+    status: Status | int
+    at_floor: bool
+    untrusted: bool
+    off: bool
+    unstable: bool
+    alpha: float
+    beta: float
+    error: float
+    error_final: float
+    error_half: float
+    error_q: float
+    error_q_final: float
+    error_v: float
+    error_v_final: float
+    error_lambda: float
+    error_lambda_final: float
+    energy_error: float
+    energy_error_final: float
+    error_estimate: float
+    error_validated: float
+    max_phi: float
+    max_phi_rate: float
+    violation_work: float
+    projection_work: float
+    gains_work: float
+    work: float
+    cpu: float
+    cpu_spread: float
+    repeats: int
+    evaluations: int
+    factorizations: int
+    nonlinear_iterations: int
+    steps: int
+    rejected: int
+    forced_steps: int
+    near_singular_intervals: int
+    warnings: int
+    branch_warnings: int
+    doubts: int
+
+
+class StudyMethod(NamedTuple):
+    """Entries of a study with the same integrator, formulation and gains.
+
+    name: Such as "rk8 projection".
+    integrator: Of its entries.
+    formulation: Of its entries.
+    gains: Of its entries.
+    fixed_step: Entries differ in step, not in rtol.
+    entries: [-] number of entries.
+    usable: [-] of these, those that are done and not `off`.
+    least_error: [-] the smallest error of its entries; NaN if none is usable.
+    slope: [-] d log error / d log step or rtol where errors fall; NaN: unknown.
+    work_per_digit: [-] factor on work for one more digit; NaN: unknown.
+    cpu_per_digit: [-] factor on CPU time for one more digit; NaN: unknown.
+    growth: [-] geometric mean of error_validated / error over its entries; NaN if none was
+        validated to the end.
+    """
+
+    name: str
+    integrator: str
+    formulation: str
+    gains: Gains | None
+    fixed_step: bool
+    entries: int
+    usable: int
+    least_error: float
+    slope: float
+    work_per_digit: float
+    cpu_per_digit: float
+    growth: float
+
+
+class StudyReference(NamedTuple):
+    """How far the reference of a study can be trusted.
+
+    origin: Where it comes from.
+    trusted: False if the study's own reference runs agree to fewer than three digits or met a
+        singular configuration.
+    digits: [-] trusted digits, -log10(uncertainty); NaN before it is computed.
+    uncertainty: [-] of error.
+    uncertainty_q: [-] of error_q.
+    uncertainty_v: [-] of error_v.
+    uncertainty_lambda: [-] of error_lambda.
+    uncertainty_energy: [J] of energy_error.
+    samples: [-] number of samples.
+    text: Which runs agree to how many digits, or why it is not trusted.
+    """
+
+    origin: str
+    trusted: bool
+    digits: float
+    uncertainty: float
+    uncertainty_q: float
+    uncertainty_v: float
+    uncertainty_lambda: float
+    uncertainty_energy: float
+    samples: int
+    text: str
+
+
+class CatalogParameter(NamedTuple):
+    """A number that a mechanism of the catalogue depends on.
+
+    name: Such as "eccentricity".
+    unit: Such as "kg m^2"; "-" for a pure number.
+    meaning: What it is.
+    value: [unit] the default.
+    positive: Must be > 0.
+    whole: Must be an integer.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    value: float
+    positive: bool
+    whole: bool
+
+
+class CatalogEntry(NamedTuple):
+    """A mechanism of the catalogue.
+
+    name: Such as "slider_crank".
+    title: Name for people.
+    source: Where its data come from.
+    provenance: How its reference was made and checked; "" without reference.
+    note: What to know before running it; may be "".
+    parameter_count: [-] see baum.catalog.parameter_at().
+    sample_count: [-] of the reference, including the start; 0: no reference.
+    start_time: [s] of the reference and of the problem.
+    end_time: [s] of the reference and of the problem.
+    digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN
+        without reference.
+    digits_v: [-] the same for velocities.
+    exact: The reference consists of formulas.
+    smooth: With default parameters it stays away from singular configurations.
+    parameters: Its parameters by name.
+    """
+
+    name: str
+    title: str
+    source: str
+    provenance: str
+    note: str
+    parameter_count: int
+    sample_count: int
+    start_time: float
+    end_time: float
+    digits_q: float
+    digits_v: float
+    exact: bool
+    smooth: bool
+    parameters: dict[str, CatalogParameter]
+
+
+class CatalogError(NamedTuple):
+    """How far a run is from the reference of the catalogue.
+
+    q: [-] largest of positions over all times; NaN if a state is not finite.
+    v: [-] largest of velocities; NaN likewise, and if they were not given.
+    q_final: [-] of positions at the last time.
+    v_final: [-] of velocities at the last time.
+    q_time: [s] of the largest error of positions.
+    v_time: [s] of the largest error of velocities.
+    q_floor: [-] what the trusted digits mean for positions.
+    v_floor: [-] the same for velocities.
+    """
+
+    q: float
+    v: float
+    q_final: float
+    v_final: float
+    q_time: float
+    v_time: float
+    q_floor: float
+    v_floor: float

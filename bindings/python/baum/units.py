@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Units of the columns of channels; "" where the user's functions decide."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import _abi
+from .channels import Channel, width
+
+if TYPE_CHECKING:
+    from .elements import Body, Joint
+    from .mechanism import Mechanism
+
+Units = tuple[str, ...]
+
+_Q = _abi.baum_quantity
+_RATES = {"m": "m/s", "rad": "rad/s", "m/s": "m/s^2", "rad/s": "rad/s^2"}
+_FORCES = {"m": "N", "rad": "N m"}
+PLANAR_FORCE = ("N", "N", "N m")
+
+
+def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
+    """The unit of each column."""
+    quantity = channel.struct.quantity
+    if quantity in _OF_BODY:
+        body = mechanism.find("body", channel.struct.body)
+        bodies = [body] if body else [one for one in mechanism if one.family == "body"]
+        order = _OF_BODY[quantity]
+        return tuple(unit for one in bodies for unit in _of_body(one, order))
+    if quantity in (_Q.BAUM_ENERGY, _Q.BAUM_ENERGY_ACCOUNT):
+        return ("J",) * width(mechanism, channel)
+    joint = mechanism.find("joint", channel.struct.joint)
+    if quantity == _Q.BAUM_JOINT_COORDINATE:
+        return _coordinate(joint), _RATES[_coordinate(joint)]
+    if quantity == _Q.BAUM_JOINT_REACTION:
+        return _reaction(joint, width(mechanism, channel))
+    joints = [joint] if joint else [one for one in mechanism if one.family == "joint"]
+    rows = tuple(unit for one in joints for unit in _rows(one))
+    if quantity in (_Q.BAUM_LAMBDA, _Q.BAUM_DRIVE_EFFORT):
+        return tuple(_FORCES.get(unit, "") for unit in rows)
+    return _rates(rows, quantity == _Q.BAUM_PHI_RATE)
+
+
+# Derivatives by time of the positions of a body or of all.
+_OF_BODY = {
+    _Q.BAUM_Q: 0,
+    _Q.BAUM_V: 1,
+    _Q.BAUM_A: 2,
+    _Q.BAUM_BODY_POSE: 0,
+    _Q.BAUM_BODY_VELOCITY: 1,
+    _Q.BAUM_BODY_ACCELERATION: 2,
+}
+
+
+def _of_body(body: Body, order: int) -> Units:
+    """Units of positions (order 0) or of their derivatives by time."""
+    if body.kind is None:  # ground
+        return ()
+    count = body.nv if order else body.nq
+    return _rates(body.kind.units, order) or ("",) * count
+
+
+def _rates(units: Units, order: int) -> Units:
+    for _ in range(order):
+        units = tuple(_RATES.get(unit, "") for unit in units)
+    return units
+
+
+def _coordinate(joint: Joint) -> str:
+    return "m" if "axis" in joint.definition else "rad"
+
+
+def _rows(joint: Joint) -> Units:
+    """Units of the rows of a joint; those of couplings and drivers are units of coordinates."""
+    assert joint.kind is not None
+    if joint.kind.units:
+        return joint.kind.units
+    values = joint.definition
+    coordinate_of = values.get("joint_b") or values.get("joint")
+    if coordinate_of is not None:
+        return (_coordinate(coordinate_of),)
+    return ("",) * int(values["rows"])
+
+
+def _reaction(joint: Joint, columns: int) -> Units:
+    """Force and moment, or generalized forces over the velocities of planar bodies."""
+    assert joint.kind is not None
+    planar = joint.kind.name != "user_constraint" and columns % 3 == 0
+    return PLANAR_FORCE * (columns // 3) if planar else ("",) * columns

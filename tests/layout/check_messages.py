@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""docs/messages.md lists every message and warning of the library, as it stands in src.
+
+usage: check_messages.py --check|--write PROJECT
+       check_messages.py --untriggered COVERAGE_JSON PROJECT
+
+The first form compares the page with the sources; --write writes it. It also refuses messages of more than three clauses.
+The second form reads the lines that the tests executed (gcovr --json, stage coverage) and lists the messages that no test
+triggered. A message that shares its line with a condition counts as triggered only if both outcomes of the line occurred.
+"""
+
+import json
+import re
+import sys
+from pathlib import Path
+
+# Functions that set a message: index of status or code, index of the format.
+SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
+MOST_CLAUSES = 3
+LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
+HEAD = """# Messages
+
+Every message and warning of the library, generated from the sources by `python3 tests/layout/check_messages.py --write .` `#`
+stands for a number, `...` for a name or another text. `sh tests/run.sh coverage` lists the messages that no test triggers.
+[theory/errors.md](theory/errors.md) explains the warnings, [status.h](../include/baum/status.h) the statuses. *As failed* stands for
+the status of the failure that the message passes on.
+"""
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S)
+
+
+def arguments_at(text, opening):
+    """The arguments of the call whose parenthesis opens there, and where it ends."""
+    depth, start, found, k = 0, opening + 1, [], opening
+    while k < len(text):
+        quote = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'').match(text, k)
+        if quote:
+            k = quote.end()
+            continue
+        depth += (text[k] in "([{") - (text[k] in ")]}")
+        if depth == 0 or depth == 1 and text[k] == ",":
+            found.append(text[start:k].strip())
+            start = k + 1
+            if depth == 0:
+                return found, k
+        k += 1
+    raise SystemExit(f"no end of the call at {text[opening - 40:opening]}")
+
+
+class Source:
+    """One file: its macros, tables of texts, functions and messages."""
+
+    def __init__(self, path, name):
+        self.name, self.text = name, without_comments(path.read_text(encoding="utf-8"))
+        self.strings = dict(re.findall(r'(?m)^#define (\w+) ("(?:[^"\\]|\\.)*")$', self.text))
+        self.sinks, self.messages = dict(SINKS), []
+        joined = self.text.replace("\\\n", "  ")
+        for macro, sink, code, prefix in re.findall(r'(?m)^#define (\w+)\(\.\.\.\)\s+(\w+)\((\w+),\s*("[^"]*") __VA_ARGS__\)', joined):
+            self.sinks[macro] = code, prefix
+        self.functions = re.findall(r"(?m)^(?:static )?[\w ]+?[ *](\w+)\(([^;{}]*?)\)\n\{\n(.*?)^\}", self.text, flags=re.S)
+
+    def literals(self, expression):
+        """The texts that an expression may be: one for each branch of its conditions, or each entry of a table."""
+        for name, value in self.strings.items():
+            expression = re.sub(rf"\b{name}\b", lambda _, v=value: v, expression)
+        table = re.match(r"(\w+)\[", expression)
+        if table:
+            entries = re.search(rf"\b{table[1]}\[[^=;]*\] = \{{(.*?)\n?\}};", self.text, flags=re.S)
+            expression = entries[1] if entries else ""
+        texts = re.findall(r'"(?:[^"\\]|\\.)*"(?:\s*"(?:[^"\\]|\\.)*")*', expression)
+        return ["".join(LITERAL.findall(t)) for t in texts]
+
+    def calls(self, function):
+        for m in re.finditer(rf"\b{function}\(", self.text):
+            before = self.text[:m.start()].rsplit("\n", 1)[-1]
+            if not re.match(r"#define|(static )?(baum_status|int|void) \Z", before):
+                arguments, end = arguments_at(self.text, m.end() - 1)
+                yield m.start(), end, arguments
+
+    def add(self, start, end, code, texts):
+        first = self.text[:start].count("\n") + 1
+        self.messages += [(code, text, first, self.text[:end].count("\n") + 1) for text in texts]
+
+    def expanded(self, template, values):
+        """The template with every %s that has texts of several words replaced by each of them."""
+        done = [template]
+        for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
+            texts = [t for t in self.literals(value) if len(t) > 0]
+            if spec[0].endswith("s") and any(" " in t for t in texts):
+                mark = f"\0{spec.start()}\0"
+                done = [d.replace(mark, t) for d in self.marked(done, template, spec, mark) for t in texts]
+        return done
+
+    @staticmethod
+    def marked(done, template, spec, mark):
+        behind = len(template) - spec.end()
+        return [d[:len(d) - behind - len(spec[0])] + mark + (d[len(d) - behind:] if behind else "") for d in done]
+
+    def read(self):
+        for sink, (code, form) in self.sinks.items():
+            for start, end, arguments in self.calls(sink):
+                if isinstance(code, str):  # a macro with its own status and beginning
+                    texts, status, values = self.literals(form + " " + arguments[0]), code, arguments[1:]
+                else:
+                    texts, status, values = self.literals(arguments[form]), arguments[code], arguments[form + 1:]
+                wrapper = self.wrapper_of(start, values)
+                if wrapper:
+                    self.read_wrapper(*wrapper, status, texts, values)
+                else:
+                    self.add(start, end, status, [t for text in texts for t in self.expanded(text, values)])
+        self.messages.sort(key=lambda m: m[2])
+        return self.messages
+
+    def wrapper_of(self, start, values):
+        """The function around a call that passes texts of its caller on, and which of its parameters these are."""
+        for name, parameters, body in self.functions:
+            at = self.text.find(body)
+            if at <= start < at + len(body) and name not in SINKS:
+                names = [re.search(r"(\w+)(?:\[\w*\])?$", p.strip())[1] for p in parameters.split(",")]
+                passed = {v: names.index(v) for v in values if v in names}
+                passed = {v: k for v, k in passed.items()
+                          if any(" " in t for _, _, a in self.calls(name) if k < len(a) for t in self.literals(a[k]))}
+                return (name, passed) if passed else None
+        return None
+
+    def read_wrapper(self, name, passed, status, texts, values):
+        for start, end, arguments in self.calls(name):
+            given = [arguments[passed[v]] if v in passed else v for v in values]
+            self.add(start, end, status, [t for text in texts for t in self.expanded(text, given)])
+
+
+def readable(text):
+    text = text.replace('\\"', '"').replace("\\n", " ")
+    text = SPEC.sub(lambda m: {"s": "...", "%": "%"}.get(m[0][-1], "#"), text)
+    return " ".join(text.replace("|", "\\|").split())
+
+
+def read(project):
+    """{folder: [(file, code, text, first line, last line)]}"""
+    found = {}
+    for path in sorted((project / "src").rglob("*.c")):
+        name = str(path.relative_to(project / "src"))
+        for message in Source(path, name).read():
+            if re.search(r"[A-Za-z]{2}", readable(message[1])):
+                found.setdefault(name.split("/")[0], []).append((name, *message))
+    return found
+
+
+def code_of(code):
+    return " or ".join(f"`{c}`" for c in re.findall(r"BAUM_(?:ERR|STOP|WARNING)_\w+|BAUM_WARNED", code)) or "as failed"
+
+
+def page(found):
+    lines = [HEAD]
+    for folder, messages in found.items():
+        lines += [f"## {folder}", "", "| status or code | message | file |", "|---|---|---|"]
+        rows = [f"| {code_of(code)} | {readable(text)} | {name.split('/', 1)[1]} |" for name, code, text, *_ in messages]
+        lines += [*dict.fromkeys(rows), ""]
+    return "\n".join(lines)
+
+
+def executed(path):
+    """{file: {line: (count, whether all branches of the line were taken)}}"""
+    with open(path, encoding="utf-8") as file:
+        files = json.load(file)["files"]
+    return {f["file"]: {line["line_number"]: (line["count"], all(b["count"] for b in line["branches"])) for line in f["lines"]}
+            for f in files}
+
+
+def untriggered(project, found, lines):
+    for messages in found.values():
+        for name, code, text, first, last in messages:
+            counts = lines.get("src/" + name, {})
+            source = (project / "src" / name).read_text(encoding="utf-8").split("\n")
+            reached = [counts[k] for k in range(first, last + 1) if k in counts]
+            shared = "?" in source[first - 1] and ":" in source[first - 1]
+            if not any(count for count, _ in reached) or shared and not counts.get(first, (0, False))[1]:
+                yield f"src/{name}:{first}: {code}: {readable(text)}"
+
+
+def main(arguments):
+    project = Path(arguments[-1])
+    found = read(project)
+    if arguments[0] == "--untriggered":
+        missing = list(untriggered(project, found, executed(arguments[1])))
+        print("\n".join(missing), f"\n{len(missing)} messages that no test triggers")
+        return 0
+    failures = [f"src/{name}:{first}: more than {MOST_CLAUSES} clauses: {readable(text)}"
+                for messages in found.values() for name, _, text, first, _ in messages
+                if len(re.findall(r"[.!?;](?= )", readable(text).replace("...", ""))) >= MOST_CLAUSES]
+    target = project / "docs" / "messages.md"
+    if arguments[0] == "--write":
+        target.write_text(page(found), encoding="utf-8")
+    elif not target.exists() or target.read_text(encoding="utf-8") != page(found):
+        failures.append("docs/messages.md is not current: python3 tests/layout/check_messages.py --write .")
+    print("\n".join([*failures, f"{sum(map(len, found.values()))} messages"]))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
