@@ -54,9 +54,7 @@ baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const doub
   BAUM_I_TRY(check_times(times, count));
   size_t room = (size_t)mechanism->break_count + (size_t)count;
   double *breaks = baum_i_grow(mechanism->breaks, room, sizeof *breaks);
-  if (!breaks) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(breaks));
   mechanism->breaks = breaks;
   for (int32_t k = 0; k < count; k++) {
     insert(mechanism, times[k]);

@@ -115,9 +115,7 @@ static baum_status make_span(const baum_mechanism *mechanism, const baum_i_defin
 {
   int most = baum_i_fields_bodies(definition, mechanism, def, NULL);
   *span = (baum_i_span){.bodies = baum_i_alloc((size_t)most + 1, sizeof *span->bodies)};
-  if (!span->bodies) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(span->bodies));
   span->bodies[0] = number;
   span->body_count = most > 0 ? baum_i_fields_bodies(definition, mechanism, def, span->bodies) : 1;
   return BAUM_OK;
@@ -135,9 +133,7 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
                                   const baum_i_definition *definition, const void *def)
 {
   baum_i_element *element = baum_i_alloc(1, family->size);
-  if (!element) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(element));
   element->family = family->name;
   element->definition = definition;
   element->index = baum_i_family_count(family, mechanism) + 1;

@@ -90,9 +90,7 @@ static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *spa
     nl += (size_t)mechanism->bodies[span->bodies[i]]->nv;
   }
   span->columns = baum_i_alloc(nl + ql, sizeof *span->columns);
-  if (!span->columns) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(span->columns));
   span->positions = span->columns + nl;
   span->nl = 0;
   span->ql = 0;

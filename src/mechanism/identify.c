@@ -150,6 +150,12 @@ const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
   return baum_i_label(&mechanism->joints[joint]->element, text);
 }
 
+const char *baum_i_row_label(const baum_mechanism *mechanism, int row, char text[BAUM_I_LABEL_SIZE])
+{
+  memcpy(text, "no joint", sizeof "no joint");
+  return row < 0 ? text : baum_i_joint_label(mechanism, baum_i_row_joint(mechanism, row), text);
+}
+
 /* ---- stages ---- */
 
 static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, const char *call)

@@ -43,14 +43,10 @@ static baum_status append(baum_mechanism *mechanism, const char *name, double in
 {
   size_t count = (size_t)mechanism->input_count + 1;
   char **names = baum_i_grow(mechanism->input_names, count, sizeof *names);
-  if (!names) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(names));
   mechanism->input_names = names;
   double *values = baum_i_grow(mechanism->inputs, count, sizeof *values);
-  if (!values) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(values));
   mechanism->inputs = values;
   names[count - 1] = baum_i_copy_text(name);
   if (!names[count - 1]) {

@@ -50,9 +50,7 @@ baum_status baum_mechanism_create(baum_mechanism **out)
   }
   *out = NULL;
   baum_mechanism *mechanism = baum_i_alloc(1, sizeof *mechanism);
-  if (!mechanism) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(mechanism));
   atomic_init(&mechanism->references, 1);
   mechanism->tag = make_tag(mechanism);
   mechanism->gravity[1] = -9.81;

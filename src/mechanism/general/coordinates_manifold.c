@@ -73,9 +73,7 @@ static bool is_off(const baum_coordinates_def *def, const double *normal)
 static baum_status check_design(const baum_coordinates_def *def, const char *label)
 {
   double *normal = baum_i_copy(def->q, (size_t)baum_i_coordinates_positions(def), sizeof *def->q);
-  if (!normal) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(normal));
   def->normalize(normal, def->user);
   bool off = is_off(def, normal);
   baum_i_free(normal);
