@@ -100,6 +100,13 @@ static const number NUMBERS[] = {
 };
 /* clang-format on */
 
+/* Is a number of the options between its limits? */
+static bool is_within(const number *n, double x)
+{
+  return (x > n->least || (n->may_be_zero && x == 0.0)) &&
+         (x < n->most || (n->may_be_infinite && isinf(x)));
+}
+
 static baum_status check_number(const number *n, stepping how, const baum_simulation_options *o)
 {
   double x;
@@ -111,14 +118,12 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
              : baum_i_fail(BAUM_ERR_ARGUMENT,
                            "simulation options: %s is not given, and %s needs it", n->name, name);
   }
-  if (!n->takes[how]) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
-                       n->unit[0] ? " " : "", n->unit, name,
-                       isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
+  if (n->takes[how]) {
+    return is_within(n, x) ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
   }
-  bool fine = (x > n->least || (n->may_be_zero && x == 0.0)) &&
-              (x < n->most || (n->may_be_infinite && isinf(x)));
-  return fine ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
+                     n->unit[0] ? " " : "", n->unit, name,
+                     isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
 }
 
 /* Methods of either kind proceed by what is given. */

@@ -50,22 +50,23 @@ baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, si
 
 const char *baum_warning_name(baum_warning_code code)
 {
-  switch (code) {
-  case BAUM_WARNING_REDUNDANT_ROWS: return "redundant_rows";
-  case BAUM_WARNING_GAINS: return "gains";
-  case BAUM_WARNING_NOISY_DERIVATIVES: return "noisy_derivatives";
-  case BAUM_WARNING_INDEX3: return "index3";
-  case BAUM_WARNING_LOOSE_VELOCITIES: return "loose_velocities";
-  case BAUM_WARNING_ENERGY_ACCOUNT: return "energy_account";
-  case BAUM_WARNING_ILL_CONDITIONED: return "ill_conditioned";
-  case BAUM_WARNING_SINGULARITY_CROSSED: return "singularity_crossed";
-  case BAUM_WARNING_BRANCH: return "branch";
-  case BAUM_WARNING_VIOLATION: return "violation";
-  case BAUM_WARNING_CONTRADICTION: return "contradiction";
-  case BAUM_WARNING_ACCURACY: return "accuracy";
-  case BAUM_WARNING_SINGULAR_START: return "singular_start";
-  default: return NULL;
-  }
+  static const char *const NAMES[] = {
+    [BAUM_WARNING_REDUNDANT_ROWS] = "redundant_rows",
+    [BAUM_WARNING_GAINS] = "gains",
+    [BAUM_WARNING_NOISY_DERIVATIVES] = "noisy_derivatives",
+    [BAUM_WARNING_INDEX3] = "index3",
+    [BAUM_WARNING_LOOSE_VELOCITIES] = "loose_velocities",
+    [BAUM_WARNING_ENERGY_ACCOUNT] = "energy_account",
+    [BAUM_WARNING_ILL_CONDITIONED] = "ill_conditioned",
+    [BAUM_WARNING_SINGULARITY_CROSSED] = "singularity_crossed",
+    [BAUM_WARNING_BRANCH] = "branch",
+    [BAUM_WARNING_VIOLATION] = "violation",
+    [BAUM_WARNING_CONTRADICTION] = "contradiction",
+    [BAUM_WARNING_ACCURACY] = "accuracy",
+    [BAUM_WARNING_SINGULAR_START] = "singular_start",
+  };
+  size_t k = (size_t)code;
+  return k < sizeof NAMES / sizeof *NAMES ? NAMES[k] : NULL;
 }
 
 bool baum_i_doubts_motion(baum_warning_code code)
