@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaper's quick-return motion by kinematics: its motor leaves no degree of freedom, so that every
-configuration follows from the constraints alone, and the torque of the motor from the accelerations.
+"""A shaper's quick-return motion by kinematics: its motor leaves no degree of freedom, so that
+every configuration follows from the constraints alone, and the torque of the motor from the
+accelerations.
 
 A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps
 level. With the crank at angle p the ram is at x = H R cos(p) / (D + R sin(p)).
@@ -29,7 +30,7 @@ COLUMNS = {
 
 
 def shaper():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
+    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)

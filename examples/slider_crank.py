@@ -46,7 +46,7 @@ COLUMNS = {
 
 
 def slider_crank():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
+    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -81,7 +81,7 @@ def check(report, runs, said):
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # initial violations have decayed after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # decayed after half of the run
             report.expect(f"{name}, last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)

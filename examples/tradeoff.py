@@ -19,7 +19,7 @@ COLUMNS = {
 
 
 def slider_crank():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
+    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body(
         "crank", mass=0.038, inertia=7.4e-5, position=(0.0765, 0), held=True, angular_velocity=150

@@ -19,16 +19,13 @@
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
-  char label[BAUM_I_LABEL_SIZE] = "no joint";
-  if (row >= 0) {
-    (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
-  }
+  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
     "matrix is not positive where the constraints leave freedom); largest right side in "
     "%s",
-    w->point.t, label);
+    w->point.t, baum_i_row_label(w->mechanism, row, label));
 }
 
 static baum_status fail_blocks(const baum_workspace *w)

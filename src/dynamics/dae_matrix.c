@@ -271,9 +271,7 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
 {
   *out = NULL;
   baum_i_residual_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
-  if (!matrix) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(matrix));
   const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
   matrix->index = index;

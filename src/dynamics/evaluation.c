@@ -368,9 +368,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
                        (int)held_count);
   }
   bool *flags = baum_i_alloc((size_t)workspace->mechanism->nv, sizeof *flags);
-  if (!flags) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(flags));
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = mark_held(workspace->mechanism, held, held_count, flags);
@@ -410,9 +408,7 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   BAUM_I_TRY(check_state("baum_workspace_project", workspace, t, q, v, &t));
   const baum_mechanism *m = workspace->mechanism;
   double *copy = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *copy);
-  if (!copy) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(copy));
   baum_status status = project_and_check(workspace, t, q, v, copy);
   if (status == BAUM_OK) {
     give(copy, q, m->nq);

@@ -28,8 +28,7 @@ static baum_status fail(const baum_workspace *w, const char *what, const char *l
 static baum_status fail_row(const baum_workspace *w, const char *what, int row, double value)
 {
   char label[BAUM_I_LABEL_SIZE];
-  const baum_mechanism *m = w->mechanism;
-  return fail(w, what, baum_i_joint_label(m, baum_i_row_joint(m, row), label), value);
+  return fail(w, what, baum_i_row_label(w->mechanism, row, label), value);
 }
 
 static baum_status fail_velocity(const baum_workspace *w, const char *what, int column,

@@ -216,9 +216,7 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
     return BAUM_OK;
   }
   double *memory = baum_i_alloc(2 * nq + nv, sizeof *memory);
-  if (!memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(memory));
   search s = {.w = workspace, .x = memory, .start = memory + nv, .q = memory + nv + nq};
   baum_status status = find_rows(&s, t, q);
   if (status != BAUM_OK) {

@@ -125,9 +125,7 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
 {
   *out = NULL;
   baum_workspace *w = baum_i_alloc(1, sizeof *w);
-  if (!w) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(w));
   w->mechanism = baum_i_mechanism_share(mechanism);
   baum_status status = fill(w, choice);
   if (status != BAUM_OK) {

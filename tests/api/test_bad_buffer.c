@@ -206,6 +206,53 @@ static void random_bytes_under_a_good_checksum(void **state)
   close_scene(&s);
 }
 
+/* A size that a saved run cannot have, and each word replaced by 0: one says that a driver has no
+ * law. */
+static void sizes_and_laws_that_cannot_be(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  baum_body_id crank;
+  baum_planar_body_def body = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_driver_def motor = baum_driver_def_default();
+  pin.point[0] = pin.point[1] = 0.0;
+  pin.body_a = BAUM_GROUND;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, &crank), BAUM_OK);
+  pin.body_b = crank;
+  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &motor.joint), BAUM_OK);
+  baum_joint_id id;
+  assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, &id), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(mechanism, &o, 0.01);
+  assert_int_equal(baum_simulation_set_driver(run, id, 0.0, 1.0, 0.0), BAUM_OK);
+  saved s = save(run);
+
+  const uint64_t eight = 8;
+  uint64_t own = 0;
+  memcpy(&own, s.bytes + AT_SIZE, sizeof own);
+  memcpy(s.bytes + AT_SIZE, &eight, sizeof eight);
+  check_refused(run, s.bytes, s.size, "8 bytes");
+  memcpy(s.bytes + AT_SIZE, &own, sizeof own);
+
+  const uint64_t zero = 0;
+  int laws = 0;
+  for (size_t at = HEAD; at + 16 <= s.size; at += 8) {
+    memcpy(&own, s.bytes + at, sizeof own);
+    memcpy(s.bytes + at, &zero, sizeof zero);
+    seal(&s);
+    laws += baum_simulation_restore(run, s.bytes, s.size) == BAUM_ERR_BUFFER &&
+            strstr(baum_message(), "law for joint 2");
+    memcpy(s.bytes + at, &own, sizeof own);
+  }
+  assert_int_equal(laws, 1);
+  free(s.bytes);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
 static void other_versions(void **state)
 {
   (void)state;
@@ -472,6 +519,7 @@ int main(void)
     cmocka_unit_test(every_byte_changed),
     cmocka_unit_test(two_signs_changed),
     cmocka_unit_test(random_bytes_under_a_good_checksum),
+    cmocka_unit_test(sizes_and_laws_that_cannot_be),
     cmocka_unit_test(other_versions),
     cmocka_unit_test(other_mechanisms),
     cmocka_unit_test(runs_with_other_options),

@@ -19,6 +19,7 @@
 
 #include "message.h"
 #include "models.h"
+#include "study/study_line.h"
 #include "study_entries.h"
 
 enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
@@ -241,6 +242,20 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   end_scene(&s);
 }
 
+/* The head of a file, sealed as its lines are, but of a version before the first. */
+static void a_file_of_another_version_is_refused(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  char line[BAUM_I_STUDY_LINE] = "baum-study 0 library 0.0.0";
+  baum_i_study_seal(line, 0);
+  write_file(s.path, line, strlen(line));
+  baum_study *study = study_of(&s);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "version");
+  baum_study_destroy(study);
+  end_scene(&s);
+}
+
 /* The same entries of a heavier pendulum, put behind the head of this one. */
 static void lines_of_another_study_are_run_again(void **state)
 {
@@ -396,6 +411,7 @@ int main(void)
     cmocka_unit_test(a_complete_file_needs_no_run),
     cmocka_unit_test(a_line_that_is_cut_off_or_damaged_is_run_again),
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
+    cmocka_unit_test(a_file_of_another_version_is_refused),
     cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
     cmocka_unit_test(lines_may_end_as_on_other_systems),

@@ -93,7 +93,7 @@ class Counters(NamedTuple):
     factorizations: [-] refactorizations of the matrix in (7), and of those of IDA and CVODE.
     full_factorizations: [-] of these, those that chose new pivots and may allocate.
     nonlinear_iterations: [-] of CVODE, IDA, kinematics.
-    restarts: [-] of a multistep method.
+    restarts: [-] of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
     warnings: [-] kinds of warnings, see warnings.
     wall: [s] inside advance_to, step and sample.
