@@ -100,11 +100,11 @@ static const number NUMBERS[] = {
 };
 /* clang-format on */
 
-/* Is a number of the options between its limits? */
-static bool is_within(const number *n, double x)
+static baum_status check_range(const number *n, double x)
 {
-  return (x > n->least || (n->may_be_zero && x == 0.0)) &&
-         (x < n->most || (n->may_be_infinite && isinf(x)));
+  bool above = x > n->least || (n->may_be_zero && x == 0.0);
+  bool below = x < n->most || (n->may_be_infinite && isinf(x));
+  return above && below ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
 }
 
 static baum_status check_number(const number *n, stepping how, const baum_simulation_options *o)
@@ -118,12 +118,12 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
              : baum_i_fail(BAUM_ERR_ARGUMENT,
                            "simulation options: %s is not given, and %s needs it", n->name, name);
   }
-  if (n->takes[how]) {
-    return is_within(n, x) ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+  if (!n->takes[how]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
+                       n->unit[0] ? " " : "", n->unit, name,
+                       isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
   }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
-                     n->unit[0] ? " " : "", n->unit, name,
-                     isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
+  return check_range(n, x);
 }
 
 /* Methods of either kind proceed by what is given. */

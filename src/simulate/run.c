@@ -50,23 +50,30 @@ baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, si
 
 const char *baum_warning_name(baum_warning_code code)
 {
-  static const char *const NAMES[] = {
-    [BAUM_WARNING_REDUNDANT_ROWS] = "redundant_rows",
-    [BAUM_WARNING_GAINS] = "gains",
-    [BAUM_WARNING_NOISY_DERIVATIVES] = "noisy_derivatives",
-    [BAUM_WARNING_INDEX3] = "index3",
-    [BAUM_WARNING_LOOSE_VELOCITIES] = "loose_velocities",
-    [BAUM_WARNING_ENERGY_ACCOUNT] = "energy_account",
-    [BAUM_WARNING_ILL_CONDITIONED] = "ill_conditioned",
-    [BAUM_WARNING_SINGULARITY_CROSSED] = "singularity_crossed",
-    [BAUM_WARNING_BRANCH] = "branch",
-    [BAUM_WARNING_VIOLATION] = "violation",
-    [BAUM_WARNING_CONTRADICTION] = "contradiction",
-    [BAUM_WARNING_ACCURACY] = "accuracy",
-    [BAUM_WARNING_SINGULAR_START] = "singular_start",
+  static const struct {
+    baum_warning_code code;
+    const char *name;
+  } names[] = {
+    {BAUM_WARNING_REDUNDANT_ROWS, "redundant_rows"},
+    {BAUM_WARNING_GAINS, "gains"},
+    {BAUM_WARNING_NOISY_DERIVATIVES, "noisy_derivatives"},
+    {BAUM_WARNING_INDEX3, "index3"},
+    {BAUM_WARNING_LOOSE_VELOCITIES, "loose_velocities"},
+    {BAUM_WARNING_ENERGY_ACCOUNT, "energy_account"},
+    {BAUM_WARNING_ILL_CONDITIONED, "ill_conditioned"},
+    {BAUM_WARNING_SINGULARITY_CROSSED, "singularity_crossed"},
+    {BAUM_WARNING_BRANCH, "branch"},
+    {BAUM_WARNING_VIOLATION, "violation"},
+    {BAUM_WARNING_CONTRADICTION, "contradiction"},
+    {BAUM_WARNING_ACCURACY, "accuracy"},
+    {BAUM_WARNING_SINGULAR_START, "singular_start"},
   };
-  size_t k = (size_t)code;
-  return k < sizeof NAMES / sizeof *NAMES ? NAMES[k] : NULL;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    if (names[i].code == code) {
+      return names[i].name;
+    }
+  }
+  return NULL;
 }
 
 bool baum_i_doubts_motion(baum_warning_code code)

@@ -76,6 +76,17 @@ static void name_of(const char *semicolon, char name[TEXT_SIZE])
   (void)snprintf(name, TEXT_SIZE, "%.*s", (int)(last - first), first);
 }
 
+/* What follows "Default: " in a comment; "" without it. */
+static void default_of(const char *comment, const char *comment_end, char text[TEXT_SIZE])
+{
+  const char *given = strstr(comment, "Default: ");
+  text[0] = '\0';
+  if (given && given < comment_end) {
+    given += strlen("Default: ");
+    (void)snprintf(text, TEXT_SIZE, "%.*s", (int)(comment_end - given), given);
+  }
+}
+
 /* The next declaration from `from` on: its name and the Default of its comment, "" for none. The
  * comment stands before the declaration or behind it. NULL when there is no more. */
 static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
@@ -91,12 +102,7 @@ static const char *next_field(const char *from, const char *end, char name[TEXT_
   comment = before ? comment : semicolon;
   const char *comment_end = strstr(comment, "*/");
   assert_non_null(comment_end);
-  const char *given = strstr(comment, "Default: ");
-  text[0] = '\0';
-  if (given && given < comment_end) {
-    given += strlen("Default: ");
-    (void)snprintf(text, TEXT_SIZE, "%.*s", (int)(comment_end - given), given);
-  }
+  default_of(comment, comment_end, text);
   return before ? semicolon + 1 : comment_end + 2;
 }
 

@@ -79,7 +79,7 @@ class Errors(unittest.TestCase):
     def test_other_objects_have_their_names_in_python(self):
         m = rod_pendulum()
         s = m.simulation("rk4", step=0.1)
-        self.assertIn("none of save()", self.refused(s.restore, bytes(400)))
+        self.assertIn("not written by save()", self.refused(s.restore, bytes(400)))
         self.refused(s.restore, b"")
         self.refused(m.simulate, 1, "kinematics")
         self.refused(baum.stability_deadbeat, "ab4")

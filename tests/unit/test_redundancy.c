@@ -460,7 +460,8 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
     {1.0, 0.3,
      "t = 0.3 s: projection: a redundant row of joint |motor\" was omitted, but is violated by |"
      "contradict"},
-    {1.0, 1e-4, "t = 0.0001 s: projection: a redundant row of joint |5e-09, and its rate by |0.0001"},
+    {1.0, 1e-4,
+     "t = 0.0001 s: projection: a redundant row of joint |5e-09, and its rate by |0.0001"},
   };
   for (int k = 0; k < 4; k++) {
     baum_mechanism *m = driven_twice(cases[k].acceleration);
