@@ -56,14 +56,14 @@ def quaternion(value: Any, label: str) -> Array:
 
 def _of_matrix(r: Array) -> Array:
     """The row of 4 p p^T whose diagonal entry is the largest, divided by its length (Shepperd
-    1978)."""
+    1978); w >= 0."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)
     outer[0, 1:] = outer[1:, 0] = turned
     outer[1:, 1:] = r + r.T + (1.0 - np.trace(r)) * np.eye(3)
     row: Array = outer[np.argmax(np.diag(outer))]
-    return row / np.linalg.norm(row)
+    return row / np.copysign(np.linalg.norm(row), row[0])
 
 
 def matrix(quaternions: Array) -> Array:
