@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Events and break times: a pendulum bounces at a stop, at times that the run finds; and a torque
 kicks a pendulum at times that are known in advance."""
+
 import sys
 
 import baum
@@ -36,7 +37,7 @@ def quarter(angle: float) -> float:
     return float(np.pi / (2 * a) * np.sqrt(2 * LENGTH / (3 * 9.81)))
 
 
-def exact_times():
+def exact_times() -> Array:
     """Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
     proportional to 1 - cos(angle)."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
@@ -45,7 +46,7 @@ def exact_times():
     return times
 
 
-def bounces(m):
+def bounces(m: baum.Mechanism) -> Array:
     """Times [s] of the bounces and angular velocities before them [rad/s]."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")

@@ -29,7 +29,7 @@ COLUMNS = {
 }
 
 
-def shaper():
+def shaper() -> baum.Mechanism:
     """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
@@ -55,7 +55,7 @@ def ram_at(t: Array) -> Array:
     return np.stack([x, v, a])
 
 
-def turning_times():
+def turning_times() -> Array:
     """Times [s] at which the ram reverses: sin(p) = -R / D; in between it goes back."""
     more = np.arcsin(R / D)
     times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA

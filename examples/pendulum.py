@@ -22,7 +22,7 @@ COLUMNS = {
 }
 
 
-def pendulum():
+def pendulum() -> baum.Mechanism:
     """Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
@@ -30,7 +30,7 @@ def pendulum():
     return m.freeze()
 
 
-def period():
+def period() -> float:
     """Period of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
     arithmetic-geometric mean."""
     a, b = 1.0, np.sqrt(0.5)

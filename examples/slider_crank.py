@@ -45,7 +45,7 @@ COLUMNS = {
 }
 
 
-def slider_crank():
+def slider_crank() -> baum.Mechanism:
     """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
@@ -65,7 +65,7 @@ def slider_at(t: Array) -> Array:
     return x
 
 
-def simulate(m, gains, times):
+def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.Run, Row]:
     """A run and its row of the table; Phi_3 is the first row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
@@ -75,7 +75,7 @@ def simulate(m, gains, times):
     return run, dict(zip(list(COLUMNS)[1:], row))
 
 
-def check(report, runs, said):
+def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> None:
     """Checks of the paper's statements on its eight sets."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}

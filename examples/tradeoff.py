@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Accuracy against cost, from Python: a study of the slider-crank, released at 150 rad/s, and the
 runs that try its recommendations."""
+
 import sys
 
 import baum
@@ -18,7 +19,7 @@ COLUMNS = {
 }
 
 
-def slider_crank():
+def slider_crank() -> baum.Mechanism:
     """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body(

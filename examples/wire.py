@@ -2,6 +2,7 @@
 """A study of a mechanism given entirely by Python functions: a bead on a wire y = x^2 - x^4 / 4
 in oil. Which method is cheapest depends on what an evaluation costs: here it is Python that costs,
 so that the number of evaluations determines the cost."""
+
 import sys
 
 import baum

@@ -52,7 +52,7 @@ class Report:
         return "-" if isinstance(value, float) and math.isnan(value) else format(value, form)
 
     @staticmethod
-    def _number(value):
+    def _number(value: Any) -> Any:
         """A value for JSON, which has no NaN."""
         return (
             value
@@ -62,7 +62,7 @@ class Report:
             else None
         )
 
-    def counters(self, counters):
+    def counters(self, counters: Counters) -> None:
         """Print and keep the cost of a run."""
         kept = {
             key: getattr(counters, key)
@@ -71,7 +71,7 @@ class Report:
         print("   ".join(f"{key} {value}" for key, value in kept.items()))
         self._tables["counters"] = kept
 
-    def expect(self, name, value, limit):
+    def expect(self, name: str, value: Any, limit: float) -> None:
         """Check that value <= limit; NaN fails."""
         ok = bool(value <= limit)
         print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")

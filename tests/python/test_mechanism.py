@@ -13,6 +13,7 @@ import numpy as np
 import baum
 from baum import _abi, callbacks
 from baum.adding import Adding
+from baum.adding_space import AddingInSpace
 from baum.definitions import FIELDS, HIDDEN, KINDS
 from mechanisms import pendulum, rod_pendulum, slider_crank
 
@@ -121,7 +122,7 @@ class Building(unittest.TestCase):
         self.assertEqual(repr(m.ground), "<body 'ground'>")
 
 
-class Recorder(Adding):
+class Recorder(Adding, AddingInSpace):
     """Takes what the methods that add would hand on."""
 
     def _add(self, made, kind, given):
@@ -132,19 +133,24 @@ class Arguments(unittest.TestCase):
     """Every field of every definition has its argument."""
 
     # Two points that coincide have no distance, and no line between them.
-    EXCEPTED = {"planar_distance": {"point"}, "planar_spring": {"point"}}
+    EXCEPTED = {
+        "planar_distance": {"point"},
+        "planar_spring": {"point"},
+        "spatial_distance": {"point"},
+        "spatial_spring": {"point"},
+    }
 
     def added(self):
         """Names of the fields that can be given, by kind."""
-        for name, method in vars(Adding).items():
+        for name, method in [*vars(Adding).items(), *vars(AddingInSpace).items()]:
             if name.startswith("_") or name == "input":
                 continue
-            needed = [
-                parameter
+            needed = {
+                parameter.name: None
                 for parameter in inspect.signature(method).parameters.values()
-                if parameter.default is parameter.empty
-            ]
-            yield method(Recorder(), *[None for _ in needed[1:]])
+                if parameter.default is parameter.empty and parameter.name != "self"
+            }
+            yield method(Recorder(), **needed)
 
     def test_methods_take_all_fields(self):
         added = dict(self.added())

@@ -17,6 +17,7 @@ import baum
 import baum.typing
 from baum import _abi, _lib
 from baum.adding import Adding
+from baum.adding_space import AddingInSpace
 from baum.definitions import ARGUMENTS, HIDDEN, KINDS
 from baum.integrators import FORMULATIONS
 from baum.simulation import CONVERT, SOLVERS, STARTS
@@ -36,9 +37,10 @@ def shown(function):
 
 def methods():
     """The methods that add an element, by kind."""
-    for name, method in vars(Adding).items():
+    for name, method in [*vars(Adding).items(), *vars(AddingInSpace).items()]:
         if not name.startswith("_") and name != "input":
-            kinds = [kind for kind in (name, f"planar_{name}", f"user_{name}") if kind in KINDS]
+            names = name, f"planar_{name}", f"spatial_{name}", f"user_{name}"
+            kinds = [kind for kind in names if kind in KINDS]
             yield {"constraint": "user_constraint"}.get(name, kinds[0]), method
 
 

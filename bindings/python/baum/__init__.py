@@ -19,7 +19,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from . import _abi, _lib
+from . import _abi, _lib, inertia
 from ._records import StudyEntry, StudyMethod, StudyReference
 from .channels import Channel, a, energy, energy_account, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
@@ -142,6 +142,7 @@ __all__ = [
     "fixed",
     "frequency",
     "has",
+    "inertia",
     "integrators",
     "lambda_",
     "library",

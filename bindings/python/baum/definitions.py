@@ -13,21 +13,28 @@ from typing import Any, Callable, Iterable, Mapping
 
 import numpy as np
 
-from . import _abi, callbacks
+from . import _abi, _rotation, callbacks
 from ._lib import default, lib
 from ._values import address, integer, number, numbers, truth, vector
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of body, joint or force: its struct, its family, the sizes of a body's q and v, and
-    the units of a body's positions or a joint's rows (none where the user decides)."""
+    """A kind of body, joint or force: its struct, its family, the sizes of a body's q and v, the
+    units of a body's positions or a joint's rows (none where the user decides), and the units of
+    what a body's velocities are rates of, where these are not its positions."""
 
     name: str
     family: str
     nq: int = 0
     nv: int = 0
     units: tuple[str, ...] = ()
+    displacements: tuple[str, ...] = ()
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether it has its place in space, not in a plane."""
+        return self.name.startswith("spatial_")
 
     @property
     def struct(self) -> type[ctypes.Structure]:
@@ -49,6 +56,8 @@ KINDS = {
     for kind in (
         Kind("planar_body", "body", 3, 3, ("m", "m", "rad")),
         Kind("planar_particle", "body", 2, 2, ("m", "m")),
+        Kind("spatial_body", "body", 7, 6, ("m",) * 3 + ("-",) * 4, ("m",) * 3 + ("rad",) * 3),
+        Kind("spatial_particle", "body", 3, 3, ("m",) * 3),
         Kind("coordinates", "body"),
         Kind("planar_revolute", "joint", units=("m", "m")),
         Kind("planar_translational", "joint", units=("m", "rad")),
@@ -58,6 +67,16 @@ KINDS = {
         Kind("planar_rack_and_pinion", "joint", units=("m",)),
         Kind("planar_gear", "joint", units=("m",)),
         Kind("planar_curve", "joint", units=("m",)),
+        Kind("spatial_spherical", "joint", units=("m",) * 3),
+        Kind("spatial_revolute", "joint", units=("m",) * 3 + ("-",) * 2),
+        Kind("spatial_universal", "joint", units=("m",) * 3 + ("-",)),
+        Kind("spatial_cylindrical", "joint", units=("-",) * 2 + ("m",) * 2),
+        Kind("spatial_prismatic", "joint", units=("-", "-", "m", "m", "-")),
+        Kind("spatial_planar", "joint", units=("-", "-", "m")),
+        Kind("spatial_fixed", "joint", units=("m",) * 3 + ("-",) * 3),
+        Kind("spatial_distance", "joint", units=("m",)),
+        Kind("spatial_point_on_line", "joint", units=("m", "m")),
+        Kind("spatial_point_on_plane", "joint", units=("m",)),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
         Kind("spline_driver", "joint"),
@@ -65,6 +84,8 @@ KINDS = {
         Kind("planar_spring", "force"),
         Kind("planar_torsion_spring", "force"),
         Kind("planar_load", "force"),
+        Kind("spatial_spring", "force"),
+        Kind("spatial_load", "force"),
         Kind("user_force", "force"),
     )
 }
@@ -75,6 +96,11 @@ Find = Callable[[str, Any], Any]
 FIELDS = {"rows": "row_count"}
 ARGUMENTS = {field: argument for argument, field in FIELDS.items()}
 HIDDEN = ("struct_size", "body_count", "count")
+# Fields that can be given in several forms.
+FORMS = {
+    ("spatial_body", "inertia"): _rotation.tensor,
+    ("spatial_body", "orientation"): _rotation.quaternion,
+}
 FAMILIES: dict[Any, str] = {
     _abi.baum_body_id: "body",
     _abi.baum_joint_id: "joint",
@@ -160,6 +186,8 @@ class Definition:
             setattr(self.struct, name, str(value).encode())
         elif kind in FAMILIES:
             setattr(self.struct, name, self._find(FAMILIES[kind], value).id)
+        elif (self.kind.name, name) in FORMS:
+            setattr(self.struct, name, kind(*FORMS[self.kind.name, name](value, label)))
         else:
             setattr(self.struct, name, kind(*vector(value, kind._length_, label)))
 

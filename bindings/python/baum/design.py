@@ -10,6 +10,8 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Any, Collection, NamedTuple
 
+from . import design_space
+
 if TYPE_CHECKING:
     from .elements import Body, Element, Joint
 
@@ -108,6 +110,8 @@ def taken(element: Element, moved: Collection[str]) -> Values:
         return {}
     if not _is_at(values, moved):
         return {}
+    if element.kind is not None and element.kind.is_spatial:
+        return design_space.taken(values)
     a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
     fields = _placed(values, a, b)
     values.update(fields)

@@ -95,13 +95,15 @@ class Body(Element):
 
     @property
     def pose(self) -> Channel:
-        """Channel: x, y [m] of the centre of mass and angle [rad] of a planar body; x, y [m] of a
-        particle; q of coordinates."""
+        """Channel: x, y [m] of the centre of mass and angle [rad] of a planar body; x, y, z [m] of
+        the centre of mass and the quaternion w, x, y, z [-] of a spatial body; x, y or x, y, z [m]
+        of a particle; q of coordinates."""
         return self._channel("pose", _Q.BAUM_BODY_POSE)
 
     @property
     def velocity(self) -> Channel:
-        """Channel: velocities [m/s], [rad/s] that belong to `pose`."""
+        """Channel: velocities [m/s], [rad/s] that belong to `pose`; the angular velocity of a
+        spatial body in ground axes, while v has it in body axes."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY)
 
     @property
@@ -110,7 +112,7 @@ class Body(Element):
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
 
     def pose_of(self, point: ArrayLike) -> Channel:
-        """Channel: `pose` with x, y of a point, given in body axes [m]."""
+        """Channel: `pose` with x, y (in space x, y, z) of a point, given in body axes [m]."""
         return self._channel("pose", _Q.BAUM_BODY_POSE, point)
 
     def velocity_of(self, point: ArrayLike) -> Channel:
@@ -122,11 +124,13 @@ class Body(Element):
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
 
     def _channel(self, attribute: str, quantity: int, point: ArrayLike | None = None) -> Channel:
-        key, at = f"{self.name}.{attribute}", [0.0, 0.0]
+        key, at = f"{self.name}.{attribute}", [0.0, 0.0, 0.0]
         if point is not None:
-            at = vector(point, 2, f"point of {self.name!r}").tolist()
-            key += f"({at[0]!r}, {at[1]!r})"
-        return Channel(key, quantity, body=self.id, point=(*at, 0.0))
+            size = 3 if self.kind is not None and self.kind.is_spatial else 2
+            given = vector(point, size, f"point of {self.name!r}").tolist()
+            at[:size] = given
+            key += f"({', '.join(map(repr, given))})"
+        return Channel(key, quantity, body=self.id, point=tuple(at))
 
 
 class Joint(Element):
@@ -157,14 +161,15 @@ class Joint(Element):
     @property
     def reaction(self) -> Channel:
         """Channel: force [N] and moment [N m] on body_b, in ground axes, about the joint's point on
-        body_b. For a gear, a coupling or a user constraint: -J^T lambda over the velocities of its
-        bodies."""
+        body_b; of a joint in space three of each. For a gear, a coupling or a user constraint: -J^T
+        lambda over the velocities of its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
     def coordinate(self) -> Channel:
-        """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a
-        translational joint or a pin in a slot [m], [m/s]."""
+        """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
+        along an axis [m], [m/s]: translational, pin in a slot, prismatic, cylindrical, point on a
+        line. The angle of a spatial revolute joint is between -pi and pi."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property

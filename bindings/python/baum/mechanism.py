@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from . import _abi, _calls, _html, _records, design
+from . import _abi, _calls, _html, _records, design, design_space
 from ._lib import lib, text
 from ._values import number, numbers, vector
 from .adding import Adding
+from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, one
 from .run import Run
 from .simulation import Simulation, takes_options
-from .typing import Array, ArrayLike, BodyLike, ChannelLike, InputLike, JointLike, Scalar
+from .typing import Array, ArrayLike, Axis, BodyLike, ChannelLike, InputLike, JointLike, Scalar
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from .typing import SimulationOptions
 
 LISTED = 30  # names in a message
+
+
+GRAVITY = (0.0, -9.81)  # [m/s^2]
 
 
 class Sizes(NamedTuple):
@@ -53,6 +57,15 @@ class Report(_records.Report):
         return self.text
 
 
+def _against(up: str, gravity: Any) -> list[float]:
+    """The default gravity against an axis."""
+    if up not in ("x", "y", "z"):
+        raise ValueError(f'up: "x", "y" or "z" is wanted, not {up!r}')
+    if gravity is not GRAVITY:
+        raise ValueError("gravity and up are both given; give one of them")
+    return [GRAVITY[1] if axis == up else 0.0 for axis in "xyz"]
+
+
 def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     """The entry of an element. The library returns a definition only to a caller that knows its
     kind, so all kinds are tried."""
@@ -67,28 +80,30 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
-class Mechanism(Adding):
+class Mechanism(Adding, AddingInSpace):
     """Bodies, joints, forces and inputs. Elements are added; freeze() then makes the mechanism
     constant, so that it can be simulated and shared between threads.
 
     gravity: (x, y) or (x, y, z) [m/s^2]. characteristic_length: the length [m] that tolerances
-    refer to, default the size of the design configuration. Any consistent set of units will do;
-    angles are in radians.
+    refer to, default the size of the design configuration. up: "x", "y" or "z" instead of gravity:
+    9.81 m/s^2 against this axis. Any consistent set of units will do; angles are in radians.
 
     A joint is placed by `point` (ground axes, design configuration) or by `point_a` and `point_b`
-    (body axes). m["A"] is the handle of the element "A". Functions are called with (t, q) or
-    (t, q, v) of the bodies they are given for, and return their value.
+    (body axes); joints in space also have an `axis`, and may have an `axis_b`. m["A"] is the handle
+    of the element "A". Functions are called with (t, q) or (t, q, v) of the bodies they are given
+    for, and return their value.
     """
 
     def __init__(
         self,
-        gravity: ArrayLike = (0.0, -9.81),
+        gravity: ArrayLike = GRAVITY,
         characteristic_length: Scalar | None = None,
+        up: Axis | None = None,
     ) -> None:
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_create, ctypes.byref(out))
         self._adopt(out.value)
-        self.gravity = gravity
+        self.gravity = gravity if up is None else _against(up, gravity)
         if characteristic_length is not None:
             self.characteristic_length = characteristic_length
 
@@ -298,12 +313,14 @@ class Mechanism(Adding):
         """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
         frozen if this mechanism is. Handles of one are valid in the other until elements are added.
 
-        With another position or angle of a body, the copy is the same mechanism in another initial
-        configuration: joints and forces keep their points in body axes, and the lengths, angles and
-        offsets that they took from the design configuration. Their definitions in the copy contain
-        the numbers. Assembly closes the joints, which may move the changed body too: give position
-        and angle that fit, or held=True. A joint or force that is itself changed in `point`,
-        `point_a` or `point_b` is placed in the new design configuration.
+        With another position, angle or orientation of a body, the copy is the same mechanism in
+        another initial configuration: joints and forces keep their points and axes in body axes,
+        and the lengths, angles and offsets that they took from the design configuration. Their
+        definitions in the copy contain the numbers. Assembly closes the joints, which may move the
+        changed body too: give position and angle that fit, or held=True. A joint or force that is
+        itself changed in `point`, `point_a` or `point_b` is placed in the new design configuration.
+        The angle of a spatial revolute joint is 0 in the new design configuration. ValueError if
+        that would change a driven angle, or if a spatial weld or prismatic joint would be turned.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -324,10 +341,12 @@ class Mechanism(Adding):
         """The fields that keep joints and forces as they are although bodies have moved."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
-        moved = {name for name in moved if given[name] & {"position", "angle"}}
+        moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
+        joints = [one.definition.get("joint") for one in self if moved and one.family == "joint"]
         for element in self if moved else ():
             placed_anew = given.get(element.name, set()) & {"point", "point_a", "point_b"}
             if element.family in ("joint", "force") and not placed_anew:
+                design_space.check_turned(element, joints, changes)
                 yield element.name, design.taken(element, moved)
 
     @property

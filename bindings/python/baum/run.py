@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn
 import numpy as np
 
 from . import _html, _records, units
+from ._rotation import matrix
 from .channels import Channel, Layout
-from .elements import Element
+from .elements import Body, Element
 from .errors import Status, Warning
 from .typing import Array, ChannelLike
 
@@ -58,6 +59,15 @@ class Event(NamedTuple):
     direction: int
 
 
+class Place(NamedTuple):
+    """Where a body is in q and v. in_body_axes: its angular velocity in v is in body axes, that of
+    its channel in ground axes."""
+
+    q: slice
+    v: slice
+    in_body_axes: bool
+
+
 class Account(NamedTuple):
     """What a simulation knows about itself at the end of a run."""
 
@@ -101,7 +111,7 @@ class Run:
         self._slices = layout.slices
         self._channels = layout.channels
         self._rows = rows
-        self._bodies: dict[str, tuple[slice, slice]] | None = None
+        self._bodies: dict[str, Place] | None = None
         self._units: dict[str, units.Units] = {}
         self.q = self["q"]
         self.v = self["v"]
@@ -109,7 +119,7 @@ class Run:
     def __getstate__(self) -> dict[str, Any]:
         bodies = self._bodies
         if bodies is None and self.mechanism is not None:
-            bodies = {one.name: one.columns for one in self.mechanism if one.family == "body"}
+            bodies = {one.name: _place(one) for one in self.mechanism if one.family == "body"}
         known = {key: self._units_of(key) for key in self}
         return dict(
             vars(self), mechanism=None, _bodies=bodies, _units=known, _channels={}, q=None, v=None
@@ -165,17 +175,21 @@ class Run:
         """The columns (n x columns) of a channel, which is given by itself or by name. Raises
         KeyError for a channel that was not recorded."""
         name = key.key if isinstance(key, Channel) else key
-        place = self._slices.get(name)
-        if place is not None:
-            return self._rows[:, place]
+        recorded = self._slices.get(name)
+        if recorded is not None:
+            return self._rows[:, recorded]
         found = self._of_body(name)
         if found is None:
             raise KeyError(
                 f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
                 "velocities of bodies; name others in record=[...]"
             )
-        whole, columns = found
-        return np.ascontiguousarray(self[whole][:, columns])
+        whole, columns, place = found
+        values = np.ascontiguousarray(self[whole][:, columns])
+        if whole == "v" and place.in_body_axes:
+            axes = matrix(self.q[:, place.q][:, 3:])
+            values[:, 3:] = np.einsum("nij,nj->ni", axes, values[:, 3:])
+        return values
 
     def _ipython_key_completions_(self) -> list[str]:
         bodies = list(self._bodies or ())
@@ -183,31 +197,29 @@ class Run:
             bodies = [one.name for one in self.mechanism if one.family == "body"]
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
-    def _of_body(self, name: object) -> tuple[str, slice] | None:
+    def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
         """Where pose or velocity of a body are in q or v, or None."""
         body, _, what = str(name).rpartition(".")
-        columns = self._columns_of(body) if what in ("pose", "velocity") else None
-        if columns is None:
+        place = self._place_of(body) if what in ("pose", "velocity") else None
+        if place is None:
             return None
-        return ("q", columns[0]) if what == "pose" else ("v", columns[1])
+        return ("q", place.q, place) if what == "pose" else ("v", place.v, place)
 
-    def _columns_of(self, body: str) -> tuple[slice, slice] | None:
+    def _place_of(self, body: str) -> Place | None:
         """Places of a body in q and v, or None."""
         if self._bodies is not None:
             return self._bodies.get(body)
         if self.mechanism is None or body not in self.mechanism:
             return None
         element = self.mechanism[body]
-        if element.family != "body" or element.kind is None:
-            return None
-        places: tuple[slice, slice] = element.columns
-        return places
+        return None if element.family != "body" or element.kind is None else _place(element)
 
     # ---- tables and plots ------------------------------------------------------------------------
 
     @property
     def columns(self) -> dict[str, str]:
-        """The unit of each column of to_dict() by its name; "" where your functions decide it."""
+        """The unit of each column of to_dict() by its name; "-" for pure numbers, "" where your
+        functions decide it."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))
@@ -268,6 +280,10 @@ class Run:
                 place.legend()
         places[-1].set_xlabel("t [s]")
         return places
+
+
+def _place(body: Body) -> Place:
+    return Place(*body.columns, body.kind is not None and body.kind.name == "spatial_body")
 
 
 def _common(names: list[str]) -> str:

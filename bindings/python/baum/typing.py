@@ -36,6 +36,16 @@ class HasAddress(Protocol):
     def address(self) -> int: ...
 
 
+class HasQuaternion(Protocol):
+    """A rotation such as that of scipy.spatial.transform; x, y, z, w."""
+
+    def as_quat(self) -> Any: ...
+
+
+# A unit quaternion w, x, y, z, a rotation matrix 3 x 3, or a rotation of SciPy.
+OrientationLike = Union[ArrayLike, HasQuaternion]
+Axis = Literal["x", "y", "z"]
+
 # A compiled function: an address, a function pointer of ctypes, an object with an address.
 Compiled = Union[int, CFuncPtr, HasAddress]
 FunctionOfQ = Union[Callable[[float, Array], ArrayLike], Compiled]

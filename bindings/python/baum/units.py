@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Units of the columns of channels; "" where the user's functions decide."""
+"""Units of the columns of channels; "-" for pure numbers, "" where the user's functions decide."""
 
 from __future__ import annotations
 
@@ -9,15 +9,17 @@ from . import _abi
 from .channels import Channel, width
 
 if TYPE_CHECKING:
+    from .definitions import Kind
     from .elements import Body, Joint
     from .mechanism import Mechanism
 
 Units = tuple[str, ...]
 
 _Q = _abi.baum_quantity
-_RATES = {"m": "m/s", "rad": "rad/s", "m/s": "m/s^2", "rad/s": "rad/s^2"}
-_FORCES = {"m": "N", "rad": "N m"}
+_RATES = {"m": "m/s", "rad": "rad/s", "-": "1/s", "m/s": "m/s^2", "rad/s": "rad/s^2"}
+_FORCES = {"m": "N", "rad": "N m", "-": "N m"}
 PLANAR_FORCE = ("N", "N", "N m")
+SPATIAL_FORCE = ("N",) * 3 + ("N m",) * 3
 
 
 def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
@@ -58,7 +60,8 @@ def _of_body(body: Body, order: int) -> Units:
     if body.kind is None:  # ground
         return ()
     count = body.nv if order else body.nq
-    return _rates(body.kind.units, order) or ("",) * count
+    units = order and body.kind.displacements or body.kind.units
+    return _rates(units, order) or ("",) * count
 
 
 def _rates(units: Units, order: int) -> Units:
@@ -68,7 +71,8 @@ def _rates(units: Units, order: int) -> Units:
 
 
 def _coordinate(joint: Joint) -> str:
-    return "m" if "axis" in joint.definition else "rad"
+    assert joint.kind is not None
+    return "rad" if joint.kind.name in ("planar_revolute", "spatial_revolute") else "m"
 
 
 def _rows(joint: Joint) -> Units:
@@ -83,8 +87,17 @@ def _rows(joint: Joint) -> Units:
     return ("",) * int(values["rows"])
 
 
+def _driven(joint: Joint) -> Kind | None:
+    """The kind of the joint that a driver moves."""
+    driven: Joint | None = joint.definition.get("joint")
+    return None if driven is None else driven.kind
+
+
 def _reaction(joint: Joint, columns: int) -> Units:
     """Force and moment, or generalized forces over the velocities of planar bodies."""
     assert joint.kind is not None
+    moved = joint.kind if joint.kind.units else _driven(joint)
+    if moved is not None and moved.is_spatial:
+        return SPATIAL_FORCE
     planar = joint.kind.name != "user_constraint" and columns % 3 == 0
     return PLANAR_FORCE * (columns // 3) if planar else ("",) * columns

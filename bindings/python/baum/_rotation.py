@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Orientations and inertia tensors in the forms that users have, on their way to the library."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._values import vector
+from .typing import Array
+
+ROUNDING = 1e-6  # of numbers that were typed in
+
+
+def _matrix(value: Any, label: str) -> Array:
+    """A 3 x 3 array, checked like a vector."""
+    return vector(np.ravel(np.asarray(value)), 9, label).reshape(3, 3)
+
+
+def _is_matrix(value: Any) -> bool:
+    return np.ndim(value) == 2
+
+
+def tensor(value: Any, label: str) -> Array:
+    """The six numbers xx, yy, zz, xy, xz, yz of an inertia given by them, by its three principal
+    moments or by a 3 x 3 matrix."""
+    if _is_matrix(value):
+        i = _matrix(value, label)
+        if not np.allclose(i, i.T, rtol=0.0, atol=1e-9 * abs(i).max()):
+            raise ValueError(f"{label}: the matrix is not symmetric")
+        return np.array([i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])
+    given = vector(value, None, label)
+    if given.size not in (3, 6):
+        raise ValueError(
+            f"{label}: 6 numbers (xx, yy, zz, xy, xz, yz), 3 principal moments or a 3 x 3 matrix "
+            f"are wanted, not {given.size} numbers"
+        )
+    return np.concatenate([given, np.zeros(6 - given.size)])
+
+
+def quaternion(value: Any, label: str) -> Array:
+    """The quaternion w, x, y, z of an orientation given by it, by a 3 x 3 rotation matrix or by a
+    Rotation of SciPy."""
+    if hasattr(value, "as_quat"):  # x, y, z, w
+        return np.roll(vector(value.as_quat(), 4, label), 1)
+    if not _is_matrix(value):
+        return vector(value, 4, label)
+    r = _matrix(value, label)
+    if not np.allclose(r @ r.T, np.eye(3), rtol=0.0, atol=ROUNDING) or np.linalg.det(r) < 0:
+        raise ValueError(
+            f"{label}: the matrix is no rotation: its columns are not right-handed axes"
+        )
+    return _of_matrix(r)
+
+
+def _of_matrix(r: Array) -> Array:
+    """The row of 4 p p^T whose diagonal entry is the largest, divided by its length (Shepperd
+    1978); w >= 0."""
+    turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
+    outer = np.empty((4, 4))
+    outer[0, 0] = 1.0 + np.trace(r)
+    outer[0, 1:] = outer[1:, 0] = turned
+    outer[1:, 1:] = r + r.T + (1.0 - np.trace(r)) * np.eye(3)
+    row: Array = outer[np.argmax(np.diag(outer))]
+    return row / np.copysign(np.linalg.norm(row), row[0])
+
+
+def matrix(quaternions: Array) -> Array:
+    """Rotation matrices (... x 3 x 3) of unit quaternions (... x 4), w first."""
+    w, x, y, z = np.moveaxis(quaternions, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Adding bodies, joints and forces in space to a mechanism."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .elements import Body, Element, Force, Joint
+from .typing import ArrayLike, BodyLike, InputLike, LawOfLength, OrientationLike, Scalar
+
+Added = TypeVar("Added", bound=Element)
+
+
+class AddingInSpace:
+    """The methods of a Mechanism that add an element in space; Adding says what is common to all.
+
+    Points are x, y, z [m]. A joint is placed by `point` (ground axes, design configuration) or by
+    `point_a` and `point_b` (body axes). `axis` is a direction of any length: in ground axes with
+    `point`, else in the axes of body_a. `axis_b` is the same axis on body_b: in ground axes with
+    `point`, else in the axes of body_b. Without it, both coincide in the design configuration.
+    Planar bodies and particles can take part; they stay in the plane z = 0.
+    """
+
+    if TYPE_CHECKING:
+
+        def _add(self, made: type[Added], kind_name: str, given: dict[str, Any]) -> Added: ...
+
+    # ---- bodies ----------------------------------------------------------------------------------
+
+    def spatial_body(
+        self,
+        name: str | None = None,
+        *,
+        mass: Scalar = 1.0,
+        inertia: ArrayLike = (1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        orientation: OrientationLike = (1.0, 0.0, 0.0, 0.0),
+        velocity: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
+        held: bool = False,
+    ) -> Body:
+        """Add a rigid body in space.
+
+        mass: [kg] > 0. inertia: about the centre of mass in body axes [kg m^2]: xx, yy, zz, xy, xz,
+        yz of the tensor, or the three principal moments, or a 3 x 3 matrix; baum.inertia computes
+        those of solids. position: of the centre of mass in the design configuration, x, y, z [m].
+        orientation: in the design configuration: a unit quaternion w, x, y, z, or a rotation matrix
+        3 x 3 whose columns are the body axes, or a Rotation of scipy.spatial.transform. velocity:
+        of the centre of mass at the start, ground axes [m/s]. angular_velocity: at the start, body
+        axes [rad/s]. None or NaN: free, so that assembly chooses them. held: assembly does not move
+        the body.
+        """
+        return self._add(Body, "spatial_body", locals())
+
+    def spatial_particle(
+        self,
+        name: str | None = None,
+        *,
+        mass: Scalar = 1.0,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        velocity: ArrayLike | None = None,
+        held: bool = False,
+    ) -> Body:
+        """Add a point mass in space.
+
+        mass: [kg] > 0. position: in the design configuration, x, y, z [m]. velocity: at the start
+        [m/s]; None or NaN: free, so that assembly chooses it. held: assembly does not move it.
+        """
+        return self._add(Body, "spatial_particle", locals())
+
+    # ---- joints ----------------------------------------------------------------------------------
+
+    def spherical(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a spherical joint (ball joint): a point of body_a and one of body_b coincide. Three
+        rows [m].
+
+        point: in ground axes in the design configuration [m]; or point_a, point_b: in the axes of
+        body_a and body_b [m].
+        """
+        return self._add(Joint, "spatial_spherical", locals())
+
+    def spatial_revolute(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a revolute joint (hinge) in space: points coincide, axes are parallel. Five rows:
+        three [m], two [-].
+
+        Its coordinate is the angle of body_b relative to body_a about the axis [rad], 0 in the
+        design configuration, between -pi and pi. point: in ground axes in the design configuration
+        [m]; or point_a, point_b: in the axes of the bodies [m]. axis, axis_b: directions, in ground
+        axes with `point`, else in the axes of body_a and body_b; axis_b: default along axis.
+        """
+        return self._add(Joint, "spatial_revolute", locals())
+
+    def universal(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a universal joint (Hooke's joint): points coincide, and axis of body_a and axis_b of
+        body_b stay perpendicular. Four rows: three [m], one [-].
+
+        axis, axis_b: directions, in ground axes with `point`, else in the axes of body_a and
+        body_b. point, point_a, point_b: as in spatial_revolute().
+        """
+        return self._add(Joint, "spatial_universal", locals())
+
+    def cylindrical(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a cylindrical joint: body_b slides along an axis of body_a and rotates about it. Four
+        rows: two [-], two [m].
+
+        Its coordinate is the displacement of body_b's point along the axis [m]. point, point_a,
+        point_b, axis, axis_b: as in spatial_revolute().
+        """
+        return self._add(Joint, "spatial_cylindrical", locals())
+
+    def prismatic(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a prismatic joint: body_b slides along an axis of body_a and does not rotate relative
+        to it. Five rows: two [-], two [m], one [-].
+
+        Its coordinate is the displacement of body_b's point along the axis [m]. point, point_a,
+        point_b, axis, axis_b: as in spatial_revolute().
+        """
+        return self._add(Joint, "spatial_prismatic", locals())
+
+    def spatial_planar(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a planar joint: body_b moves in a plane of body_a, whose normal is the axis. Three
+        rows: two [-], one [m].
+
+        point, point_a, point_b, axis, axis_b: as in spatial_revolute().
+        """
+        return self._add(Joint, "spatial_planar", locals())
+
+    def spatial_fixed(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Add a weld in space: points coincide, and the relative orientation stays that of the
+        design configuration. Six rows: three [m], three [-].
+
+        point, point_a, point_b: as in spherical().
+        """
+        return self._add(Joint, "spatial_fixed", locals())
+
+    def spatial_distance(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        length: Scalar | None = None,
+    ) -> Joint:
+        """Add a massless rod between two points in space. One row [m].
+
+        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, default that of the
+        design configuration.
+        """
+        return self._add(Joint, "spatial_distance", locals())
+
+    def point_on_line(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+    ) -> Joint:
+        """Keep a point of body_b on a line of body_a through its point. Two rows [m].
+
+        Its coordinate is the displacement along the line [m]. body_b may be a particle. axis:
+        direction of the line. point, point_a, point_b, axis: as in spatial_revolute().
+        """
+        return self._add(Joint, "spatial_point_on_line", locals())
+
+    def point_on_plane(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+    ) -> Joint:
+        """Keep a point of body_b in a plane of body_a through its point. One row [m].
+
+        body_b may be a particle. axis: normal of the plane. point, point_a, point_b, axis: as in
+        spatial_revolute().
+        """
+        return self._add(Joint, "spatial_point_on_plane", locals())
+
+    # ---- forces ----------------------------------------------------------------------------------
+
+    def spatial_spring(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_length: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a spring and damper between two points in space, linear or by a law.
+
+        Points are x, y, z in body axes [m]; everything else is as in spring(). There is no force
+        where the length is 0.
+        """
+        return self._add(Force, "spatial_spring", locals())
+
+    def spatial_load(
+        self,
+        name: str | None,
+        body: BodyLike,
+        *,
+        point: ArrayLike = (0.0, 0.0, 0.0),
+        force: ArrayLike = (0.0, 0.0, 0.0),
+        moment: ArrayLike = (0.0, 0.0, 0.0),
+        follows_body: bool = False,
+        input: InputLike | None = None,
+    ) -> Force:
+        """Add a force at a point of a body in space, and a moment.
+
+        point: in body axes [m]. force: [N]. moment: [N m]. follows_body: force and moment rotate
+        with the body; otherwise they keep their directions in ground axes. input: its value
+        multiplies force and moment.
+        """
+        return self._add(Force, "spatial_load", locals())

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The numbers that joints and forces in space take from the design configuration."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Collection, Mapping, NamedTuple
+
+import numpy as np
+
+from ._rotation import matrix, quaternion
+from .typing import Array
+
+if TYPE_CHECKING:
+    from .elements import Body, Element
+
+NOT_GIVEN = (math.nan,) * 3
+Values = dict[str, Any]
+
+
+class Frame(NamedTuple):
+    """Position and axes (columns) of a body in the design configuration."""
+
+    place: Array
+    axes: Array
+    has_axes: bool
+
+    @classmethod
+    def of(cls, body: Body, changes: Mapping[str, Any] | None = None) -> Frame:
+        """That of a body, with some fields of its definition changed."""
+        if body.kind is None:
+            return cls(np.zeros(3), np.eye(3), True)
+        values = {**body.definition, **(changes or {})}
+        place = np.zeros(3)
+        place[: len(values["position"])] = values["position"]
+        half = 0.5 * values.get("angle", 0.0)
+        given = values.get("orientation", (math.cos(half), 0.0, 0.0, math.sin(half)))
+        p = quaternion(given, f'body "{body.name}": orientation')
+        has_axes = "orientation" in values or "angle" in values
+        return cls(place, matrix(p / np.linalg.norm(p)), has_axes)
+
+    def local(self, point: Any) -> Array:
+        """A point in ground axes, given in body axes; a particle has only the origin."""
+        return (np.asarray(point) - self.place) @ self.axes if self.has_axes else np.zeros(3)
+
+
+def _tuple(vector: Array) -> tuple[float, ...]:
+    return tuple(vector.tolist())
+
+
+def _is_given(values: Values, name: str) -> bool:
+    return name in values and not math.isnan(values[name][0])
+
+
+def taken(values: Values) -> Values:
+    """The fields that a joint or force with these values takes from the design configuration, as
+    numbers."""
+    a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
+    fields: Values = {}
+    axis_a = a.axes
+    axis_b = b.axes
+    if _is_given(values, "point"):
+        axis_a = axis_b = np.eye(3)
+        fields["point"] = NOT_GIVEN
+        fields["point_a"] = _tuple(a.local(values["point"]))
+        fields["point_b"] = _tuple(b.local(values["point"]))
+    if "axis" in values:
+        axis = axis_a @ values["axis"]
+        fields["axis"] = _tuple(axis @ a.axes)
+        if "axis_b" in values:
+            other = axis_b @ values["axis_b"] if _is_given(values, "axis_b") else axis
+            fields["axis_b"] = _tuple(other @ b.axes)
+    for name in ("length", "free_length"):
+        if math.isnan(values.get(name, 0.0)):
+            apart = b.place + b.axes @ values["point_b"] - a.place - a.axes @ values["point_a"]
+            fields[name] = float(np.linalg.norm(apart))
+    return fields
+
+
+def check_turned(
+    element: Element, driven: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
+) -> None:
+    """Refuse a change of the relative orientation that a joint takes from the design configuration
+    and has no field for: that of a weld, of a prismatic joint, or the zero of a driven angle."""
+    kind = element.kind.name if element.kind else ""
+    is_driven = kind == "spatial_revolute" and element in driven
+    if kind not in ("spatial_fixed", "spatial_prismatic") and not is_driven:
+        return
+    values = element.definition
+    ends = [values["body_a"], values["body_b"]]
+    before = [Frame.of(body).axes for body in ends]
+    after = [Frame.of(body, changes.get(body.name)).axes for body in ends]
+    if not np.allclose(before[0].T @ before[1], after[0].T @ after[1], rtol=0.0, atol=1e-9):
+        raise ValueError(
+            f'joint "{element.name}" keeps the relative orientation of the design configuration, '
+            "which these changes alter; change both of its bodies, or place the joint anew by its "
+            "points"
+        )

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A heavy top: a disc on a light axle that stands on a spherical joint. With the right spin it
+precesses steadily; with a little less it nods."""
+
+import sys
+
+import baum
+import numpy as np
+from baum import inertia
+from baum.typing import Array
+from support.report import Report
+
+MASS, RADIUS, THICKNESS = 0.5, 0.08, 0.02  # [kg], [m], [m] of the disc
+ARM = 0.1  # [m] from the joint to the centre of mass
+TILT = np.radians(50)  # of the axle from the vertical
+PRECESSION = 2.0  # [rad/s] about the vertical
+GRAVITY = 9.81  # [m/s^2]
+SPAN = 3.0  # [s]
+
+DISC = inertia.cylinder(MASS, RADIUS, THICKNESS, axis="z")
+AXIAL = DISC[2, 2]
+ACROSS = inertia.shift(DISC, MASS, (0, 0, ARM))[0, 0]  # about the joint
+
+COLUMNS = {
+    "t": ("t [s]", "5.2f"),
+    "azimuth": ("azimuth [rad]", "12.8f"),
+    "tilt": ("tilt [deg]", "12.8f"),
+    "nodding": ("with less spin [deg]", "12.4f"),
+    "support": ("vertical support [N]", "12.6f"),
+}
+
+
+def steady_spin() -> float:
+    """Angular velocity about the axle [rad/s] of the steady precession p at the tilt n:
+    axial spin p - across p^2 cos(n) = m g arm."""
+    weight = MASS * GRAVITY * ARM
+    return float((weight + ACROSS * PRECESSION**2 * np.cos(TILT)) / (AXIAL * PRECESSION))
+
+
+def top(spin: float) -> baum.Mechanism:
+    """The centre of mass is in the plane of x and z at the start; the axle is the body's z axis."""
+    m = baum.Mechanism(up="z")
+    sine, cosine = np.sin(TILT), np.cos(TILT)
+    axes = np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])  # columns: axes of the body
+    m.spatial_body(
+        "top",
+        mass=MASS,
+        inertia=DISC,
+        position=ARM * axes[:, 2],
+        orientation=axes,
+        angular_velocity=(-PRECESSION * sine, 0, spin),
+    )
+    m.spherical("foot", m.ground, "top", point=(0, 0, 0))
+    return m.freeze()
+
+
+def simulate(spin: float, times: Array) -> tuple[baum.Run, Array]:
+    """A run, and azimuth and tilt [rad] of the axle (2 x n)."""
+    run = top(spin).simulate(times, "rk8", rtol=1e-10, record=["foot.reaction", "energy"])
+    x, y, z = run["top.pose"][:, :3].T
+    return run, np.stack([np.unwrap(np.arctan2(y, x)), np.arctan2(np.hypot(x, y), z)])
+
+
+def vertical_momentum(run: baum.Run) -> Array:
+    """Angular momentum [N m s] about the vertical through the joint, which gravity keeps."""
+    r, velocity = run["top.pose"][:, :3], run["top.velocity"]  # both in ground axes
+    v, w = velocity[:, :3], velocity[:, 3:]
+    spin = (w * r).sum(axis=1, keepdims=True) * r / ARM**2
+    own = AXIAL * spin + DISC[0, 0] * (w - spin)
+    total: Array = (own + MASS * np.cross(r, v))[:, 2]
+    return total
+
+
+def main() -> int:
+    report = Report("gyroscope")
+    times = np.linspace(0, SPAN, 61)
+    spin = steady_spin()
+    run, (azimuth, tilt) = simulate(spin, times)
+    less, (_, nodding) = simulate(0.9 * spin, times)
+    print(f"{run.mechanism}\nspin {spin:.3f} rad/s\n{run.explain}\n")
+    support = run["foot.reaction"][:, 2]
+    rows = np.stack([times, azimuth, np.degrees(tilt), np.degrees(nodding), support], axis=1)
+    report.table("motion", COLUMNS, rows[::6].tolist())
+    report.counters(run.counters)
+
+    report.expect("azimuth, off by [rad]", abs(azimuth - PRECESSION * times).max(), 1e-7)
+    report.expect("tilt, off by [rad]", abs(tilt - TILT).max(), 1e-7)
+    report.expect("support less the weight [N]", abs(support - MASS * GRAVITY).max(), 1e-6)
+    report.expect("with less spin: 0.5 deg / nod [-]", np.radians(0.5) / np.ptp(nodding), 1.0)
+    for name, one in ("steady", run), ("with less spin", less):
+        energy = one["energy"].sum(axis=1)
+        report.expect(f"{name}: energy change [J]", abs(energy - energy[0]).max(), 1e-8)
+        momentum = vertical_momentum(one)
+        change = abs(momentum / momentum[0] - 1).max()
+        report.expect(f"{name}: vertical momentum, off by", change, 1e-7)
+    return report.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A spatial four-bar (RSSR): a driven crank about the z axis moves a rocker about an axis in
+another direction, through a coupler with a spherical joint at each end. The coupler can spin about
+its own axis, which moves nothing else; with a massless rod in its place, the mechanism has no
+degree of freedom and its motion follows by kinematics."""
+
+import sys
+
+import baum
+import numpy as np
+from baum import inertia
+from baum.typing import Array
+from support.report import Report
+
+CRANK, COUPLER, ROCKER = 0.10, 0.40, 0.25  # [m]
+PIVOT = np.array([0.20, 0.30, 0.05])  # [m] of the rocker
+AXIS = np.array([1.0, 0.0, 0.0])  # of the rocker; its zero is along y
+OMEGA = 4 * np.pi  # [rad/s] of the crank
+
+COLUMNS = {
+    "crank": ("crank [deg]", "9.1f"),
+    "rocker": ("rocker [deg]", "10.5f"),
+    "effort": ("motor [N m]", "9.4f"),
+    "rod": ("with a rod [N m]", "9.4f"),
+}
+
+
+def crank_end(angle: Array) -> Array:
+    """Where the coupler meets the crank (n x 3) [m]."""
+    return CRANK * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
+
+
+def rocker_end(angle: Array) -> Array:
+    """Where the coupler meets the rocker (n x 3) [m]."""
+    return PIVOT + ROCKER * np.stack([np.zeros_like(angle), np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def rocker_angle(crank: Array) -> Array:
+    """The angle of the rocker [rad] at which its end is as far from the crank's as the coupler is
+    long: A cos + B sin = C."""
+    apart = PIVOT - crank_end(crank)
+    a, b = 2 * ROCKER * apart[:, 1], 2 * ROCKER * apart[:, 2]
+    c = COUPLER**2 - ROCKER**2 - (apart**2).sum(axis=1)
+    found: Array = np.arctan2(b, a) - np.arccos(c / np.hypot(a, b))
+    return np.unwrap(found)
+
+
+def axes_along(x: Array) -> Array:
+    """Three axes (columns), the first along x."""
+    first = x / np.linalg.norm(x)
+    second = np.cross((0, 0, 1), first)
+    second = second / np.linalg.norm(second)
+    return np.stack([first, second, np.cross(first, second)], axis=1)
+
+
+def mechanism(with_coupler: bool) -> baum.Mechanism:
+    """Placed with the crank along x, each joint by its point in ground axes."""
+    start = np.zeros(1)
+    a, b = crank_end(start)[0], rocker_end(rocker_angle(start))[0]
+    m = baum.Mechanism(up="z")
+    for name, mass, length, from_, to in (
+        ("crank", 0.3, CRANK, np.zeros(3), a),
+        ("coupler", 0.5, COUPLER, a, b),
+        ("rocker", 0.6, ROCKER, PIVOT, b),
+    ):
+        if name != "coupler" or with_coupler:
+            m.spatial_body(
+                name,
+                mass=mass,
+                inertia=inertia.cylinder(mass, 0.01, length, axis="x"),
+                position=(from_ + to) / 2,
+                orientation=axes_along(to - from_),
+            )
+    shaft = m.spatial_revolute("shaft", m.ground, "crank", point=(0, 0, 0))
+    m.spatial_revolute("pivot", m.ground, "rocker", point=PIVOT, axis=AXIS)
+    if with_coupler:
+        m.spherical("ball_a", "crank", "coupler", point=a)
+        m.spherical("ball_b", "coupler", "rocker", point=b)
+    else:
+        ends = (CRANK / 2, 0, 0), (ROCKER / 2, 0, 0)
+        m.spatial_distance("rod", "crank", "rocker", point_a=ends[0], point_b=ends[1])
+    m.driver("motor", shaft, rate=OMEGA)
+    return m.freeze()
+
+
+def main() -> int:
+    report = Report("rssr")
+    times = np.linspace(0, 2 * np.pi / OMEGA, 181)
+    record = ["pivot.coordinate", "motor.effort", "energy"]
+    whole, light = mechanism(True), mechanism(False)
+    run = whole.simulate(times, "rk8", rtol=1e-10, record=record)
+    rod = light.simulate(times, "kinematics", record=record)
+    print(f"{whole}: {whole.mobility()}\n{light}: {light.mobility()}\n{run.explain}\n")
+
+    exact = rocker_angle(OMEGA * times)
+    angles = [one["pivot.coordinate"][:, 0] + exact[0] for one in (run, rod)]
+    efforts = [one["motor.effort"][:, 0] for one in (run, rod)]
+    rows = np.stack([np.degrees(OMEGA * times), np.degrees(angles[0]), *efforts], axis=1)
+    report.table("turn", COLUMNS, rows[::15].tolist())
+    report.counters(run.counters)
+
+    report.expect("rocker against the closed form [rad]", abs(angles[0] - exact).max(), 1e-9)
+    report.expect("with a rod: the same [rad]", abs(angles[1] - exact).max(), 1e-11)
+    # Over a revolution the motor's power has the mean 0: without friction its work is stored.
+    for name, one, effort in ("coupler", run, efforts[0]), ("rod", rod, efforts[1]):
+        work = OMEGA * effort[1:].mean() * times[-1]
+        report.expect(f"{name}: work in a revolution [J]", abs(work), 1e-8)
+        energy = one["energy"].sum(axis=1)
+        report.expect(f"{name}: energy after it, off by [J]", abs(energy[-1] - energy[0]), 1e-8)
+    return report.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,389 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies, joints and forces in space."""
+
+import copy
+import math
+import pickle
+import unittest
+
+import numpy as np
+
+import baum
+from baum import inertia
+from baum._rotation import matrix, quaternion
+
+HALF = math.sqrt(0.5)
+TILTED = np.array([0.5, 0.1, -0.7, 0.5])  # a quaternion
+TILTED /= np.linalg.norm(TILTED)
+
+
+class Rotation:
+    """As that of SciPy: w is last."""
+
+    def __init__(self, p):
+        self.p = p
+
+    def as_quat(self):
+        return np.roll(self.p, -1)
+
+
+def add_every_joint(m, a, b, p):
+    """One of each between two bodies and a particle, by points and axes in both ways."""
+    point = (0.3, 0.1, -0.2)
+    m.spherical("spherical", a, b, point=point)
+    m.spatial_revolute("revolute", a, b, point=point, axis=(1, 2, 0))
+    m.universal("universal", a, b, point=point, axis=(1, 0, 0), axis_b=(0, 0, 2))
+    m.cylindrical("cylindrical", a, b, point_a=point, point_b=(0, 1, 0), axis=(1, 1, 1))
+    m.prismatic("prismatic", a, b, point_a=point, point_b=(0, 1, 0), axis=(0, 1, 1))
+    m.spatial_planar("planar", a, b, point=point, axis=(1, 0, 1), axis_b=(1, 0.1, 1))
+    m.spatial_fixed("fixed", a, b, point=point)
+    m.spatial_distance("distance", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0))
+    m.point_on_line("line", a, p, point_a=point, point_b=(0, 0, 0), axis=(1, 0, 2))
+    m.point_on_plane("plane", a, p, point=(1, 2, 3), axis=(0, 1, 0))
+    m.spatial_spring(
+        "spring", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0), stiffness=3, damping=0.1
+    )
+    m.spatial_load("load", a, force=(1, 2, 3), moment=(0, 1, 0), point=(0.1, 0, 0))
+
+
+def everything():
+    m = baum.Mechanism(up="z")
+    a = m.spatial_body("a", position=(1, 0.5, 0.2), orientation=TILTED)
+    b = m.spatial_body("b", position=(0.2, 0.7, -1), orientation=(HALF, 0, HALF, 0))
+    p = m.spatial_particle("p", position=(1, 2, 3))
+    add_every_joint(m, a, b, p)
+    return m
+
+
+class Given(unittest.TestCase):
+    """What users give, and what the library gets."""
+
+    def body(self, **fields):
+        return baum.Mechanism().spatial_body("body", **fields).definition
+
+    def test_inertia_is_taken_in_three_forms(self):
+        for given in (2, 3, 4, 0.1, 0, 0.2), [[2, 0.1, 0], [0.1, 3, 0.2], [0, 0.2, 4]]:
+            self.assertEqual(self.body(inertia=given)["inertia"], (2, 3, 4, 0.1, 0, 0.2))
+        self.assertEqual(self.body(inertia=(2, 3, 4))["inertia"], (2, 3, 4, 0, 0, 0))
+
+    def test_orientation_is_taken_in_three_forms(self):
+        for given in TILTED, matrix(TILTED), Rotation(TILTED):
+            np.testing.assert_allclose(self.body(orientation=given)["orientation"], TILTED)
+        self.assertEqual(self.body()["orientation"], (1, 0, 0, 0))
+
+    def test_a_matrix_of_half_a_revolution_has_a_quaternion(self):
+        for axis in np.eye(3):
+            for angle in (np.pi, 3.0, -2.5, 1e-9):
+                p = np.array([math.cos(angle / 2), *(math.sin(angle / 2) * axis)])
+                found = quaternion(matrix(p), "")
+                np.testing.assert_allclose(matrix(found), matrix(p), atol=1e-15)
+
+    def test_definitions_can_be_given_again(self):
+        m = baum.Mechanism()
+        body = m.spatial_body("body", inertia=(2, 3, 4), orientation=TILTED)
+        values = {key: value for key, value in body.definition.items() if key != "name"}
+        np.testing.assert_equal(body.set(**values).definition, dict(values, name="body"))
+
+    def test_wrong_values_are_named(self):
+        mirror = np.diag([1.0, 1.0, -1.0])
+        for words, fields in (
+            ('body "body": inertia: 6 numbers', dict(inertia=(1, 2))),
+            ("inertia: the matrix is not symmetric", dict(inertia=np.eye(3) + np.eye(3, k=1))),
+            ("inertia: 9 numbers are wanted, not 4", dict(inertia=np.eye(2))),
+            ("orientation: the matrix is no rotation", dict(orientation=mirror)),
+            ("orientation: the matrix is no rotation", dict(orientation=2 * np.eye(3))),
+            ("orientation: 4 numbers are wanted, not 3", dict(orientation=(1, 0, 0))),
+            ("orientation: an array of one dimension", dict(orientation=Rotation(np.eye(4)))),
+            ("position: 3 numbers are wanted, not 2", dict(position=(0, 0))),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                self.body(**fields)
+        for fields in dict(inertia="heavy"), dict(orientation="up"), dict(inertia=[["x"] * 3] * 3):
+            with self.subTest(fields), self.assertRaisesRegex(TypeError, "numbers are wanted"):
+                self.body(**fields)
+        with self.assertRaisesRegex(baum.Error, '"body": orientation has the length 2'):
+            self.body(orientation=(2, 0, 0, 0))
+        with self.assertRaisesRegex(baum.Error, "principal moments"):
+            self.body(inertia=inertia.rod(1, 1))
+
+    def test_up_is_where_gravity_comes_from(self):
+        self.assertEqual(baum.Mechanism(up="z").gravity, (0, 0, -9.81))
+        self.assertEqual(baum.Mechanism(up="x").gravity, (-9.81, 0, 0))
+        self.assertEqual(baum.Mechanism(up="y").gravity, baum.Mechanism().gravity)
+        with self.assertRaisesRegex(ValueError, "gravity and up are both given"):
+            baum.Mechanism(gravity=(0, -9.81), up="z")
+        with self.assertRaisesRegex(ValueError, 'up: "x", "y" or "z" is wanted'):
+            baum.Mechanism(up="w")
+
+
+class Solids(unittest.TestCase):
+    def test_of_known_shapes(self):
+        np.testing.assert_allclose(inertia.box(12, 1, 2, 3), np.diag([13, 10, 5]))
+        np.testing.assert_allclose(inertia.sphere(5, 2), 8 * np.eye(3))
+        np.testing.assert_allclose(inertia.cylinder(12, 1, 2, axis="x"), np.diag([6, 7, 7]))
+        np.testing.assert_allclose(inertia.rod(12, 2, axis="y"), np.diag([4, 0, 4]))
+        with self.assertRaisesRegex(ValueError, "axis: "):
+            inertia.rod(1, 1, axis="w")
+
+    def test_two_halves_make_a_whole(self):
+        half = inertia.box(3, 1, 2, 3)
+        sides = [inertia.shift(half, 3, (x, 0, 0)) for x in (0.5, -0.5)]
+        np.testing.assert_allclose(sum(sides), inertia.box(6, 2, 2, 3))
+        away = inertia.shift((1, 2, 3), 2, (1, 2, 0))
+        np.testing.assert_allclose(away, [[9, -4, 0], [-4, 4, 0], [0, 0, 13]])
+
+    def test_a_turned_cylinder(self):
+        turned = inertia.rotate(inertia.cylinder(1, 0.3, 2, axis="z"), (HALF, 0, HALF, 0))
+        np.testing.assert_allclose(turned, inertia.cylinder(1, 0.3, 2, axis="x"), atol=1e-15)
+        r = matrix(TILTED)
+        np.testing.assert_allclose(
+            inertia.rotate((1, 2, 3), TILTED), r @ np.diag([1, 2, 3]) @ r.T, atol=1e-15
+        )
+
+
+class FreeBody(unittest.TestCase):
+    """A body without forces, about its middle axis, which is unstable."""
+
+    @classmethod
+    def setUpClass(cls):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        cls.inertia = inertia.rotate(np.diag([1.0, 2.0, 2.5]), (0.8, 0.6, 0, 0))
+        m.spatial_body(
+            "brick",
+            mass=2,
+            inertia=cls.inertia,
+            orientation=Rotation(TILTED),
+            velocity=(1, 2, 3),
+            angular_velocity=(0.01, 2 * 0.8, 2 * 0.6),  # along the second principal axis
+        )
+        record = ["energy", "brick.velocity", "brick.acceleration", m["brick"].pose_of((1, 2, 3))]
+        times = np.linspace(0, 10, 401)
+        cls.recorded = m.freeze().simulate(times, "rk8", rtol=1e-11, record=record)
+        cls.run_ = m.simulate(times, "rk8", rtol=1e-11)
+
+    def momentum(self, run):
+        """Angular momentum in ground axes."""
+        axes = matrix(run.q[:, 3:])
+        return np.einsum("nij,jk,nk->ni", axes, self.inertia, run.v[:, 3:])
+
+    def test_energy_and_momentum_stay(self):
+        run = self.recorded
+        energy, momentum = run["energy"].sum(axis=1), self.momentum(run)
+        np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
+        np.testing.assert_allclose(momentum, momentum[:1].repeat(len(run.t), 0), atol=1e-8)
+        self.assertGreater(np.ptp(run.v[:, 3]), 2)  # it has turned over
+
+    def test_velocities_are_in_ground_axes_recorded_or_not(self):
+        recorded, run = self.recorded, self.run_
+        np.testing.assert_allclose(run["brick.velocity"], recorded["brick.velocity"], atol=1e-14)
+        self.assertGreater(abs(run["brick.velocity"] - run.v).max(), 1)
+        for back in pickle.loads(pickle.dumps(run)), copy.deepcopy(run):
+            np.testing.assert_array_equal(back["brick.velocity"], run["brick.velocity"])
+            np.testing.assert_array_equal(back["brick.pose"], run.q)
+
+    def test_velocities_turn_the_orientation(self):
+        axes, w = matrix(self.run_.q[:, 3:]), self.run_["brick.velocity"][:, 3:]
+        h = self.run_.t[1] - self.run_.t[0]
+        slope = (axes[2:] - axes[:-2]) / (2 * h)
+        turned = np.cross(w[1:-1, :, None], axes[1:-1], axisa=1, axisb=1, axisc=1)
+        np.testing.assert_allclose(slope, turned, atol=2e-2)
+
+    def test_points_move_with_the_body(self):
+        run, key = self.recorded, "brick.pose(1.0, 2.0, 3.0)"
+        at = run.q[:, :3] + matrix(run.q[:, 3:]) @ (1, 2, 3)
+        np.testing.assert_allclose(run[key][:, :3], at, atol=1e-13)
+        np.testing.assert_allclose(run[key][:, 3:], run.q[:, 3:], atol=1e-15)
+        with self.assertRaisesRegex(ValueError, "point of 'brick': 3 numbers are wanted"):
+            run.mechanism["brick"].pose_of((1, 2))
+
+
+class Joints(unittest.TestCase):
+    ROWS = {
+        "spherical": 3,
+        "revolute": 5,
+        "universal": 4,
+        "cylindrical": 4,
+        "prismatic": 5,
+        "planar": 3,
+        "fixed": 6,
+        "distance": 1,
+        "line": 2,
+        "plane": 1,
+    }
+
+    def test_each_assembles_and_moves(self):
+        for name, rows in self.ROWS.items():
+            with self.subTest(name):
+                full = everything()
+                m = baum.Mechanism(up="z")
+                a = m.spatial_body("a", inertia=(1, 1.2, 0.9), angular_velocity=(1, 2, 3))
+                b = m.spatial_body("b", position=(0.2, 0.7, -1), orientation=TILTED)
+                p = m.spatial_particle("p", position=(1.1, 2, 3))
+                ends = {"a": a, "b": b, "p": p}
+                said = full[name].definition
+                fields = {
+                    key: value
+                    for key, value in said.items()
+                    if isinstance(value, tuple) and not math.isnan(value[0])
+                }
+                add = "spatial_" + name if hasattr(m, "spatial_" + name) else name
+                add = {"line": "point_on_line", "plane": "point_on_plane"}.get(name, add)
+                if name == "plane":  # placed where the particle is
+                    fields["point"] = (1.1, 2, 3)
+                getattr(m, add)("J", a, ends[said["body_b"].name], **fields)
+                self.assertEqual(m.freeze().mobility().degrees_of_freedom, 15 - rows)
+                run = m.simulate([0, 0.2, 0.5], "rk8", rtol=1e-9, record=["J.phi", "J.reaction"])
+                self.assertEqual(run["J.phi"].shape, (3, rows))
+                self.assertLess(abs(run["J.phi"]).max(), 1e-12)
+                self.assertEqual(run["J.reaction"].shape, (3, 6))
+                self.assertEqual(run.counters.doubts, 0)
+
+    def test_they_have_units(self):
+        m = baum.Mechanism(up="z")
+        body = m.spatial_body("body")
+        hinge = m.spatial_revolute("hinge", "ground", body, point=(0, 0, 1), axis=(1, 0, 0))
+        slider = m.spatial_particle("slider")
+        rail = m.point_on_line("rail", "ground", slider, point=(0, 0, 0))
+        m.driver("motor", hinge, rate=1)
+        m.driver("push", rail, rate=1)
+        force = ["N"] * 3 + ["N m"] * 3
+        for channel, units in (
+            ("body.pose", ["m"] * 3 + ["-"] * 4),
+            ("body.velocity", ["m/s"] * 3 + ["rad/s"] * 3),
+            ("body.acceleration", ["m/s^2"] * 3 + ["rad/s^2"] * 3),
+            ("slider.pose", ["m"] * 3),
+            ("hinge.coordinate", ["rad", "rad/s"]),
+            ("rail.coordinate", ["m", "m/s"]),
+            ("hinge.phi", ["m"] * 3 + ["-"] * 2),
+            ("hinge.phi_rate", ["m/s"] * 3 + ["1/s"] * 2),
+            ("hinge.multipliers", ["N"] * 3 + ["N m"] * 2),
+            ("hinge.reaction", force),
+            ("motor.reaction", force),
+            ("motor.effort", ["N m"]),
+            ("push.effort", ["N"]),
+            ("q", ["m"] * 3 + ["-"] * 4 + ["m"] * 3),
+            ("a", ["m/s^2"] * 3 + ["rad/s^2"] * 3 + ["m/s^2"] * 3),
+        ):
+            with self.subTest(channel):
+                run = m.freeze().simulate([0], "rk4", step=1e-3, record=[channel])
+                names = run._names(channel)
+                self.assertEqual([run.columns[name] for name in names], units)
+                self.assertEqual(pickle.loads(pickle.dumps(run)).columns, run.columns)
+                self.assertEqual(list(run.to_dict()), list(run.columns))
+
+    def test_a_hinge_carries_its_body(self):
+        m = baum.Mechanism(up="z")
+        m.spatial_body("arm", mass=2, position=(0.5, 0, 0), velocity=(0, 0, 0))
+        m.spatial_fixed("weld", m.ground, "arm", point=(0, 0, 0))
+        run = m.freeze().simulate([0], "rk4", step=1e-3, record=["weld.reaction"])
+        np.testing.assert_allclose(run["weld.reaction"], [[0, 0, 19.62, 0, -9.81, 0]], atol=1e-14)
+
+    def test_which_rows_have_a_length(self):
+        """A row in metres changes where bodies are moved without turning, a pure number does not."""
+        m = everything().freeze()
+        w = baum.Workspace(m)
+        q = w.move(0.1 * np.sin(np.arange(15)), w.design()[0])
+        moved = w.move([1, 2, 3, 0, 0, 0, 2, -1, 5, 0, 0, 0, 0, 1, 1], q)
+        units = [unit for one in m if one.family == "joint" for unit in one.kind.units]
+        for before, after, unit in zip(w.phi(0, q), w.phi(0, moved), units):
+            if unit == "-":
+                self.assertAlmostEqual(before, after, 13)
+            else:
+                self.assertGreater(abs(before - after), 1e-3)
+
+
+class Forces(unittest.TestCase):
+    def test_a_spring_and_a_load_hold_a_particle(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        bob = m.spatial_particle("bob", mass=1, position=(1, 2, 3), velocity=(0, 0, 0))
+        apart = np.array((1, 2, 3)) / math.sqrt(14)
+        m.spatial_spring(
+            "spring", m.ground, bob, point_a=(0, 0, 0), point_b=(0, 0, 0), stiffness=5,
+            free_length=math.sqrt(14) - 0.2,
+        )  # fmt: skip
+        m.spatial_load("load", bob, force=apart, input=m.input("push", 1.0))
+        s = m.freeze().simulation("rk8", rtol=1e-9)
+        s.advance_to(1)
+        np.testing.assert_allclose(s.q, (1, 2, 3), rtol=1e-14)
+        s.set_input("push", 0)
+        s.advance_to(2)
+        self.assertLess(np.linalg.norm(s.q), math.sqrt(14) - 0.1)
+
+    def test_a_law_takes_the_place_of_the_stiffness(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        m.spatial_particle("bob", position=(0, 0, 2))
+        law = lambda length, rate: (length**2, 2 * length, 0)  # noqa: E731
+        m.spatial_spring("s", "ground", "bob", point_a=(0, 0, 0), point_b=(0, 0, 0), law=law)
+        g = baum.Workspace(m.freeze()).force(0, (0, 0, 2), (0, 0, 0))
+        np.testing.assert_allclose(g, (0, 0, -4))
+
+    def test_a_moment_turns_a_body(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        body = m.spatial_body("body", inertia=(1, 2, 2.5), orientation=(HALF, HALF, 0, 0))
+        m.spatial_load("torque", body, moment=(0, 0, 4))  # along the body's y axis
+        m.spatial_load("jet", body, moment=(0, 0, 5), follows_body=True)
+        g = baum.Workspace(m.freeze()).force(0, baum.Workspace(m).design()[0], np.zeros(6))
+        np.testing.assert_allclose(g, (0, 0, 0, 0, 4, 5), atol=1e-15)
+
+
+class MovedCopies(unittest.TestCase):
+    """A copy with other positions and orientations is the same mechanism elsewhere."""
+
+    def compare(self, m, moved):
+        there, here = baum.Workspace(m), baum.Workspace(moved)
+        q, v = there.design()
+        dx = 0.1 * np.sin(np.arange(len(v)))
+        q, v = there.move(dx, q), np.cos(np.arange(len(v)))
+        np.testing.assert_allclose(here.phi(0, q), there.phi(0, q), atol=1e-14)
+        np.testing.assert_allclose(here.jacobian(0, q), there.jacobian(0, q), atol=1e-14)
+        np.testing.assert_allclose(here.force(0, q, v), there.force(0, q, v), atol=1e-13)
+
+    def test_other_positions(self):
+        m = everything().freeze()
+        self.compare(m, m.copy(a=dict(position=(5, -3, 1)), p=dict(position=(0, 0, 0))))
+
+    def test_another_orientation_of_both(self):
+        m = everything().freeze()
+        r = matrix(np.array([0.6, 0, 0, 0.8]))
+        a, b = (r @ matrix(np.array(m[name].definition["orientation"])) for name in "ab")
+        moved = m.copy(a=dict(orientation=a), b=dict(orientation=b, position=(1, 1, 1)))
+        np.testing.assert_allclose(moved["b"].definition["orientation"], quaternion(b, ""))
+        # The axes of a joint across its own may differ: compare what the rows forbid.
+        there, here = (baum.Workspace(one) for one in (m, moved))
+        q, _ = there.design()
+        q = there.move(0.1 * np.sin(np.arange(15)), q)
+        for joint in (one for one in m if one.family == "joint"):
+            rows = m.rows(joint)
+            first, second = (w.jacobian(0, there.design()[0])[rows] for w in (there, here))
+            both = np.linalg.matrix_rank(np.concatenate([first, second]), tol=1e-9)
+            self.assertEqual(both, len(first), joint.name)
+
+    def test_what_has_no_field_is_refused(self):
+        for name in "fixed", "prismatic":
+            one = baum.Mechanism(up="z")
+            a, b = one.spatial_body("a"), one.spatial_body("b")
+            add = one.spatial_fixed if name == "fixed" else one.prismatic
+            add("J", a, b, point=(0, 0, 0))
+            with self.assertRaisesRegex(ValueError, 'joint "J" keeps the relative orientation'):
+                one.copy(b=dict(orientation=TILTED))
+            again = one.copy(b=dict(orientation=TILTED), J=dict(point=(1, 0, 0)))
+            self.assertEqual(again["J"].definition["point"], (1, 0, 0))
+            one.copy(a=dict(orientation=TILTED), b=dict(orientation=TILTED))
+        hinge = baum.Mechanism()
+        hinge.spatial_body("a")
+        hinge.spatial_revolute("J", "ground", "a", point=(0, 0, 0))
+        hinge.copy(a=dict(orientation=TILTED))
+        hinge.driver("motor", "J")
+        with self.assertRaisesRegex(ValueError, 'joint "J" keeps'):
+            hinge.copy(a=dict(orientation=TILTED))
+
+    def test_planar_bodies_take_part(self):
+        m = baum.Mechanism()
+        arm = m.planar_body("arm", position=(0.5, 0), angle=0.3)
+        m.spherical("ball", m.ground, arm, point=(0, 0, 0))
+        moved = m.freeze().copy(arm=dict(angle=1.0))
+        self.compare(m, moved)
+
+
+if __name__ == "__main__":
+    unittest.main()
