@@ -23,8 +23,8 @@ static const baum_i_def_field fields[] = {
   BAUM_I_NUMBERS(baum_spatial_load_def, point, FINITE, "m", 0.0),
   BAUM_I_NUMBERS(baum_spatial_load_def, force, FINITE, "N", 0.0),
   BAUM_I_NUMBERS(baum_spatial_load_def, moment, FINITE, "N m", 0.0),
-  BAUM_I_FIELD(baum_spatial_load_def, follows_body, FLAG),
   BAUM_I_FIELD(baum_spatial_load_def, input, INPUT),
+  BAUM_I_FIELD(baum_spatial_load_def, follows_body, FLAG),
   {0},
 };
 
