@@ -104,7 +104,7 @@ class Given(unittest.TestCase):
         with self.assertRaisesRegex(baum.Error, '"body": orientation has the length 2'):
             self.body(orientation=(2, 0, 0, 0))
         with self.assertRaisesRegex(baum.Error, "principal moments"):
-            self.body(inertia=inertia.rod(1, 1))
+            self.body(inertia=(1, 1, 3))
 
     def test_up_is_where_gravity_comes_from(self):
         self.assertEqual(baum.Mechanism(up="z").gravity, (0, 0, -9.81))
