@@ -12,16 +12,25 @@ static void normalize3(wide x[3])
   }
 }
 
-/* By the series, of an angle of a few revolutions at most. */
+/* By the series of an angle below 1, which is doubled. */
 static void wide_turn(wide angle, wide *cosine, wide *sine)
 {
+  int halved = 0;
+  for (; wide_size(angle) > 1; halved++) {
+    angle /= 2;
+  }
   wide term = 1;
   *cosine = 0;
   *sine = 0;
-  for (int n = 0; n < 100; n++) {
+  for (int n = 0; n < 32; n++) {
     wide sign = n % 4 < 2 ? 1 : -1;
     *(n % 2 == 0 ? cosine : sine) += sign * term;
     term *= angle / (n + 1);
+  }
+  for (int n = 0; n < halved; n++) {
+    wide c = *cosine;
+    *cosine = c * c - *sine * *sine;
+    *sine *= 2 * c;
   }
 }
 
