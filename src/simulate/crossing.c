@@ -254,7 +254,7 @@ static void record_crossing(baum_simulation *run, double to)
     run,
     entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED : BAUM_WARNING_BRANCH,
     entry.t, p->present.joint,
-    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e of the usual, %s): %s",
+    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e times the usual one, %s): %s",
     entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {
     p->kept[run->counters.near_singular_intervals] = entry;

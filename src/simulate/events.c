@@ -34,7 +34,7 @@ static baum_status check_source(const baum_mechanism *m, const baum_event_def *d
 {
   bool of_joint = def->joint.index1 != 0;
   if (of_joint == (def->function != NULL)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s, one of them must be", label,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s; give one of them", label,
                        of_joint ? "function() and joint are both given"
                                 : "neither function() nor joint is given");
   }
@@ -119,7 +119,8 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
   label_of(number, def->name, label);
   if (answer != 0) {
     return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t, label,
-                       answer, answer > 0 ? "retry, which an event cannot do" : "stop");
+                       answer,
+                       answer > 0 ? "retry, but events cannot ask for a smaller step" : "stop");
   }
   return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
 }

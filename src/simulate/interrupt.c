@@ -81,9 +81,8 @@ static baum_status fail_creeping(baum_simulation *run)
   const baum_i_state *now = &run->ahead;
   baum_status status = baum_i_fail(
     BAUM_ERR_STEP,
-    "t = %.9g s: %s creeps: each of the last %d steps has advanced by less than 1e-9 of the time "
-    "of "
-    "the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
+    "t = %.9g s: %s hardly advances: each of the last %d steps was shorter than 1e-9 of the time "
+    "scale of the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
     "configuration singular, which rk8 can pass",
     now->t, run->integrator->name, (int)PACE_STEPS);
   return baum_i_run_explain_failure(run, status, now);

@@ -136,10 +136,9 @@ static baum_status check_numbers(const baum_simulation_options *o)
   } else if (method->step && method->advance) {
     if (isnan(o->step) == isnan(o->rtol)) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "simulation options: %s takes step for steps of one length or rtol for "
-                         "steps of its own choice, %s",
-                         method->name,
-                         isnan(o->step) ? "and neither is given" : "not both of them");
+                         "simulation options: %s takes either step, for fixed steps, or rtol, for "
+                         "variable steps; %s",
+                         method->name, isnan(o->step) ? "neither is given" : "both are given");
     }
     how = isnan(o->step) ? VARIABLE_STEP : FIXED_STEP;
   }
@@ -154,10 +153,10 @@ static baum_status check_numbers(const baum_simulation_options *o)
 static baum_status check_choices(const baum_simulation_options *o)
 {
   if (o->start < BAUM_START_ASSEMBLE || o->start > BAUM_START_AS_GIVEN) {
-    return refuse("start", "", (double)o->start, "is no baum_start");
+    return refuse("start", "", (double)o->start, "must be one of baum_start");
   }
   if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_BLOCK) {
-    return refuse("solver", "", (double)o->solver, "is no baum_solver");
+    return refuse("solver", "", (double)o->solver, "must be one of baum_solver");
   }
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }

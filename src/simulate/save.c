@@ -49,18 +49,18 @@ static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "tolerance_q",
   "tolerance_v",
   "tolerance_lambda",
-  "the rule of the gains",
-  "the first number of the gains",
-  "the second number of the gains",
+  "the gain rule",
+  "the first number of the gain rule",
+  "the second number of the gain rule",
   "row_gain_count",
-  "the sum over row_gains",
+  "the checksum of row_gains",
   "solver",
   "energy_account",
   "error_check",
   "the rank of the constraints",
-  "whether blocks suit",
+  "the use of the block solver",
   "the number of events",
-  "the sum over what the events are",
+  "the checksum of the events",
 };
 
 /* A sum as an exact number: as many of its bits as a double holds. */
@@ -283,7 +283,7 @@ static baum_status check_header(reader *r)
 {
   const header *h = &r->head;
   if (r->size < sizeof *h + WORD) {
-    return refuse("has %zu bytes, less than a header; it is cut off, or was not written by "
+    return refuse("has %zu bytes, less than a header; it is truncated, or was not written by "
                   "baum_simulation_save()",
                   r->size);
   }
@@ -301,7 +301,7 @@ static baum_status check_header(reader *r)
                   (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
   }
   if (h->size > r->size) {
-    return refuse("has %zu bytes of %llu; it is cut off", r->size, (unsigned long long)h->size);
+    return refuse("has %zu bytes of %llu; it is truncated", r->size, (unsigned long long)h->size);
   }
   if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
     return refuse("is damaged: it claims to have %llu bytes", (unsigned long long)h->size);
@@ -340,7 +340,8 @@ static baum_status check_text(const char *name, const char *there, const char *h
   if (memcmp(there, here, BAUM_I_SAVED_TEXT) == 0) {
     return BAUM_OK;
   }
-  return refuse(OTHER_OPTIONS "the %s is %.31s there and %s here", name, there, here);
+  return refuse(OTHER_OPTIONS "the %s is %.31s in the buffer and %s in this run", name, there,
+                here);
 }
 
 /* NaN stands for a number that is not given and equals itself. */
@@ -357,7 +358,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
     double a = there.facts[k];
     double b = here->facts[k];
     if (a != b && !(isnan(a) && isnan(b))) {
-      return refuse(OTHER_OPTIONS "%s is %.9g there and %.9g here", FACTS[k], a, b);
+      return refuse(OTHER_OPTIONS "%s is %.9g in the buffer and %.9g in this run", FACTS[k], a, b);
     }
   }
   return BAUM_OK;
@@ -375,7 +376,7 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
   }
   return sound && (count == here->count || here->count == 0)
            ? BAUM_OK
-           : refuse("does not fit: its set of omitted rows is impossible here");
+           : refuse("does not fit: this run cannot omit the rows that it omits");
 }
 
 /* A driver without another law needs its polynomial. */

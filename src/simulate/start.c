@@ -101,7 +101,7 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
     if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
       char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: the start is not exact: %s has %s = %.3g %s", run->trial.t,
+                         "t = %.9g s: start is exact, but %s has %s = %.3g %s", run->trial.t,
                          baum_i_row_label(w->mechanism, i, label), what, rows[i], unit);
     }
   }

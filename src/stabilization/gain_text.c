@@ -92,8 +92,8 @@ baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, doub
                      "beta^2 h^2) = (%.4g, %.4g) with spectral radius %.4g, that is alpha = %.4g "
                      "1/s, beta = %.4g 1/s: take best_damping",
                      context->integrator,
-                     remembers ? "for it remembers violations of earlier steps whatever the gains"
-                               : "for no gains bring both roots to zero",
+                     remembers ? "because its past steps keep violations, whatever the gains"
+                               : "because no gains bring both roots to zero",
                      alpha_h, beta2_h2, radius, alpha_h / h, sqrt(beta2_h2) / h);
 }
 

@@ -55,7 +55,8 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
   if (cost != BAUM_STUDY_WORK && cost != BAUM_STUDY_CPU) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %d is no baum_study_cost", call, (int)cost);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: cost is %d, must be one of baum_study_cost", call,
+                       (int)cost);
   }
   return BAUM_OK;
 }

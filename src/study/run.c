@@ -478,7 +478,7 @@ static baum_status conclude(workers *c)
   int left = waiting(study);
   if (left > 0) {
     bool cancelled = atomic_load(&study->cancelled) != 0;
-    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d entries not done and timed",
+    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s; %d of %d entries are not finished",
                        cancelled ? "cancelled" : "the time budget is spent", left,
                        study->entry_count);
   }

@@ -114,7 +114,7 @@ static void mark_study(const baum_study *study, mark marks[MARKS])
     {"numbers", "the numbers of the mechanism", print.numbers},
     {"span", "the time span", digest_numbers(span, 2, 0)},
     {"samples", "the samples", digest_numbers(r->samples.times, (size_t)r->samples.n, 0)},
-    {"error", "what error means", digest_error(study)},
+    {"error", "the definition of the error", digest_error(study)},
     {"account", "the option energy_account", study->options.energy_account},
     {"reference", "the reference", digest_reference(study)},
     {"library", "the version of the library", 0},
@@ -285,7 +285,7 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
   *is_new = true;
   *whole = true;
   if (baum_i_is_no_file(file->path)) {
-    return baum_i_fail(BAUM_ERR_FILE, "study: file %s is no regular file", file->path);
+    return baum_i_fail(BAUM_ERR_FILE, "study: file %s is not a regular file", file->path);
   }
   errno = 0;
   file->stream = fopen(file->path, "r");
