@@ -155,7 +155,7 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
   return BAUM_OK;
 }
 
-/* ---- where they begin ---- */
+/* ---- start of the search ---- */
 
 /* Share of 1/rate, for methods that start exactly from the state they are given. */
 static const double NO_TIME = 1e-10;
@@ -235,7 +235,8 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
 {
   BAUM_I_TRY(check_add(simulation, def));
   baum_event_def given = baum_event_def_default();
-  memcpy(&given, def, def->struct_size); /* what an older version lacks has its default */
+  /* fields that an older version lacks have their defaults */
+  memcpy(&given, def, def->struct_size);
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
@@ -248,7 +249,7 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK && number == 0) { /* a run without events has none of this */
+  if (status != BAUM_OK && number == 0) { /* a run without events allocates none of this */
     baum_i_events_destroy(simulation->events);
     simulation->events = NULL;
   }

@@ -39,7 +39,7 @@ typedef struct header {
   baum_i_fingerprint mechanism;
 } header;
 
-/* ---- what must agree ---- */
+/* ---- data that must agree ---- */
 
 static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "step",
@@ -186,7 +186,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 
 /* ---- forget ---- */
 
-/* Forget what no buffer holds. */
+/* Discard the data that no buffer holds. */
 static void forget_unsaved(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
@@ -209,7 +209,8 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* The values here were evaluated before; should one fail now, the known ones stay. */
+    /* These values have been evaluated before. If an evaluation fails now, the known values
+     * stay. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
@@ -364,7 +365,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   return BAUM_OK;
 }
 
-/* As many rows must be omitted as here, unless all rows are independent here. */
+/* The buffer must omit as many rows as this run, unless all rows of this run are independent. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
@@ -466,9 +467,9 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
   return check_parts(r, run, list);
 }
 
-/* ---- put back ---- */
+/* ---- restore ---- */
 
-/* Allocate what the buffer has and the run does not: its own parameters, and scheduled jumps. */
+/* Allocate memory for data that only the buffer has: own parameters, and scheduled jumps. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {

@@ -159,8 +159,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   return BAUM_OK;
 }
 
-/* Find by which share projection would change the velocities; 1 if it fails. In a configuration
- * where the rows have lost rank altogether it changes nothing. */
+/* Find the fraction by which projection would change the velocities; 1 if it fails. If the rows
+ * have lost rank exactly, projection does not change them. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -206,7 +206,7 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-/* Put fixed bodies in their place, whatever was given for them. */
+/* Move fixed bodies to their poses, whatever was given for them. */
 static void place_fixed_bodies(baum_simulation *run)
 {
   baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
@@ -268,7 +268,7 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* Check that q is so close to the manifold that it is meant to be on it. */
+/* Check that q is so close to the manifold that the user means a point on it. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -305,7 +305,7 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
 }
 
 /* Does a state without free velocities violate the constraints no more than this run already has?
- * Then it is taken as it is, so that a run can be put back to where it was. */
+ * Then it is taken as it is, so that a run can return to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;

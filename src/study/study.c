@@ -232,7 +232,7 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
       "the default",
       call, given, size);
   }
-  memcpy(to, from, given); /* members that an older version lacks keep their default */
+  memcpy(to, from, given); /* fields that an older version lacks keep their defaults */
   memcpy(to, &size, sizeof size);
   return BAUM_OK;
 }

@@ -293,7 +293,8 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, message);
     o.step = 1e-3;
     o.rtol = 1e-6;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "takes either step|or rtol|both are given");
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                  "takes either step|or rtol|both are given");
     o.rtol = (double)NAN;
     o.max_step = 0.1;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0.1|give step alone");
