@@ -154,6 +154,50 @@ static void every_method_carries_every_scene(void **state)
   }
 }
 
+/* ---- steps ---- */
+
+static const double *twin_at(const manifold_scene *scene, const method *with, double *q)
+{
+  baum_simulation *run = NULL;
+  baum_mechanism *mechanism = manifold_scene_make_twin(scene);
+  baum_simulation_options options = options_of(with);
+  check(baum_simulation_create(mechanism, &options, &run));
+  advance(run, scene, with, END);
+  scene->translate(baum_simulation_q(run), q);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+  return q;
+}
+
+/* Turned bodies move exactly: methods that only move q take the very steps of their twins. */
+static void try_steps(const manifold_scene *scene, const method *with, const void *context)
+{
+  (void)context;
+  static const char *const MOVING[] = {"euler", "semi_implicit_euler", "rattle",
+                                       "generalized_alpha"};
+  int32_t nq;
+  double want[SIZE];
+  for (size_t k = 0; k < sizeof MOVING / sizeof *MOVING; k++) {
+    if (strcmp(baum_integrator_name(with->mode.integrator), MOVING[k]) == 0) {
+      baum_simulation *run = start(scene, with, &nq);
+      advance(run, scene, with, END);
+      double most = apart(baum_simulation_q(run), twin_at(scene, with, want), nq);
+      expect("the distance from its twin", most, 1e-9, scene, with);
+      baum_simulation_destroy(run);
+    }
+  }
+}
+
+static void methods_that_move_step_as_their_twins(void **state)
+{
+  (void)state;
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    if (manifold_scenes[k].translate) {
+      (void)for_each_method(&manifold_scenes[k], try_steps, NULL);
+    }
+  }
+}
+
 static void scenes_move_far(void **state)
 {
   (void)state;
@@ -448,6 +492,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_move_far),
     cmocka_unit_test(every_method_carries_every_scene),
+    cmocka_unit_test(methods_that_move_step_as_their_twins),
     cmocka_unit_test(runs_are_saved_and_restored),
     cmocka_unit_test(events_are_found),
     cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),
