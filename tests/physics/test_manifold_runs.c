@@ -198,6 +198,36 @@ static void methods_that_move_step_as_their_twins(void **state)
   }
 }
 
+static double estimate_of(const baum_mechanism *mechanism)
+{
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  options.step = 1e-3;
+  options.error_check = true;
+  check(baum_simulation_create(mechanism, &options, &run));
+  check(baum_simulation_advance_to(run, END));
+  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_simulation_destroy(run);
+  return counters.error_estimate;
+}
+
+/* In radians, like the error itself, and not in numbers of q. */
+static void errors_are_displacements(void **state)
+{
+  (void)state;
+  const manifold_scene *scene = manifold_scene_find("angle");
+  baum_mechanism *mechanism = manifold_scene_make(scene);
+  baum_mechanism *twin = manifold_scene_make_twin(scene);
+  double want = estimate_of(twin);
+  assert_true(want > 1e-5);
+  ASSERT_NEAR(estimate_of(mechanism), want, 1e-4, 0.0);
+  baum_mechanism_destroy(mechanism);
+  baum_mechanism_destroy(twin);
+}
+
 static void scenes_move_far(void **state)
 {
   (void)state;
@@ -493,6 +523,7 @@ int main(void)
     cmocka_unit_test(scenes_move_far),
     cmocka_unit_test(every_method_carries_every_scene),
     cmocka_unit_test(methods_that_move_step_as_their_twins),
+    cmocka_unit_test(errors_are_displacements),
     cmocka_unit_test(runs_are_saved_and_restored),
     cmocka_unit_test(events_are_found),
     cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),
