@@ -125,7 +125,8 @@ typedef void baum_move_fn(double h, const double *v, double *q, void *user);
  *  to `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
-/** Replaces q by the nearest point on the manifold. */
+/** Replaces q by the nearest point on the manifold. Do not change the sign of a quaternion here:
+ *  methods that combine several positions would lose their order where the sign changes. */
 typedef void baum_normalize_fn(double *q, void *user);
 
 /** A body with user coordinates, whose mass and force are given by functions.

@@ -26,8 +26,10 @@ static const double CONVERGED =
   1e-11;                              /* a Newton step of this size leaves an error of its square */
 static const double ROUNDING = 1e-13; /* violation, as a displacement, that counts as zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
-/* [scales per unit of time] velocities below this are rounded zeros and contradict nothing. */
+/* Velocities below this, in scales per unit of time, are rounded zeros and contradict nothing; also
+ * below this share of the rate at which gravity swings the mechanism. */
 static const double NO_RATE = 1e-14;
+static const double NO_SWING = 1e-12;
 
 /* Memory of one assembly. */
 typedef struct assembly {
@@ -316,7 +318,8 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   BAUM_I_TRY(baum_i_check_rows(w, "velocity violation", w->phi_rate));
   baum_i_row_displacements(w, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
-  if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + NO_RATE)) {
+  double rounding = NO_RATE + NO_SWING * baum_i_swing_rate(m);
+  if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + rounding)) {
     return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",
                              "per s left");
   }

@@ -334,6 +334,9 @@ void baum_i_column_scales(const baum_workspace *workspace, double *scale);
  * scale_i). */
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
 
+/* [1/s] Rate at which gravity swings a free mechanism of this size; 0 without gravity. */
+double baum_i_swing_rate(const baum_mechanism *mechanism);
+
 /* Largest |x_i| / scale_i of a vector over v. */
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
 /* Likewise of positions (nq). */

@@ -97,3 +97,8 @@ double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const
 {
   return fmax(baum_i_scaled_size(mechanism, v), sqrt(baum_i_scaled_size(mechanism, a)));
 }
+
+double baum_i_swing_rate(const baum_mechanism *mechanism)
+{
+  return sqrt(hypot(mechanism->gravity[0], mechanism->gravity[1]) / mechanism->length);
+}

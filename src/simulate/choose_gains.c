@@ -13,16 +13,10 @@
 static const double ROUNDING_RATE = 1e-7;
 static const double AT_REST = 1e-3; /* fraction of the rate at which gravity swings the mechanism */
 
-/* [1/s] Rate at which gravity swings a free mechanism of this size. */
-static double swing_rate(const baum_mechanism *m)
-{
-  return sqrt(hypot(m->gravity[0], m->gravity[1]) / m->length);
-}
-
 double baum_i_rest_rate(const baum_mechanism *m)
 {
   static const double OF_SWING = 1e-10;
-  double swing = swing_rate(m);
+  double swing = baum_i_swing_rate(m);
   return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
 }
 
@@ -32,7 +26,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double rate = baum_i_state_rate(m, run->trial.v, run->workspace->a);
-  double swing = swing_rate(m);
+  double swing = baum_i_swing_rate(m);
   if (rate < AT_REST * swing) {
     return swing;
   }
@@ -43,7 +37,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  double swing = swing_rate(m);
+  double swing = baum_i_swing_rate(m);
   double now = baum_i_state_rate(m, run->trial.v, run->workspace->a);
   context->driven = m->nc > 0 && run->workspace->rows.rank == m->nv;
   context->rate = baum_i_run_start_rate(run);

@@ -158,6 +158,80 @@ static void every_method_carries_every_scene(void **state)
   }
 }
 
+/* ---- steps ---- */
+
+static const double *twin_at(const manifold_scene *scene, const method *with, double *q)
+{
+  baum_simulation *run = NULL;
+  baum_mechanism *mechanism = manifold_scene_make_twin(scene);
+  baum_simulation_options options = options_of(with);
+  check(baum_simulation_create(mechanism, &options, &run));
+  advance(run, scene, with, END);
+  scene->translate(baum_simulation_q(run), q);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+  return q;
+}
+
+/* Turned bodies move exactly: methods that only move q take the very steps of their twins. */
+static void try_steps(const manifold_scene *scene, const method *with, const void *context)
+{
+  (void)context;
+  static const char *const MOVING[] = {"euler", "semi_implicit_euler", "rattle",
+                                       "generalized_alpha"};
+  int32_t nq;
+  double want[SIZE];
+  for (size_t k = 0; k < sizeof MOVING / sizeof *MOVING; k++) {
+    if (strcmp(baum_integrator_name(with->mode.integrator), MOVING[k]) == 0) {
+      baum_simulation *run = start(scene, with, &nq);
+      advance(run, scene, with, END);
+      double most = apart(baum_simulation_q(run), twin_at(scene, with, want), nq);
+      expect("the distance from its twin", most, 1e-9, scene, with);
+      baum_simulation_destroy(run);
+    }
+  }
+}
+
+static void methods_that_move_step_as_their_twins(void **state)
+{
+  (void)state;
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    if (manifold_scenes[k].translate) {
+      (void)for_each_method(&manifold_scenes[k], try_steps, NULL);
+    }
+  }
+}
+
+static double estimate_of(const baum_mechanism *mechanism)
+{
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  options.step = 1e-3;
+  options.error_check = true;
+  check(baum_simulation_create(mechanism, &options, &run));
+  check(baum_simulation_advance_to(run, END));
+  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_simulation_destroy(run);
+  return counters.error_estimate;
+}
+
+/* In radians, like the error itself, and not in numbers of q. */
+static void errors_are_displacements(void **state)
+{
+  (void)state;
+  const manifold_scene *scene = manifold_scene_find("angle");
+  baum_mechanism *mechanism = manifold_scene_make(scene);
+  baum_mechanism *twin = manifold_scene_make_twin(scene);
+  double want = estimate_of(twin);
+  assert_true(want > 1e-5);
+  ASSERT_NEAR(estimate_of(mechanism), want, 1e-4, 0.0);
+  baum_mechanism_destroy(mechanism);
+  baum_mechanism_destroy(twin);
+}
+
 static void scenes_move_far(void **state)
 {
   (void)state;
@@ -452,6 +526,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_move_far),
     cmocka_unit_test(every_method_carries_every_scene),
+    cmocka_unit_test(methods_that_move_step_as_their_twins),
+    cmocka_unit_test(errors_are_displacements),
     cmocka_unit_test(runs_are_saved_and_restored),
     cmocka_unit_test(events_are_found),
     cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),

@@ -135,6 +135,30 @@ class Values(unittest.TestCase):
         np.testing.assert_allclose(moved, (np.cos(0.3), np.sin(0.3)), atol=1e-15)
         np.testing.assert_allclose(workspace.difference((1.0, 0.0), moved), [0.3], atol=1e-15)
 
+    def test_functions_of_a_manifold_get_arrays_of_their_sizes(self):
+        seen = {}
+
+        def watch(name, function):
+            def call(*arguments):
+                seen[name] = [np.shape(one) for one in arguments]
+                return function(*arguments)
+
+            return call
+
+        plain = dict(
+            rate=lambda q, v: (-q[1] * v[0], q[0] * v[0]),
+            move=lambda h, v, q: (
+                q[0] * np.cos(h * v[0]) - q[1] * np.sin(h * v[0]),
+                q[1] * np.cos(h * v[0]) + q[0] * np.sin(h * v[0]),
+            ),
+            difference=lambda a, b: np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b),
+            normalize=lambda q: q / np.hypot(*q),
+        )
+        m = self.swing(**{name: watch(name, function) for name, function in plain.items()})
+        m.simulate([1.0], "rk4", step=0.1)
+        sizes = dict(rate=[(2,), (1,)], move=[(), (1,), (2,)], difference=[(2,), (2,)])
+        self.assertEqual(seen, {**sizes, "normalize": [(2,)]})
+
     def test_an_exception_of_a_manifold_is_the_cause(self):
         def rate(q, v):
             raise LookupError("lost")

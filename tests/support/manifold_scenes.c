@@ -171,6 +171,7 @@ static void build_angle_twin(baum_mechanism *mechanism)
   def.mass = swing_mass;
   def.force = swing_force;
   def.constant_mass = true;
+  def.depends_on_velocity = false;
   check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
 }
 

@@ -108,6 +108,18 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   close_scene(&s);
 }
 
+/* Velocities of a structure at rest that were computed are rounding errors of others. */
+static void given_velocities_that_are_rounding_errors_contradict_nothing(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  for (int i = 0; i < NV; i++) {
+    s.v[i] = i % 2 == 0 ? 3e-14 : -1e-14;
+  }
+  assert_int_equal(baum_workspace_assemble(s.w, 0.0, s.q, s.v, NULL, 0), BAUM_OK);
+  close_scene(&s);
+}
+
 static void held_bodies_that_contradict_are_refused_and_nothing_changes(void **state)
 {
   (void)state;
@@ -296,6 +308,7 @@ int main(void)
     cmocka_unit_test(a_rough_design_is_assembled_and_held_bodies_stay_exactly),
     cmocka_unit_test(velocities_that_nothing_determines_are_zero),
     cmocka_unit_test(given_velocities_that_contradict_are_refused_and_named),
+    cmocka_unit_test(given_velocities_that_are_rounding_errors_contradict_nothing),
     cmocka_unit_test(held_bodies_that_contradict_are_refused_and_nothing_changes),
     cmocka_unit_test(
       of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_the_masses),

@@ -444,6 +444,15 @@ static void wrong_difference(const double *from, const double *to, double *dx, v
   dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* without a sign, and a chord */
 }
 
+/* Of (c, s) and its opposite, the one with c > 0, which is another angle. */
+static void wrong_normalize(double *q, void *user)
+{
+  (void)user;
+  double length = copysign(hypot(q[0], q[1]), q[0]);
+  q[0] /= length;
+  q[1] /= length;
+}
+
 static void expect_found(const baum_coordinates_def *def, const char *message)
 {
   baum_mechanism *m = NULL;
@@ -468,6 +477,9 @@ static void functions_that_do_not_fit_are_found(void **state)
   with_angle(&def);
   def.difference = wrong_difference;
   expect_found(&def, "difference()[0] is");
+  with_angle(&def);
+  def.normalize = wrong_normalize;
+  expect_found(&def, "normalize()[1] is");
 }
 
 /* ---- states from outside ---- */

@@ -274,9 +274,11 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_curve_fn: _shell_curve,
     _abi.baum_rate_fn: _shell_rate,
     _abi.baum_move_fn: _shell_move,
-    _abi.baum_difference_fn: _shell_difference,
     _abi.baum_normalize_fn: _shell_normalize,
 }
+
+# ctypes makes one type of functions with the same C types: these are told by their fields.
+SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 
 def address_of(function: Any) -> int | None:
@@ -291,6 +293,7 @@ def address_of(function: Any) -> int | None:
 
 def wrap(
     kind: Any,
+    field: str,
     function: Any,
     label: str,
     shape: Shape,
@@ -298,8 +301,8 @@ def wrap(
     nv: int = 0,
     inputs: Sequence[int] = (),
 ) -> Any:
-    """A function pointer of type `kind` for a Python function or an address. The caller keeps it
-    alive.
+    """A function pointer of type `kind` for a Python function or an address, to be put into this
+    field of a definition. The caller keeps it alive.
 
     label names the function in messages. shape is the shape of its value. nq and nv are the lengths
     of q and v. inputs are the indices of the inputs that a force function receives.
@@ -310,7 +313,8 @@ def wrap(
     if not callable(function):
         raise TypeError(f"{label}: a function or the address of one is wanted, not {function!r}")
     takes_inputs = inputs and kind is _abi.baum_force_fn
-    make = _shell_force_of(inputs) if takes_inputs else SHELLS[kind]
+    usual = _shell_force_of(inputs) if takes_inputs else SHELLS[kind]
+    make = SHELLS_BY_FIELD.get(field, usual)
     return kind(make(function, _writer(shape, label), nq, nv))
 
 

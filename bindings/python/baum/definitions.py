@@ -234,7 +234,8 @@ class Definition:
             "normalize": (nq,),
         }
         label = f"{self._label}: {name}"
-        wrapped = callbacks.wrap(self._types[name], function, label, shapes[name], nq, nv, inputs)
+        kind, shape = self._types[name], shapes[name]
+        wrapped = callbacks.wrap(kind, name, function, label, shape, nq, nv, inputs)
         self.keep.append((wrapped, function))
         self.has_python |= callbacks.address_of(function) is None
         setattr(self.struct, name, wrapped)

@@ -171,6 +171,52 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
   return BAUM_OK;
 }
 
+/* A share of the relevant changes that counts as rounding. */
+static const double ROUNDING = 1e-9;
+
+/* `normalize` moved q, which a short move along v had taken by `way`, relative to the scales. */
+static baum_status compare_normalized(const baum_i_body *body, const double *scale, double way,
+                                      const double *moved, const double *normal)
+{
+  for (int i = 0; i < body->nq; i++) {
+    if (fabs(normal[i] - moved[i]) > (way + ROUNDING) * scale[i]) {
+      char text[BAUM_I_ENTRY_SIZE];
+      baum_i_user_function f = function(body, "normalize", body->nq);
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s is %.9g after move went to %.9g; it must give the nearest q",
+                         baum_i_user_entry(&f, i, text), normal[i], moved[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* Walk along v through more than a revolution: `normalize` must not change q by as much as a short
+ * move does, such as from one sign of a quaternion to the other. */
+static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
+{
+  enum { MOVES = 100 };
+  static const double SHORT = 0.1; /* relevant changes in a move */
+  baum_i_local here = *at;
+  double *moved = baum_i_take(&here, body->nq);
+  double *normal = baum_i_take(&here, body->nq);
+  const double *scale = at->point->mechanism->position_scale + body->q;
+  memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
+  double way = 0.0;
+  for (int k = 0; k < MOVES && isfinite(way); k++) { /* to where the functions fail, at most */
+    way = 0.0;
+    memcpy(moved, normal, (size_t)body->nq * sizeof *moved);
+    move(body, SHORT / baum_i_local_rate(at), at->v, moved);
+    for (int i = 0; i < body->nq; i++) {
+      double part = fabs(moved[i] - normal[i]) / scale[i];
+      way = part <= way ? way : part;
+    }
+    memcpy(normal, moved, (size_t)body->nq * sizeof *normal);
+    normalize(body, normal);
+    BAUM_I_TRY(compare_normalized(body, scale, way, moved, normal));
+  }
+  return BAUM_OK;
+}
+
 baum_status baum_i_coordinates_compare_manifold(const baum_i_body *body, const baum_i_local *at)
 {
   double speed = baum_i_local_rate(at);
@@ -180,5 +226,6 @@ baum_status baum_i_coordinates_compare_manifold(const baum_i_body *body, const b
   baum_i_ray ray = {.dq = at->v, .rate = speed};
   BAUM_I_TRY(compare_first(body, &ray, at));
   BAUM_I_TRY(compare_second(body, &ray, at));
-  return compare_difference(body, at);
+  BAUM_I_TRY(compare_difference(body, at));
+  return compare_walk(body, at);
 }
