@@ -49,8 +49,8 @@ void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_sp
   }
 }
 
-static void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint, const double *six,
-                      double *rows)
+BAUM_I_INLINE void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                             const double *six, double *rows)
 {
   if (rows) {
     baum_i_columns_pack(mechanism, &joint->span, joint->rows, six, rows + joint->jacobian);
