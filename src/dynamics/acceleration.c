@@ -62,13 +62,15 @@ static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, 
   return baum_i_evaluate_mass(w);
 }
 
-static void set_right_side(const baum_workspace *w, const baum_i_right_side *right)
+/* A copy of `right`, so that the compiler keeps its members in registers. */
+static void set_right_side(const baum_workspace *w, baum_i_right_side right)
 {
   for (int i = 0; i < w->mechanism->nc; i++) {
-    double f = right->row_gains ? right->row_gains[i] : 1.0;
-    w->rhs[i] = right->bending != 0.0 ? right->bending * w->gamma[i] : 0.0;
-    w->rhs[i] -= right->damping != 0.0 ? f * right->damping * w->phi_rate[i] : 0.0;
-    w->rhs[i] -= right->stiffness != 0.0 ? f * f * right->stiffness * w->phi[i] : 0.0;
+    double f = right.row_gains ? right.row_gains[i] : 1.0;
+    double r = right.bending != 0.0 ? right.bending * w->gamma[i] : 0.0;
+    r -= right.damping != 0.0 ? f * right.damping * w->phi_rate[i] : 0.0;
+    r -= right.stiffness != 0.0 ? f * f * right.stiffness * w->phi[i] : 0.0;
+    w->rhs[i] = r;
   }
 }
 
@@ -76,7 +78,7 @@ static void set_right_side(const baum_workspace *w, const baum_i_right_side *rig
 static baum_status solve_whole(baum_workspace *w, const baum_i_right_side *right)
 {
   const baum_i_kkt_values values = baum_i_kkt_values_of(w);
-  set_right_side(w, right);
+  set_right_side(w, *right);
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   w->solved_by = NULL;

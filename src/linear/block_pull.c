@@ -11,7 +11,6 @@ static void clear(baum_i_block *block)
 {
   memset(block->motion, 0, (size_t)block->motion_size * sizeof *block->motion);
   memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
-  memset(block->rest, 0, 2 * (size_t)block->node_count * sizeof *block->rest);
   for (int k = 0; k < block->node_count; k++) {
     memset(block->nodes[k].lambda, 0, sizeof block->nodes[k].lambda);
   }
@@ -35,6 +34,7 @@ static void pull_dense(baum_i_block *block, const baum_i_dense_body *dense, cons
 void baum_i_block_pull(baum_i_block *block, const double *x)
 {
   clear(block);
+  memset(block->rest, 0, 2 * (size_t)block->node_count * sizeof *block->rest);
   for (int i = 0; i < block->structure->mass_block_count; i++) {
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
     if (!block->fixed[i]) {

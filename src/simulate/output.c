@@ -140,8 +140,8 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
 static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
   switch (facts_of(c->quantity).of) {
-  case OF_Q:
-  case OF_V: return slice_of(m, c).count;
+  case OF_Q: return m->nq;
+  case OF_V: return m->nv;
   case OF_ROWS:
     return c->joint.index1 == 0 || baum_i_joint_index(m, c->joint) >= 0
              ? slice_of(m, c).count

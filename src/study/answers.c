@@ -305,14 +305,14 @@ static bool find_best(const baum_study *study, const question *q, setting *best)
 }
 
 /* Rounds to two digits, and steps to divide the span. */
-static double rounded(const baum_study *study, double setting, bool fixed)
+static double rounded(const baum_study *study, double value, bool fixed)
 {
   if (fixed) {
     double span = fabs(study->t1 - study->t0);
-    return span / ceil(span / setting - 1e-9);
+    return span / ceil(span / value - 1e-9);
   }
-  double unit = pow(10.0, floor(log10(setting)) - 1.0);
-  return unit * floor(setting / unit + 1e-9);
+  double unit = pow(10.0, floor(log10(value)) - 1.0);
+  return unit * floor(value / unit + 1e-9);
 }
 
 static baum_simulation_options options_of(const baum_study *study, const setting *p)
@@ -320,9 +320,9 @@ static baum_simulation_options options_of(const baum_study *study, const setting
   baum_simulation_options o = p->fine->options;
   if (p->share < 1.0 && p->coarse != p->fine) {
     bool fixed = !isnan(o.step);
-    double setting =
+    double value =
       between(baum_i_setting(&p->coarse->options), baum_i_setting(&p->fine->options), p->share);
-    *(fixed ? &o.step : &o.rtol) = rounded(study, setting, fixed);
+    *(fixed ? &o.step : &o.rtol) = rounded(study, value, fixed);
   }
   return o;
 }

@@ -43,25 +43,38 @@ void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span 
   }
 }
 
+BAUM_I_INLINE void pack(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                        int rows, const double *wide, double *packed)
+{
+  if (width == BAUM_I_PLANE) {
+    baum_i_columns_pack(mechanism, span, rows, wide, packed);
+  } else {
+    baum_i_columns_pack_any(mechanism, span, width, rows, wide, packed);
+  }
+}
+
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed)
 {
   const ptrdiff_t size = (ptrdiff_t)span->body_count * width;
   for (int k = 0; k < span->body_count; k++, wide += width * size) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+    if (width == BAUM_I_PLANE) { /* which has the first nv columns */
+      pack(mechanism, span, width, body->nv, wide, packed);
+      packed += (ptrdiff_t)body->nv * span->nl;
+      continue;
+    }
     for (int i = 0; i < body->nv; i++, packed += span->nl) {
-      baum_i_columns_pack_any(mechanism, span, width, 1, wide + size * column(body, width, i),
-                              packed);
+      pack(mechanism, span, width, 1, wide + size * column(body, width, i), packed);
     }
   }
 }
 
-static void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint, int width,
-                      const double *wide, double *rows)
+BAUM_I_INLINE void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint, int width,
+                             const double *wide, double *rows)
 {
   if (rows) {
-    baum_i_columns_pack_any(mechanism, &joint->span, width, joint->rows, wide,
-                            rows + joint->jacobian);
+    pack(mechanism, &joint->span, width, joint->rows, wide, rows + joint->jacobian);
   }
 }
 

@@ -121,8 +121,8 @@ void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *po
   baum_i_spatial_row_at(&pair, type->coordinate[0], &x[1]);
   const angle g = angle_of(x[0].value, x[1].value);
   double near = point->angles ? point->angles[joint->element.index - 1] : 0.0;
-  double angle = atan2(x[1].value, x[0].value);
-  *out = (baum_i_coordinate){.value = near + remainder(angle - near, REVOLUTION)};
+  double raw = atan2(x[1].value, x[0].value);
+  *out = (baum_i_coordinate){.value = near + remainder(raw - near, REVOLUTION)};
   for (int i = 0; i < 2; i++) {
     out->rate += g.first[i] * x[i].rate;
     out->gamma += g.first[i] * x[i].gamma;
