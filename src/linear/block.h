@@ -87,7 +87,7 @@ typedef struct baum_i_full_pair {
 /* A body whose M is not diagonal or not constant. */
 typedef struct baum_i_dense_body {
   int mass_block;
-  int32_t body_block; /* first of its own */
+  int32_t body_block; /* first body block of this body */
   int32_t place;      /* of that, and so of y */
   int factor;         /* start of L in factor[] */
 } baum_i_dense_body;

@@ -49,7 +49,7 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                    const baum_i_rows *out);
 
-/* Check of the joint alone. */
+/* Check only that the joint has a coordinate. */
 baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
