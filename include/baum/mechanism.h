@@ -299,8 +299,8 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 
 /** The law of a coupling: f[0] is the value, f[1] the first and f[2] the second derivative at
  *  coordinate x of joint_a [rad or m]. Angles are continuous over revolutions. f is zeroed before
- *  the call. Methods that need third derivatives take differences of f[2]. The check of derivatives
- *  also calls the law at coordinates beside the motion. Returns the same as baum_q_fn. */
+ * the call. Methods that need third derivatives take differences of f[2]. The check of derivatives
+ *  also calls the law at coordinates near those of the motion. Returns the same as baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling: one row that ties the coordinates of two joints, coordinate_b - f(coordinate_a) = 0,

@@ -45,9 +45,9 @@ typedef struct baum_i_block_layout {
  * the last one is repeated in the arrays described as even. */
 typedef struct baum_i_pin_node {
   int32_t node;
-  int32_t row;           /* first of its two */
-  int32_t body_block[2]; /* of body a and b */
-  int32_t place[2];      /* of these body blocks */
+  int32_t row;           /* first of its two rows */
+  int32_t body_block[2]; /* body blocks of body a and b */
+  int32_t place[2];      /* places of their numbers in motion[] */
 } baum_i_pin_node;
 
 static inline size_t baum_i_even(size_t count)

@@ -217,7 +217,7 @@ static bool is_too_costly(const baum_simulation *run)
   return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
-/* Take steps until it has reached t. */
+/* Take steps of the companion until it has reached t. */
 static baum_status go_to(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
