@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Named mechanisms with known motion: for examples, for trying methods and for comparing programs.
- *  docs/mechanisms.md lists them. The catalogue is a library of its own, baum_catalog, and uses
- *  only the public interface of baum.
+ *  docs/mechanisms.md lists them. The catalogue is a separate library, baum_catalog, and uses only
+ *  the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);
@@ -155,8 +155,8 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
 
 /** Distance of states from the reference. Errors of positions are relative to the characteristic
  *  length of the mechanism; those of angles and user coordinates are in their own unit. Errors of
- * velocities are scaled likewise and relative to the largest velocity of the reference. The floor
- * is the uncertainty of the reference: errors below it cannot be told apart. */
+ *  velocities are scaled likewise and relative to the largest velocity of the reference. The floor
+ *  is the uncertainty of the reference: errors below it cannot be told apart. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */

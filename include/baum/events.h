@@ -9,13 +9,12 @@
  *  steps from its start. The search is the same for every integrator. A function that passes zero
  *  twice between two evaluations goes unseen; reduce max_step or the step.
  *
- * Zero at the start: if an event is zero at the start, after baum_simulation_set_state() or where a
- * run reverses, leaving zero does not trigger it; coming back does. An event counts as
- *  zero if it reaches zero within its tolerance or within 1e-10 T, where T is 1 over the rate that
- * baum_simulation_explain() states. For IDA, which first moves the state onto the constraints, this
- * is 10 rtol T.
- *  baum_simulation_set_input() and baum_simulation_set_driver() trigger nothing: a function that
- *  jumps there continues with its new sign.
+ *  Zero at the start: if an event is zero at the start, after baum_simulation_set_state() or where
+ *  a run reverses, leaving zero does not trigger it; coming back does. An event counts as zero if
+ *  it reaches zero within its tolerance or within 1e-10 T, where T is 1 over the rate that
+ *  baum_simulation_explain() states. For IDA, which first moves the state onto the constraints,
+ *  this is 10 rtol T. baum_simulation_set_input() and baum_simulation_set_driver() trigger nothing:
+ *  a function that jumps there continues with its new sign.
  *
  *  Events do not alter the motion. The one exception is a fixed-step run that stops: it begins a
  *  new grid at the event, as at a target off the grid.
@@ -34,8 +33,8 @@ typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
   /** out (1); q (nq) and v (nv) are those of the whole run. It is called after steps, so it cannot
-   * ask for smaller ones: > 0 stops the call, as < 0 does. Default: NULL, the coordinate of
-   * `joint`. */
+   *  ask for smaller ones: > 0 stops the call, as < 0 does. Default: NULL, the coordinate of
+   *  `joint`. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, in place of function. Default: none. */
   double value;        /**< [rad or m] of the coordinate. Default: 0. */
@@ -57,10 +56,9 @@ static inline baum_event_def baum_event_def_default(void)
 }
 
 /** Add an event to a run, from the present state on. A run that stops at an event returns
- * BAUM_STOP_EVENT and stands exactly at it; the next call continues. baum_simulation_sample() has
- * then filled the rows of the times before the event. Events at the same time are all recorded
- * before the run
- *  stops. An event at the end of a call belongs to that call.
+ *  BAUM_STOP_EVENT and stands exactly at it; the next call continues. baum_simulation_sample() has
+ *  then filled the rows of the times before the event. Events at the same time are all recorded
+ *  before the run stops. An event at the end of a call belongs to that call.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives its number 0, 1, ... in the order of adding; not written on

@@ -10,7 +10,7 @@
  *    drivers, couplings or user constraints.
  *  - A *force* is anything else that acts on bodies.
  *
- * A mechanism given by functions alone is one body of user coordinates and one user constraint.
+ *  A mechanism given by functions alone is one body of user coordinates and one user constraint.
  *
  *  Equations (Flores et al. 2008, equation numbers in brackets): constraints Phi(q, t) = 0 (1),
  *  their first derivative Phi' = J v - nu (3), their second derivative Phi'' = J a - gamma, zero by
@@ -28,8 +28,8 @@
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- * baum_mechanism_set_K(). They behave alike for every kind; their comments are at
- * baum_coordinates_def.
+ *  baum_mechanism_set_K(). They behave alike for every kind; their comments are at
+ *  baum_coordinates_def.
  *
  *  Versions: fields are only ever appended to a struct. `struct_size` tells the library which
  *  fields a program knows. A program that was compiled with an older version passes a smaller
@@ -300,8 +300,8 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 
 /** The law of a coupling: f[0] is the value, f[1] the first and f[2] the second derivative at
  *  coordinate x of joint_a [rad or m]. Angles are continuous over revolutions. f is zeroed before
- *  the call. Methods that need third derivatives take differences of f[2]. The check of derivatives
- *  also calls the law at coordinates beside the motion. Returns the same as baum_q_fn. */
+ * the call. Methods that need third derivatives take differences of f[2]. The check of derivatives
+ *  also calls the law at coordinates near those of the motion. Returns the same as baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling: one row that ties the coordinates of two joints, coordinate_b - f(coordinate_a) = 0,
@@ -318,7 +318,7 @@ typedef struct baum_coupling_def {
   /** A joint with a coordinate, not joint_a. Default: none, must be set. */
   baum_joint_id joint_b;
   double ratio; /**< [unit of b / unit of a] Default: 1. */
-  /** [rad or m] of coordinate_b. Default: NaN, that of the design configuration. */
+  /** [rad or m] of coordinate_b. Default: NaN, as in the design configuration. */
   double offset;
   baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
   void *user;            /**< Passed to law. Not owned. Default: NULL. */
@@ -530,7 +530,7 @@ typedef struct baum_mobility {
   int32_t conflicting_rows; /**< [-] rows that cannot be met together with the others. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
   /** The initial configuration is singular: J has a lower rank there than nearby. Also true within
-   * 1e-5 of such a configuration, relative to the scales. */
+   *  1e-5 of such a configuration, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
@@ -576,7 +576,7 @@ typedef struct baum_report {
 } baum_report;
 
 /** Report what an evaluation costs, in the assembled initial configuration at t = 0 and with the
- * solver that a run chooses by default.
+ *  solver that a run chooses by default.
  *  @param      mechanism    if it is not frozen, a frozen copy is examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
@@ -587,11 +587,11 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
 /** Compare the derivatives that user functions return (jacobian, nu, gamma, force_q, force_v, and
  *  those of laws and curves) with differences. Creating a simulation does this by default.
  *
- * The check runs in the design configuration at t = 0 and in three configurations near it at t = 0,
- * 0.37 and 1.3. An entry is wrong if its error exceeds 1e-6 of its own size plus 1e-9 of the size
- * of its row. mass() must be symmetric, without negative numbers on its diagonal in the design
- * configuration, and constant if constant_mass says so. The check accepts kinks, and skips
- * configurations and times at which a function fails. If a function fails in all configurations,
+ *  The check runs in the design configuration at t = 0 and in three configurations near it at t =
+ *  0, 0.37 and 1.3. An entry is wrong if its error exceeds 1e-6 of its own size plus 1e-9 of the
+ *  size of its row. mass() must be symmetric, without negative numbers on its diagonal in the
+ *  design configuration, and constant if constant_mass says so. The check accepts kinks, and skips
+ *  configurations and times at which a function fails. If a function fails in all configurations,
  *  the check returns that failure, except for laws of drivers.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both

@@ -106,9 +106,9 @@ typedef struct baum_planar_revolute_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
 } baum_planar_revolute_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -143,12 +143,12 @@ typedef struct baum_planar_translational_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
   /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
   double axis[2];
-  /** [rad] constant angle_b - angle_a. Default: NaN, that of the design configuration. */
+  /** [rad] constant angle_b - angle_a. Default: NaN, as in the design configuration. */
   double angle;
 } baum_planar_translational_def;
 
@@ -184,10 +184,10 @@ typedef struct baum_planar_distance_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double length;       /**< [m] > 0. Default: NaN, that of the design configuration. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double length;     /**< [m] > 0. Default: NaN, as in the design configuration. */
 } baum_planar_distance_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -221,10 +221,10 @@ typedef struct baum_planar_fixed_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [rad] constant angle_b - angle_a. Default: NaN, that of the design configuration. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [rad] constant angle_b - angle_a. Default: NaN, as in the design configuration. */
   double angle;
 } baum_planar_fixed_def;
 
@@ -269,12 +269,12 @@ typedef struct baum_planar_spring_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double stiffness;    /**< [N/m] >= 0. Default: 0. */
-  double damping;      /**< [N s/m] >= 0. Default: 0. */
-  /** [m] >= 0, without force. Default: NaN, that of the design configuration. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double stiffness;  /**< [N/m] >= 0. Default: 0. */
+  double damping;    /**< [N s/m] >= 0. Default: 0. */
+  /** [m] >= 0, without force. Default: NaN, as in the design configuration. */
   double free_length;
   /** Replaces the three above; without potential energy. Default: NULL. */
   baum_spring_fn *law;
@@ -314,7 +314,7 @@ typedef struct baum_planar_torsion_spring_def {
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
   double damping;      /**< [N m s/rad] >= 0. Default: 0. */
-  /** [rad] without torque. Default: NaN, that of the design configuration. */
+  /** [rad] without torque. Default: NaN, as in the design configuration. */
   double free_angle;
   /** Replaces the three above; without potential energy. Default: NULL. */
   baum_spring_fn *law;

@@ -23,9 +23,9 @@ typedef struct baum_planar_pin_in_slot_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
   /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
   double axis[2];
 } baum_planar_pin_in_slot_def;
@@ -70,14 +70,14 @@ typedef struct baum_planar_rack_and_pinion_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
   /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
   double axis[2];
   /** [m] of the pitch circle, not 0; sign as above. Default: 0, must be set. */
   double radius;
-  double offset; /**< [m] in the row above. Default: NaN, that of the design configuration. */
+  double offset; /**< [m] in the row above. Default: NaN, as in the design configuration. */
 } baum_planar_rack_and_pinion_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -127,7 +127,7 @@ typedef struct baum_planar_gear_def {
   double radius_a;
   /** [m] of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
   double radius_b;
-  double offset; /**< [m] in the row above. Default: NaN, that of the design configuration. */
+  double offset; /**< [m] in the row above. Default: NaN, as in the design configuration. */
 } baum_planar_gear_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -171,13 +171,13 @@ typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
  *  derivatives with differences. Methods that need third derivatives take differences of the
  *  second. */
 typedef struct baum_planar_curve_def {
-  size_t struct_size;   /**< Set by the default. Do not write. */
-  const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a;  /**< Default: none, must be set. */
-  baum_body_id body_b;  /**< Default: none, must be set; not body_a. */
-  double point[2];      /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[2];    /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[2];    /**< [m] on body_b, its axes. Default: NaN, not given. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2];    /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[2];    /**< [m] on body_b, in its axes. Default: NaN, not given. */
   baum_curve_fn *curve; /**< F. Default: NULL, must be set. */
   void *user;           /**< Passed to curve. Not owned. Default: NULL. */
 } baum_planar_curve_def;

@@ -48,7 +48,7 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           the step is interpolated. Formulations as baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
 /** Starts with Runge-Kutta steps. It restarts with them after baum_simulation_set_state(),
- * _set_input() and _set_driver(), after a reversal of time and after a target off the grid.
+ *  _set_input() and _set_driver(), after a reversal of time and after a target off the grid.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
  *           BAUMGARTE (best damping), UNSTABILIZED; its past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
@@ -67,8 +67,8 @@ BAUM_API const baum_integrator *baum_rattle(void);
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
 /** Solves each step by fixed-point iteration, and with gains by Newton's method on the terms that
- * the gains make stiff. High gains therefore do not limit the steps, but stiff forces do. CVODE
- * projects only with BDF.
+ *  the gains make stiff. High gains therefore do not limit the steps, but stiff forces do. CVODE
+ *  projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** For stiff forces. Newton iteration with the true sparse Jacobian, including the derivatives of
@@ -80,11 +80,10 @@ BAUM_API const baum_integrator *baum_cvode_bdf(void);
  *           UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
 /** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
- * every coordinate; other mechanisms are refused. It solves for configurations to rounding at the
- * requested times, by
- *  continuation along the branch of the initial configuration. It takes no formulation, gains,
- *  step, rtol or atol. If the mechanism locks or branches cross, the run stops with
- *  BAUM_ERR_SINGULAR; it never jumps to another branch.
+ *  every coordinate; other mechanisms are refused. It solves for configurations to rounding at the
+ *  requested times, by continuation along the branch of the initial configuration. It takes no
+ *  formulation, gains, step, rtol or atol. If the mechanism locks or branches cross, the run stops
+ *  with BAUM_ERR_SINGULAR; it never jumps to another branch.
  *  @return  kinematics, without integration */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
@@ -140,7 +139,7 @@ typedef enum baum_start {
   /** Refuse a configuration or velocities that violate the constraints. */
   BAUM_START_EXACT = 1,
   /** Take both as they are, with free velocities zero. Only bodies welded to ground are moved, to
-   * where the welds hold them. */
+   *  where the welds hold them. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
@@ -153,14 +152,14 @@ typedef enum baum_solver {
   /** Sparse rank-revealing QR; slow. For comparison and singular configurations. */
   BAUM_SOLVER_QR = 2,
   /** Schur complement in blocks of two rows, without a fallback. It is refused if a body has more
-   * than about 50 joints, if the joints form a dense net, or if the mass matrix is not positive
-   * definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
+   *  than about 50 joints, if the joints form a dense net, or if the mass matrix is not positive
+   *  definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
 /** Called at intervals while a call advances a run. Each such call starts a new interval. It
- * may read the run, also with baum_simulation_get(). Functions that change, advance or save the run
- * fail inside it (BAUM_ERR_STATE), and destroying the run does nothing.
+ *  may read the run, also with baum_simulation_get(). Functions that change, advance or save the
+ *  run fail inside it (BAUM_ERR_STATE), and destroying the run does nothing.
  *  @param simulation  the run
  *  @param t           [s] present time
  *  @param user        the option `user`
@@ -238,8 +237,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_UNSUPPORTED (integrator and formulation do not go together; not in this build;
- * kinematics for a mechanism with degrees of freedom, or with an energy account; the method has no
- * gains by this rule; a mechanism that RATTLE or blocks do not suit), BAUM_ERR_INCONSISTENT,
+ *  kinematics for a mechanism with degrees of freedom, or with an energy account; the method has no
+ *  gains by this rule; a mechanism that RATTLE or blocks do not suit), BAUM_ERR_INCONSISTENT,
  *           BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
  *           BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
@@ -275,8 +274,8 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
 /** Replace time and state; multistep methods restart. If the state violates the constraints no more
- * than the run already does, it is taken as it is; otherwise the option `start` decides what
- * happens.
+ *  than the run already does, it is taken as it is; otherwise the option `start` decides what
+ *  happens.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -369,10 +368,10 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *
  *  The library checks that the mechanism has the same elements, order, bodies and numbers, and that
  *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account
- *  are the same. It cannot check user functions; they must be the same, and state of their own is
- *  not saved. Gains and redundant rows chosen at the start are those of the saved run. Restoring
- *  allocates only if the saved run has set drivers, has longer schedules or omits other rows than
- *  this run.
+ *  are the same. It cannot check user functions: they must be the same, and the state that they
+ *  keep is not saved. Gains and redundant rows chosen at the start are those of the saved run.
+ *  Restoring allocates only if the saved run has set drivers, has longer schedules or omits other
+ *  rows than this run.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least what baum_simulation_save() wrote
@@ -558,7 +557,7 @@ typedef struct baum_counters {
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
   /** [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|. Only for both
-   * Eulers with stable gains of at least 0.1/h, otherwise NaN. */
+   *  Eulers with stable gains of at least 0.1/h, otherwise NaN. */
   double predicted_phi;
   double predicted_phi_rate; /**< [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|. */
   /** [J] change of kinetic and potential energy since the start, including the work of drivers,
@@ -569,11 +568,11 @@ typedef struct baum_counters {
   double alpha; /**< [1/s] in use. */
   double beta;  /**< [1/s] in use. */
   /** [-] factor by which each step multiplies a violation in the long run. NaN without BAUMGARTE
-   * and with variable steps. */
+   *  and with variable steps. */
   double spectral_radius;
   /** [1/s] decay rate of violations, -ln(spectral_radius) / h. It equals alpha for small gains with
-   * alpha = beta, is infinite for dead-beat gains and negative if violations grow. NaN if
-   * spectral_radius is. */
+   *  alpha = beta, is infinite for dead-beat gains and negative if violations grow. NaN if
+   *  spectral_radius is. */
   double damping;
   int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
   /** [-] the part of these intervals after which the motion is or may be on another branch. */
@@ -582,13 +581,13 @@ typedef struct baum_counters {
    *  estimate. */
   int64_t forced_steps;
   /** [J] energy that the method itself has added so far, from the energy account. NaN without the
-   * option energy_account. */
+   *  option energy_account. */
   double energy_residual;
   int64_t doubts; /**< [-] kinds of warnings that doubt the motion. */
   /** [-] largest estimated global error of the positions since the start: lengths relative to the
-   * characteristic length, angles in radians. It is 0 while the local errors of fixed steps are
-   * negligible. It is NaN with variable steps without the option error_check, and if the estimate
-   * would cost more than the run. */
+   *  characteristic length, angles in radians. It is 0 while the local errors of fixed steps are
+   *  negligible. It is NaN with variable steps without the option error_check, and if the estimate
+   *  would cost more than the run. */
   double error_estimate;
 } baum_counters;
 
@@ -603,18 +602,18 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
 /** Where the energy of a run came from since its start or the last baum_simulation_set_state();
  *  setting inputs and drivers does not reset it. Positive work adds energy to the mechanism.
  *
- * The residual is the energy error of the method. It falls with the step at the order of the
- * method, or with the tolerance. If an evaluation fails, the account ends with a warning, and works
- * and residual are NaN from then on. The account does not change the motion.
+ *  The residual is the energy error of the method. It falls with the step at the order of the
+ *  method, or with the tolerance. If an evaluation fails, the account ends with a warning, and
+ *  works and residual are NaN from then on. The account does not change the motion.
  *
- * The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
- * 3, but 18 with dp5 and 48 with rk8, which subdivide the step for the account. With variable steps
- * these are 4, or 7 with rk8 including its interpolant. BAUMGARTE adds 2 to 4. */
+ *  The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
+ *  3, but 18 with dp5 and 48 with rk8, which subdivide the step for the account. With variable
+ *  steps these are 4, or 7 with rk8 including its interpolant. BAUMGARTE adds 2 to 4. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
   /** [J] present potential energy of gravity, linear springs, constant loads and user
-   * potentials. */
+   *  potentials. */
   double potential;
   double start; /**< [J] kinetic plus potential energy at the start. */
   /** [J] work of loads with an input or a torque, and of loads that follow their body. */
@@ -623,8 +622,8 @@ typedef struct baum_energy_account {
   double dampers;     /**< [J] work of the dampers of linear springs. */
   double user_forces; /**< [J] work of user forces, without the change of their potential. */
   /** [J] work of the forces of user coordinates, without the change of their potential, plus the
-   * integral of v^T M' v / 2. The velocity terms of Lagrange's equations add nothing to this
-   * sum. */
+   *  integral of v^T M' v / 2. The velocity terms of Lagrange's equations add nothing to this
+   *  sum. */
   double bodies;
   double drivers; /**< [J] work of drivers and other rows that depend on time, from -nu^T lambda. */
   double violation;  /**< [J] work of violated constraints, from -Phi'^T lambda. */
@@ -654,9 +653,9 @@ typedef enum baum_branch {
 } baum_branch;
 
 /** An interval in which a run was near a singular configuration. Its pivot is the smallest pivot of
- * the equations of motion, relative to the largest such value of the run so far. It falls with the
- * square of the distance from a singular configuration. The run lists an interval after leaving it,
- * if the pivot was below 1e-3 or so small that the constraint violation explains it. */
+ *  the equations of motion, relative to the largest such value of the run so far. It falls with the
+ *  square of the distance from a singular configuration. The run lists an interval after leaving
+ *  it, if the pivot was below 1e-3 or so small that the constraint violation explains it. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
@@ -665,7 +664,7 @@ typedef struct baum_near_singular {
   /** [-] smallest pivot, relative to the largest of the run so far; also between steps. */
   double pivot;
   /** [-] difference between the velocity after the interval and the smooth continuation of the
-   * motion before it, relative to the size of the velocity. NaN: unknown. */
+   *  motion before it, relative to the size of the velocity. NaN: unknown. */
   double jump;
   double jump_error;   /**< [-] estimated error of jump; NaN: unknown. */
   baum_branch branch;  /**< How the motion continues. */
@@ -682,7 +681,7 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
                                                    baum_near_singular *out, size_t caller_size);
 
 /** Kinds of warnings. Kinds from 100 on doubt the motion: the result may be wrong by far more than
- * its tolerance. The others are notes on a correct result. */
+ *  its tolerance. The others are notes on a correct result. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1,    /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2,             /**< The stability of the gains is not known. */
@@ -717,7 +716,7 @@ typedef struct baum_warning {
 } baum_warning;
 
 /** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
- * warnings.
+ *  warnings.
  *  @param      simulation   the run
  *  @param      k            0 to counters.warnings - 1
  *  @param[out] out          filled

@@ -16,9 +16,9 @@
  *
  *  Threads: one study is used by one thread at a time, except baum_study_cancel(). baum_study_run()
  *  uses as many threads as the options say and calls user functions, including those of the
- * mechanism, from each of them. The progress function may cancel the study and, with one thread,
- * read it. Functions that change the study fail inside the progress function with BAUM_ERR_STATE,
- * and destroying the study does nothing.
+ *  mechanism, from each of them. The progress function may cancel the study and, with one thread,
+ *  read it. Functions that change the study fail inside the progress function with BAUM_ERR_STATE,
+ *  and destroying the study does nothing.
  *
  *  Texts are owned by the study. They are valid until the next call that changes it.
  */
@@ -56,7 +56,7 @@ BAUM_API void baum_study_destroy(baum_study *study);
 /** Called after each entry and during the reference, by one thread at a time, which may not be that
  *  of the caller.
  *  @param study  the study
- * @param done number of known errors plus number of known times
+ *  @param done number of known errors plus number of known times
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
@@ -71,8 +71,7 @@ typedef struct baum_study_options {
   /** [-] 1 to 1024, for errors. Times are always measured one by one. Default: 1. */
   int32_t threads;
   /** [-] 1 to 1e6, largest number of runs that measure the time of an entry; long runs are repeated
-   * less often.
-   *  Default: 5. */
+   *  less often. Default: 5. */
   int32_t repeats;
   /** [s] > 0, largest CPU time of a run; may be infinite. The reference may take a
    *  minute, or five times this limit. Default: 10. */
@@ -111,7 +110,7 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
 /* ---- settings -------------------------------------------------------------------------------- */
 
 /** Add one setting. A setting is only checked when it runs; one that cannot run stays as a refused
- * entry.
+ *  entry.
  *  @param     study    unchanged on failure
  *  @param[in] options  copied; start_time, progress and user are ignored
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
@@ -246,7 +245,7 @@ BAUM_API void baum_study_cancel(baum_study *study);
 
 /** State of an entry. */
 typedef enum baum_study_state {
-  BAUM_STUDY_WAITING = 0, /**< Not run, or not to its end. */
+  BAUM_STUDY_WAITING = 0, /**< Not run yet, or interrupted. */
   BAUM_STUDY_DONE = 1,    /**< Reached the end of the span. */
   BAUM_STUDY_REFUSED = 2, /**< Could not be started. */
   BAUM_STUDY_FAILED = 3,  /**< Failed during the run. */
@@ -259,48 +258,48 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** The results of an entry: X(type, name, known, unit, meaning). The struct below, the study file,
  *  CSV, JSON and Python are generated from this list. Results marked DONE are known for entries
- * that are done. Errors are the largest over all samples; names with `final` mean the error at the
- * last sample. Errors are never below the uncertainty of the reference. */
-#define BAUM_STUDY_ENTRY_LIST(X)                                                                \
-  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")         \
-  X(baum_status, status, ALWAYS, "", "status of its run")                                       \
-  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                 \
-  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")     \
-  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")            \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                         \
-  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                  \
-  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                    \
-  X(double, error, DONE, "1", "as defined by baum_study_set_error()")                           \
-  X(double, error_final, DONE, "1", "error at the last sample")                                 \
-  X(double, error_half, DONE, "1", "error over the first half of the samples")                  \
-  X(double, error_q, DONE, "1", "of positions, relative to the scales")                         \
-  X(double, error_q_final, DONE, "1", "of positions at the last sample")                        \
-  X(double, error_v, DONE, "1", "of velocities, relative to scales and largest velocity")       \
-  X(double, error_v_final, DONE, "1", "of velocities at the last sample")                       \
-  X(double, error_lambda, DONE, "1", "of multipliers, times the displacement of their rows")    \
-  X(double, error_lambda_final, DONE, "1", "of multipliers at the last sample")                 \
-  X(double, energy_error, DONE, "J", "drift of energy against the reference")                   \
-  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                \
-  X(double, error_estimate, DONE, "1", "as in baum_counters")                                   \
-  X(double, error_validated, DONE, "1", "over twice the span and from perturbed starts")        \
-  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")     \
-  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                \
-  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account") \
-  X(double, projection_work, DONE, "J", "change of energy by projections")                      \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                \
-  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")        \
-  X(double, cpu, DONE, "s", "least CPU time of a run with its creation, without samples")       \
-  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                     \
-  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                       \
-  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without samples")          \
-  X(int64_t, factorizations, DONE, "1", "of matrices, without samples")                         \
-  X(int64_t, nonlinear_iterations, DONE, "1", "of implicit methods")                            \
-  X(int64_t, steps, DONE, "1", "accepted")                                                      \
-  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                   \
-  X(int64_t, forced_steps, DONE, "1", "over singular configurations")                           \
-  X(int64_t, near_singular_intervals, DONE, "1", "of its run")                                  \
-  X(int64_t, warnings, DONE, "1", "of its run")                                                 \
-  X(int64_t, branch_warnings, DONE, "1", "of its run")                                          \
+ *  that are done. Errors are the largest over all samples; names with `final` mean the error at the
+ *  last sample. Errors are never below the uncertainty of the reference. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
+  X(baum_status, status, ALWAYS, "", "status of its run")                                          \
+  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                    \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")        \
+  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")               \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                            \
+  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                     \
+  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                       \
+  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                             \
+  X(double, error_final, DONE, "1", "error at the last sample")                                    \
+  X(double, error_half, DONE, "1", "error over the first half of the samples")                     \
+  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                      \
+  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                     \
+  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")    \
+  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                    \
+  X(double, error_lambda, DONE, "1", "error of multipliers, times the displacement of their rows") \
+  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")              \
+  X(double, energy_error, DONE, "J", "drift of energy against the reference")                      \
+  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                   \
+  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                          \
+  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")     \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
+  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
+  X(double, projection_work, DONE, "J", "change of energy by projections")                         \
+  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
+  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")           \
+  X(double, cpu, DONE, "s", "least CPU time of a run with its creation, without samples")          \
+  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                        \
+  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                          \
+  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without samples")             \
+  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without samples")             \
+  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                    \
+  X(int64_t, steps, DONE, "1", "accepted steps")                                                   \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
+  X(int64_t, forced_steps, DONE, "1", "steps over singular configurations")                        \
+  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")             \
+  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                  \
+  X(int64_t, branch_warnings, DONE, "1", "intervals after which the branch is in doubt")           \
   X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
 
 /** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.

@@ -20,7 +20,7 @@ typedef struct place {
 } place;
 
 typedef struct search {
-  double ends[2];   /* the minimum is between */
+  double ends[2];   /* ends of the interval that contains the minimum */
   place least[3];   /* the three lowest points, the lowest first; some may coincide */
   double tolerance; /* of t */
   double step;      /* the last one */

@@ -26,7 +26,7 @@ baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const ch
   if (k < first || k >= count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld%s", call,
                        (long long)k, (long long)first, (long long)count - 1,
-                       first > 0 ? ", those kept" : "");
+                       first > 0 ? ", the entries that are kept" : "");
   }
   return BAUM_OK;
 }

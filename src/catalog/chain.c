@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Chain of uniform rods: link k starts at the tip of link k - 1, the first one at the origin, each
- * at an angle of its own from the x axis. */
+ * at a different angle from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>

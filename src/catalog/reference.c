@@ -177,7 +177,7 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 /* ---- errors ---- */
 
 /* Largest values over the coordinates of a state: scaled differences, scaled sizes, and the
- * uncertainty that the trusted digits mean. */
+ * uncertainty of the reference. */
 typedef struct measure {
   double q;
   double v;

@@ -21,7 +21,8 @@
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
 static const double MU = 1e-10; /* relative size of S, and the convergence factor that it costs */
-static const double STEP_LIMIT = 0.25; /* largest change of a coordinate in one step, in scales */
+/* largest change of a coordinate in one step, relative to its scale */
+static const double STEP_LIMIT = 0.25;
 static const double CONVERGED =
   1e-11;                              /* a Newton step of this size leaves an error of its square */
 static const double ROUNDING = 1e-13; /* violation, as a displacement, that counts as zero */

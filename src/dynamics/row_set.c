@@ -133,7 +133,8 @@ static baum_status replace_paths(baum_workspace *w)
   BAUM_I_TRY(w->motion ? baum_i_paths_create(w, &verdict, &made) : BAUM_OK);
   if ((w->path && !made.all) || (w->motion && !made.motion)) {
     baum_i_paths_destroy(&made);
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED, "blocks cannot solve for the other rows");
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "the block solver does not suit the other set of rows");
   }
   copy_counters(before.all, made.all);
   copy_counters(before.motion, made.motion);

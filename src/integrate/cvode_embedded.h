@@ -17,7 +17,7 @@ typedef struct baum_i_cvode_embedded {
 } baum_i_cvode_embedded;
 
 /* After CVodeInit(); returns a flag of CVODE. `embedded` lives as long as CVODE and is closed after
- * it; closing accepts zeroes. */
+ * it; a zeroed one may be closed. */
 int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundials *sundials);
 void baum_i_cvode_embedded_close(baum_i_cvode_embedded *embedded);
 

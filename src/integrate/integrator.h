@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrators behind one ops table. Each has a file of its own, so that a program links only those
- * it calls.
+/* Integrators behind one ops table. Each has a separate file, so that a program links only those it
+ * calls.
  *
  * A fixed-step method moves a state by h; the caller owns grid, projection, monitors and output. A
- * variable-step method takes one step of its own length and interpolates inside its last one.
- * Integrators reach the equations only through a problem, whose functions apply the formulation and
- * the gains. */
+ * variable-step method takes one step, whose length it chooses, and interpolates inside its last
+ * one. Integrators reach the equations only through a problem, whose functions apply the
+ * formulation and the gains. */
 #ifndef BAUM_I_INTEGRATE_INTEGRATOR_H
 #define BAUM_I_INTEGRATE_INTEGRATOR_H
 
@@ -48,7 +48,7 @@ typedef struct baum_i_state {
 /* What a variable-step method has done since it was created. */
 typedef struct baum_i_statistics {
   int64_t rejected;
-  int64_t factorizations;      /* of its own matrix */
+  int64_t factorizations;      /* factorizations of the method's own matrix */
   int64_t full_factorizations; /* those that chose pivots again and may allocate */
   int64_t nonlinear_iterations;
   int64_t forced; /* accepted whatever their error estimate, over a singular configuration */
@@ -93,8 +93,8 @@ struct baum_integrator {
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL for methods with fixed steps only. */
-  /* Take one step of its own length in problem->direction; state receives its end. On failure the
-   * state is that of the last good step, from which the next call restarts. */
+  /* Take one step, whose length the method chooses, in problem->direction; state receives its end.
+   * On failure the state is that of the last good step, from which the next call restarts. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Interpolate positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,

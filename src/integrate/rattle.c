@@ -121,8 +121,8 @@ static baum_status fail_velocities(const baum_i_element *element)
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
-    "simulation options: rattle needs forces of time and position, but that of %s depends on "
-    "velocities, or does not set depends_on_velocity = false; take rk4 or rk8, or "
+    "simulation options: rattle needs forces that depend on time and position only, but %s "
+    "depends on velocities, or does not set depends_on_velocity = false; take rk4 or rk8, or "
     "generalized_alpha if it is stiff",
     baum_i_label(element, label));
 }

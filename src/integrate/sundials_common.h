@@ -43,7 +43,7 @@ typedef struct baum_i_sundials {
 } baum_i_sundials;
 
 /* Create a context with a silent error handler and vectors of length n. Close it after everything
- * made with it; closing accepts zeroes. */
+ * that was created with it. A zeroed one may be closed. */
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 

@@ -28,7 +28,7 @@ typedef struct baum_i_sundials_klu {
 } baum_i_sundials_klu;
 
 /* Call this after sundials->problem is set. BAUM_OK or BAUM_ERR_MEMORY. In any case, close it after
- * everything that calls it, and before the run of SUNDIALS; closing accepts zeroes. */
+ * everything that calls it, and before the run of SUNDIALS; a zeroed one may be closed. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);

@@ -45,9 +45,9 @@ typedef struct baum_i_block_layout {
  * the last one is repeated in the arrays described as even. */
 typedef struct baum_i_pin_node {
   int32_t node;
-  int32_t row;           /* first of its two */
-  int32_t body_block[2]; /* of body a and b */
-  int32_t place[2];      /* of these body blocks */
+  int32_t row;           /* first of its two rows */
+  int32_t body_block[2]; /* body blocks of body a and b */
+  int32_t place[2];      /* places of their numbers in motion[] */
 } baum_i_pin_node;
 
 static inline size_t baum_i_even(size_t count)
@@ -87,7 +87,7 @@ typedef struct baum_i_full_pair {
 /* A body whose M is not diagonal or not constant. */
 typedef struct baum_i_dense_body {
   int mass_block;
-  int32_t body_block; /* first of its own */
+  int32_t body_block; /* first body block of this body */
   int32_t place;      /* of that, and so of y */
   int factor;         /* start of L in factor[] */
 } baum_i_dense_body;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
- * Kept pivots may become worthless when pivots that were good at an earlier configuration have
- * become small. This file detects it by the ratio of the smallest to the largest pivot, the front
- * end by the residual.
+ * Factors with kept pivots may become useless, because pivots that were good at an earlier
+ * configuration may have become small. This file detects it by the ratio of the smallest to the
+ * largest pivot, the front end by the residual.
  *
  * There are two ways to choose pivots. Usually the scaled M has a unit diagonal and the diagonal is
  * preferred: masses are the pivots, and they stay good while the mechanism moves. Constraints then

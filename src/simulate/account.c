@@ -24,7 +24,7 @@
  * IDA first moves a given start onto the constraints of its formulation. This move counts as a
  * projection.
  *
- * The account has a workspace of its own, so its evaluations do not touch the run's solver or
+ * The account has a separate workspace, so its evaluations do not touch the run's solver or
  * counters. */
 #include "simulate/account.h"
 

@@ -5,8 +5,9 @@
  * formulation includes it, and checked; only then does it become the present state. A sample off
  * the grid is a trial that is not kept.
  *
- * Variable step: the method runs ahead by whole steps of its own. Reported states are interpolated
- * inside the last step, and these copies are projected if the formulation includes it. */
+ * Variable step: the method runs ahead by whole steps, whose lengths it chooses. Reported states
+ * are interpolated inside the last step, and these copies are projected if the formulation includes
+ * it. */
 #include <math.h>
 
 #include "mechanism/definition.h"

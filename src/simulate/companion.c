@@ -14,7 +14,7 @@
  * the same method with three hundredths of the tolerance. With a tenth, run and companion had the
  * same wrong motion in one of 2000 mechanisms.
  *
- * The companion has a workspace of its own, so its evaluations do not touch the run's solver or
+ * The companion has a separate workspace, so its evaluations do not touch the run's solver or
  * counters. If it fails, or costs more than the run itself, as with stiff forces, it ends and the
  * error is unknown. */
 #include "simulate/companion.h"
@@ -217,7 +217,7 @@ static bool is_too_costly(const baum_simulation *run)
   return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
-/* Take steps until it has reached t. */
+/* Take steps of the companion until it has reached t. */
 static baum_status go_to(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;

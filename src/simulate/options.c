@@ -121,7 +121,8 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
   if (!n->takes[how]) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
                        n->unit[0] ? " " : "", n->unit, name,
-                       isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
+                       isnan(n->unset) ? WHY_NOT[how]
+                                       : "takes no tolerance here; keep the default 1");
   }
   return check_range(n, x);
 }
@@ -222,7 +223,7 @@ static baum_status check_multipliers(const baum_simulation_options *o)
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "simulation options: tolerance_lambda is %g, but %s has no multipliers among "
-      "its unknowns; leave it infinite",
+      "its unknowns; keep the default, infinity",
       o->tolerance_lambda, name);
   }
   if (o->formulation == BAUM_FORMULATION_BAUMGARTE ||
@@ -232,7 +233,7 @@ static baum_status check_multipliers(const baum_simulation_options *o)
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: tolerance_lambda is %g, but with the formulation %s the "
                      "error of multipliers cannot be tested, because its estimate grows as steps "
-                     "shrink; leave it infinite, or choose baumgarte or unstabilized",
+                     "shrink; keep the default, infinity, or choose baumgarte or unstabilized",
                      o->tolerance_lambda, baum_formulation_name(o->formulation));
 }
 

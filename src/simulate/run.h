@@ -76,9 +76,9 @@ struct baum_simulation {
   double *memory;           /* all arrays below */
   baum_i_state state;       /* reported */
   baum_i_state ahead;       /* variable step: end of the last internal step */
-  baum_i_state trial;       /* a step under way, or a sample beside the motion */
-  baum_i_state spare;       /* of a step near a singular configuration */
-  double *acceleration;     /* (nv) at the start of a step */
+  baum_i_state trial;   /* a step that is being tried, or a sample that is not part of the motion */
+  baum_i_state spare;   /* of a step near a singular configuration */
+  double *acceleration; /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
   /* work that other processes have done for the run, minus the counts of this process before it */
@@ -114,8 +114,8 @@ static inline double baum_i_run_last_end(const baum_simulation *run)
   return baum_i_run_has_fixed_step(run) ? run->state.t : run->ahead.t;
 }
 
-/* Give a problem with a workspace of its own the run's present equations: direction, gains, inputs,
- * laws of drivers. */
+/* Copy the run's present equations to a problem with a separate workspace: direction, gains,
+ * inputs, laws of drivers. */
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
 /* Create a workspace with the solver and the omitted rows of the run. BAUM_OK, BAUM_ERR_MEMORY. */

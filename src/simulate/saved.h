@@ -63,7 +63,8 @@ void baum_i_saved_add_some(baum_i_saved *list, void *place, size_t unit, int64_t
 /* save.c: list all parts of a run. */
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);
 
-/* Largest size of the list in bytes. Writing it returns the actual end. */
+/* Returns the largest size of the list in bytes. The function that writes the list returns its
+ * actual end. */
 size_t baum_i_saved_size(const baum_i_saved *list);
 unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to);
 

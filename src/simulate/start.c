@@ -26,7 +26,7 @@ static bool is_angle(const baum_i_body *body, int coordinate)
   return coordinate >= body->v + first;
 }
 
-/* Coordinates of user bodies have units of their own. */
+/* User coordinates have units that the user chooses. */
 static const char *unit_of(const baum_i_body *body, int coordinate)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {

@@ -15,7 +15,7 @@ void baum_i_lock_end(baum_i_lock *lock);
 void baum_i_lock_take(baum_i_lock *lock);
 void baum_i_lock_give(baum_i_lock *lock);
 
-/* Calls work(user, k) for k = 0 to count - 1, each in a thread of its own, the first in this one.
+/* Calls work(user, k) for k = 0 to count - 1, each in a separate thread, the first in this one.
  * Calls for which no thread can be created are omitted. Returns when all have ended. */
 void baum_i_threads_run(int count, void (*work)(void *user, int k), void *user);
 

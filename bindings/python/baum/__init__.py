@@ -74,7 +74,7 @@ library_version = _lib.version
 
 
 def __getattr__(name: str) -> Any:
-    # A library of its own, which may be missing.
+    # A separate library, which may be missing.
     if name == "catalog":
         return importlib.import_module(".catalog", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -57,7 +57,7 @@ def make(function: Call, *arguments: Any) -> errors.Status:
 
 
 def made(out: ctypes.c_void_p) -> int:
-    """The address that a function of the library has returned."""
+    """The address of the object that a function of the library has created."""
     assert out.value is not None
     return out.value
 

@@ -244,19 +244,19 @@ class StudyEntry(NamedTuple):
     unstable: its gains do not damp with this step
     alpha: [1/s] alpha in use; 0: no gains
     beta: [1/s] beta in use; 0: no gains
-    error: [-] as defined by error
+    error: [-] the error, see error
     error_final: [-] error at the last sample
     error_half: [-] error over the first half of the samples
-    error_q: [-] of positions, relative to the scales
-    error_q_final: [-] of positions at the last sample
-    error_v: [-] of velocities, relative to scales and largest velocity
-    error_v_final: [-] of velocities at the last sample
-    error_lambda: [-] of multipliers, times the displacement of their rows
-    error_lambda_final: [-] of multipliers at the last sample
+    error_q: [-] error of positions, relative to the scales
+    error_q_final: [-] error of positions at the last sample
+    error_v: [-] error of velocities, relative to scales and largest velocity
+    error_v_final: [-] error of velocities at the last sample
+    error_lambda: [-] error of multipliers, times the displacement of their rows
+    error_lambda_final: [-] error of multipliers at the last sample
     energy_error: [J] drift of energy against the reference
     energy_error_final: [J] drift of energy at the last sample
-    error_estimate: [-] as in counters
-    error_validated: [-] over twice the span and from perturbed starts
+    error_estimate: [-] error_estimate of counters
+    error_validated: [-] error over twice the span and from perturbed starts
     max_phi: [m or rad] largest constraint violation |Phi| over all steps
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
     violation_work: [J] work of violated constraints, see energy_account
@@ -267,14 +267,14 @@ class StudyEntry(NamedTuple):
     cpu_spread: [s] second least CPU time minus the least
     repeats: [-] runs for the CPU time
     evaluations: [-] right-hand sides or residuals, without samples
-    factorizations: [-] of matrices, without samples
-    nonlinear_iterations: [-] of implicit methods
-    steps: [-] accepted
+    factorizations: [-] factorizations of matrices, without samples
+    nonlinear_iterations: [-] iterations of implicit methods
+    steps: [-] accepted steps
     rejected: [-] steps that were repeated
-    forced_steps: [-] over singular configurations
-    near_singular_intervals: [-] of its run
-    warnings: [-] of its run
-    branch_warnings: [-] of its run
+    forced_steps: [-] steps over singular configurations
+    near_singular_intervals: [-] near-singular intervals of its run
+    warnings: [-] kinds of warnings of its run
+    branch_warnings: [-] intervals after which the branch is in doubt
     doubts: [-] kinds of warnings that doubt the motion
     """
 

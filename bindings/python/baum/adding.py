@@ -191,8 +191,8 @@ class Adding:
     ) -> Joint:
         """Add a massless rod between two points. One row [m].
 
-        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, default that of the
-        design configuration.
+        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, by default as in
+        the design configuration.
         """
         return self._add(Joint, "planar_distance", locals())
 
@@ -210,7 +210,7 @@ class Adding:
         """Add a weld: two bodies do not move relative to each other. Three rows [m], [m], [rad].
 
         point: in ground axes in the design configuration [m]; or point_a, point_b: in the axes of
-        the bodies [m]. angle: angle_b - angle_a [rad], default that of the design configuration.
+        the bodies [m]. angle: angle_b - angle_a [rad], by default as in the design configuration.
         """
         return self._add(Joint, "planar_fixed", locals())
 
@@ -251,7 +251,7 @@ class Adding:
 
         radius: [m]; positive: the rack is on the left of the axis; negative: on the right, which is
         below for the axis (1, 0). axis, point, point_a, point_b: as in translational(). offset:
-        [m], default that of the design configuration.
+        [m], by default as in the design configuration.
         """
         return self._add(Joint, "planar_rack_and_pinion", locals())
 
@@ -270,7 +270,7 @@ class Adding:
         radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) = offset.
 
         radius_a, radius_b: [m]; a negative radius is a ring with internal teeth. carrier: default
-        ground. offset: [m], default that of the design configuration.
+        ground. offset: [m], by default as in the design configuration.
         """
         return self._add(Joint, "planar_gear", locals())
 
@@ -396,7 +396,7 @@ class Adding:
         """Add a spring and damper between two points, linear or by a law.
 
         point_a, point_b: in the axes of body_a and body_b [m]. stiffness: [N/m]. damping: [N s/m].
-        free_length: [m], default that of the design configuration. law(length, rate): tension [N]
+        free_length: [m], by default as in the design configuration. law(length, rate): tension [N]
         and its derivatives by length and rate; it has no potential energy. depends_on_velocity:
         False if the law does not read the rate, which "rattle" requires. user: what a compiled
         function receives.
@@ -418,7 +418,7 @@ class Adding:
     ) -> Force:
         """Add a torsion spring and damper on angle_b - angle_a, which counts whole revolutions.
 
-        stiffness: [N m/rad]. damping: [N m s/rad]. free_angle: [rad], default that of the design
+        stiffness: [N m/rad]. damping: [N m s/rad]. free_angle: [rad], by default as in the design
         configuration. law(angle, rate): restoring torque [N m] and its derivatives by angle and
         rate; it has no potential energy. depends_on_velocity, user: as in spring().
         """

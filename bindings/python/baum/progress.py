@@ -14,8 +14,8 @@ BAR = 20  # characters
 
 
 def stream() -> TextIO | None:
-    """Where progress is shown: standard output of a notebook, standard error of a terminal; None
-    elsewhere."""
+    """The stream that shows progress: standard output in a notebook, standard error in a terminal,
+    otherwise None."""
     ipython: Any = sys.modules.get("IPython")
     shell = ipython and ipython.get_ipython()
     if shell is not None and hasattr(shell, "kernel"):

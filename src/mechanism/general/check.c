@@ -187,7 +187,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Entries of a field in the places of their derivatives, so that messages name the derivative. */
+/* A field whose entries are put in the places of their derivatives, so that messages name the
+ * derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

@@ -51,7 +51,7 @@ const baum_i_joint *baum_i_driven_by(const baum_mechanism *mechanism, const void
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                    const baum_i_rows *out);
 
-/* Check of the joint alone. */
+/* Check only that the joint has a coordinate. */
 baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
