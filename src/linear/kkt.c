@@ -33,6 +33,8 @@ static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* Below this even LU with pivots chosen for accuracy is useless. */
 static const double least_rcond = 1e-15;
+/* Below this a pivot may be only a rounding error: those of dependent rows are up to 3e-15. */
+static const double rounding_rcond = 1e-14;
 /* Largest contradiction between dependent rows, relative to the right-hand side. */
 static const double contradiction = 1e-8;
 
@@ -302,6 +304,26 @@ static bool is_nearly_met(const baum_i_kkt *kkt)
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
 }
 
+/* Tells whether LU has divided a contradiction by rounding, which no residual shows: accelerations
+ * are then as large as such a pivot makes them. Next to a singular configuration, where rows agree,
+ * multipliers are large, too, but accelerations are not. */
+static bool is_divided_by_rounding(const baum_i_kkt *kkt)
+{
+  double rcond = present_rcond(kkt);
+  double acceleration = 0.0;
+  double side = 0.0;
+  if (!kkt->present->ops->keeps_pivots || rcond >= rounding_rcond) {
+    return false;
+  }
+  for (int i = 0; i < kkt->n; i++) {
+    side = fmax(side, fabs(kkt->b[i] * kkt->scale[i]));
+  }
+  for (int i = 0; i < kkt->structure->nv; i++) {
+    acceleration = fmax(acceleration, fabs(kkt->x[i] / kkt->scale[i]));
+  }
+  return acceleration * rcond > contradiction * side;
+}
+
 /* Returns BAUM_ERR_SINGULAR if the residual stays large. */
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
@@ -312,7 +334,7 @@ static baum_status solve_refined(baum_i_kkt *kkt)
     done = is_at_rounding(kkt);
   }
   done = is_least_squares(kkt) ? is_nearly_met(kkt) : done || is_at_noise(kkt);
-  return done ? BAUM_OK : BAUM_ERR_SINGULAR;
+  return done && !is_divided_by_rounding(kkt) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
 static baum_status solve_climbing(baum_i_kkt *kkt)

@@ -124,10 +124,11 @@ static void print(const scene *s, const char *verdict, const errors *e, const er
                own->reaction);
 }
 
-static spatial_verdict verdict_of(const errors *e, const errors *own)
+static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const errors *own)
 {
   if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
-    return SPATIAL_ACCELERATED;
+    /* which of two dependent rows is omitted makes a difference where they differ */
+    return e->acceleration <= rows->conflict / rows->kept ? SPATIAL_CONFLICT : SPATIAL_ACCELERATED;
   }
   if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
     return SPATIAL_REACTION;
@@ -140,8 +141,8 @@ static spatial_verdict verdict_of(const errors *e, const errors *own)
 static void count(scene *s, spatial_verdict verdict, const errors *e, const errors *own)
 {
   static const char *const names[SPATIAL_VERDICTS] = {
-    "met",       "refused", "off the constraints", "accelerations",
-    "reactions", "balance", "false alarm"};
+    "met",           "refused",   "conflict", "off the constraints",
+    "accelerations", "reactions", "balance",  "false alarm"};
   s->tally->counts[verdict]++;
   if (verdict > SPATIAL_REFUSED) {
     print(s, names[verdict], e, own);
@@ -181,10 +182,10 @@ static void look(scene *s)
     return;
   }
   spatial_verdict verdict = read_library(s, &e);
-  if (verdict == SPATIAL_MET && verdict_of(&e, &own) != SPATIAL_MET) {
+  if (verdict == SPATIAL_MET && verdict_of(&s->want.rows, &e, &own) != SPATIAL_MET) {
     own = sensitivity(s);
   }
-  verdict = verdict == SPATIAL_MET ? verdict_of(&e, &own) : verdict;
+  verdict = verdict == SPATIAL_MET ? verdict_of(&s->want.rows, &e, &own) : verdict;
   count(s, verdict, &e, &own);
   if (verdict == SPATIAL_MET && own.acceleration + own.reaction > 0.01 * SPATIAL_ERROR) {
     s->tally->ill_conditioned++;
@@ -238,7 +239,7 @@ void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally)
 long spatial_bad(const spatial_tally *tally)
 {
   long bad = 0;
-  for (int k = SPATIAL_OFF; k < SPATIAL_VERDICTS; k++) {
+  for (int k = SPATIAL_CONFLICT; k < SPATIAL_VERDICTS; k++) {
     bad += tally->counts[k];
   }
   return bad;

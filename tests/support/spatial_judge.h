@@ -6,8 +6,11 @@
 #include "random_spatial.h"
 
 typedef enum spatial_verdict {
-  SPATIAL_MET,         /* accelerations, reactions and balance within SPATIAL_ERROR */
-  SPATIAL_REFUSED,     /* and rightly: rows depend on each other, or nearly so */
+  SPATIAL_MET,     /* accelerations, reactions and balance within SPATIAL_ERROR */
+  SPATIAL_REFUSED, /* and rightly: rows depend on each other, or nearly so */
+  /* Rows contradict each other, so that the velocities are admitted to first order only:
+   * accelerated by the rows that were not omitted. */
+  SPATIAL_CONFLICT,
   SPATIAL_OFF,         /* a projected state does not fulfil the oracle's constraints */
   SPATIAL_ACCELERATED, /* accelerations are farther off */
   SPATIAL_REACTION,    /* reactions that are unique are farther off */
