@@ -36,7 +36,8 @@ typedef struct baum_event_def {
    *  for smaller ones: > 0 stops the call like < 0. Default: NULL, the coordinate of `joint`. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, in place of function. Default: none. */
-  double value;        /**< [rad or m] of the coordinate. Default: 0. */
+  /** [rad or m] of the coordinate; of an angle in space up to whole revolutions. Default: 0. */
+  double value;
   /** [-] 1: only rising in time, -1: only falling, 0: both. Default: 0. */
   int32_t direction;
   bool terminal;    /**< The call stops at the event with BAUM_STOP_EVENT. Default: true. */

@@ -291,6 +291,20 @@ class Joints(unittest.TestCase):
             else:
                 self.assertGreater(abs(before - after), 1e-3)
 
+    def test_an_event_passes_its_angle_once_in_a_revolution(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        m.spatial_body("wheel", angular_velocity=(0, 0, 1))
+        m.spatial_revolute("hinge", m.ground, "wheel", point=(0, 0, 0))
+        m.freeze()
+        for method, options in ("rk8", dict(rtol=1e-9)), ("rk4", dict(step=1e-2)):
+            for value in (0.0, 0.5, math.pi, -2.0, 7.0):
+                s = m.simulation(method, **options)
+                s.event("hinge", value, terminal=False)
+                s.advance_to(15)
+                expected = np.arange(value % (2 * np.pi) or 2 * np.pi, 15, 2 * np.pi)
+                np.testing.assert_allclose([t for t, _, _ in s.events], expected, atol=1e-8)
+                self.assertEqual({direction for _, _, direction in s.events}, {1})
+
 
 class Forces(unittest.TestCase):
     def test_a_spring_and_a_load_hold_a_particle(self):

@@ -74,14 +74,6 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
-/* An angle in space is known up to whole revolutions. */
-static double offset_of(const baum_i_joint *driven, double offset)
-{
-  static const double REVOLUTION = 6.283185307179586;
-  bool wraps = driven->type->is_angle && driven->type->width == BAUM_I_SPACE;
-  return wraps ? remainder(offset, REVOLUTION) : offset;
-}
-
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                    const baum_i_rows *out)
 {
@@ -93,7 +85,7 @@ baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *poin
   baum_i_coordinate c;
   driven->type->coordinate(driven, point, &c);
   if (out->phi) {
-    out->phi[joint->row] = offset_of(driven, c.value - s[0]);
+    out->phi[joint->row] = baum_i_coordinate_offset(driven, c.value - s[0]);
   }
   if (out->jacobian) {
     baum_i_columns_pack_any(point->mechanism, &joint->span, driven->type->width, 1, c.gradient,
