@@ -109,7 +109,8 @@ typedef struct baum_spatial_universal_def {
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be set. */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be set.
+   */
   double axis_b[3];
 } baum_spatial_universal_def;
 
