@@ -305,6 +305,20 @@ class Joints(unittest.TestCase):
                 np.testing.assert_allclose([t for t, _, _ in s.events], expected, atol=1e-8)
                 self.assertEqual({direction for _, _, direction in s.events}, {1})
 
+    def test_a_study_compares_angles_up_to_revolutions(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        m.spatial_body("wheel", angular_velocity=(0, 0, 1))
+        m.spatial_revolute("hinge", m.ground, "wheel", point=(0, 0, 0))
+        study = baum.study(
+            m.freeze(), 0, 2 * math.pi, samples=3, error=["hinge.coordinate"], progress=False
+        )
+        for step in (0.1, 0.03, 0.01):  # a sample is at pi
+            study.add("rk4", step=step)
+            study.add("euler", step=step)
+        errors = [entry.error for entry in study.run().entries]
+        self.assertEqual(len(errors), 6)
+        self.assertLess(max(errors), 1e-5)  # that of rk4 at 0.1 s
+
 
 class Forces(unittest.TestCase):
     def test_a_spring_and_a_load_hold_a_particle(self):
