@@ -15,15 +15,15 @@ extern "C" {
 /** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
  *  have a kink. At its break time a function must return the value after the break.
  *
- *  No step crosses a break, forward or backward in time. A step ends a few roundings before it, and
- *  the next begins at it. Methods that use past steps restart there (counters.restarts). A
+ * No step crosses a break, forward or backward in time. One step ends a few roundings before it,
+ * and the next begins at it. Methods that use past steps restart there (counters.restarts). A
  *  fixed-step method shortens the step before a break that is off its grid (counters.short_steps)
- *  and begins a new grid at the break. Outputs are where they would be without the break. A target
+ * and begins a new grid at the break. Breaks do not change the times of outputs. A target
  *  closer to a break than the rounding of time is moved to the break.
  *
  *  Positions and velocities stay continuous. A jump in the law of a driver is therefore a
- *  constraint violation, as with baum_simulation_set_driver(). Only kinematics takes the velocities
- *  of the law.
+ * constraint violation, as with baum_simulation_set_driver(). Only kinematics takes the new
+ * velocities from the law.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param[in] times      (count) [s] finite, in any order, in addition to earlier ones. Copied.
  *                        NULL if count is 0.
@@ -35,7 +35,7 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
 /** Read the break times.
  *  @param      mechanism  may be NULL
  *  @param[out] count      [-] their number. May be NULL.
- *  @return  (count) [s] rising, each once, owned by the mechanism; NULL if there are none */
+ * @return (count) [s] rising, without repetition, owned by the mechanism; NULL if there are none */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
 /** Schedule the values of an input: values[k] holds from times[k] to times[k + 1], and the last

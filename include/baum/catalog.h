@@ -37,7 +37,7 @@
 extern "C" {
 #endif
 
-/* ---- what there is --------------------------------------------------------------------------- */
+/* ---- entries --------------------------------------------------------------------------------- */
 
 /** A mechanism of the catalogue. */
 typedef struct baum_catalog_entry {
@@ -45,19 +45,19 @@ typedef struct baum_catalog_entry {
   const char *name;   /**< Such as "slider_crank". */
   const char *title;  /**< Name for people. */
   const char *source; /**< Where its data come from. */
-  /** How its reference was made and checked; "" without reference. */
+  /** How its reference was computed and checked; "" without reference. */
   const char *provenance;
   const char *note;        /**< What to know before running it; may be "". */
   int32_t parameter_count; /**< [-] see baum_catalog_parameter_at(). */
-  int32_t sample_count;    /**< [-] of the reference, including the start; 0: no reference. */
-  double start_time;       /**< [s] of the reference and of the problem. */
-  double end_time;         /**< [s] of the reference and of the problem. */
+  int32_t sample_count; /**< [-] samples of the reference, including the start; 0: no reference. */
+  double start_time;    /**< [s] of the reference and of the problem. */
+  double end_time;      /**< [s] of the reference and of the problem. */
   /** [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN without
    *  reference. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
   bool exact;      /**< The reference consists of formulas. */
-  bool smooth;     /**< With default parameters it stays away from singular configurations. */
+  bool smooth;     /**< With default parameters the motion avoids singular configurations. */
 } baum_catalog_entry;
 
 /** A parameter of a mechanism of the catalogue. */
@@ -155,19 +155,18 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
 
 /** Distance of states from the reference. Errors of positions are relative to the characteristic
  *  length of the mechanism; those of angles and user coordinates are in their own unit. Errors of
- *  velocities are scaled likewise and relative to the largest velocity of the reference. An error
- *  below its floor only means that it is below the floor, because the reference is not known
- *  better. */
+ * velocities are scaled likewise and relative to the largest velocity of the reference. The floor
+ * is the uncertainty of the reference: errors below it cannot be told apart. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
-  double q;           /**< [-] largest of positions over all times; NaN if a state is not finite. */
-  double v;           /**< [-] largest of velocities; NaN likewise, and if they were not given. */
-  double q_final;     /**< [-] of positions at the last time. */
-  double v_final;     /**< [-] of velocities at the last time. */
-  double q_time;      /**< [s] of the largest error of positions. */
-  double v_time;      /**< [s] of the largest error of velocities. */
-  double q_floor;     /**< [-] what the trusted digits mean for positions. */
-  double v_floor;     /**< [-] the same for velocities. */
+  double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */
+  double v; /**< [-] the same for velocities; NaN also if they are not given. */
+  double q_final; /**< [-] error of positions at the last time. */
+  double v_final; /**< [-] error of velocities at the last time. */
+  double q_time;  /**< [s] time of the largest error of positions. */
+  double v_time;  /**< [s] time of the largest error of velocities. */
+  double q_floor; /**< [-] uncertainty of the positions of the reference. */
+  double v_floor; /**< [-] the same for velocities. */
 } baum_catalog_error;
 
 /** Compare states with the reference.

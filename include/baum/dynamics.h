@@ -42,7 +42,7 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
-/** Change an input. Before, it has its initial value.
+/** Change an input. Until then it has its initial value.
  *  @param workspace  of the mechanism
  *  @param input      one of its inputs
  *  @param value      finite
@@ -132,10 +132,10 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
 /** Solve M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7) for accelerations and
  *  multipliers; alpha = beta = 0 gives (5).
  *
- *  Redundant rows are omitted from the solution. Multipliers that are not unique have the least
- *  norm, in rows scaled by M, that meets the constraints, and balance the forces to 1e-9. The
- *  choice of omitted rows changes if the remaining rows come close to dependent. This allocates,
- *  and the residual forms then omit the same rows.
+ * Redundant rows are omitted from the solution. Multipliers that are not unique are chosen with
+ * least norm, in rows scaled by M. They balance the forces to 1e-9. The
+ * choice of omitted rows changes if the remaining rows come close to dependent. This change
+ * allocates memory; the residual forms then omit the same rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
@@ -159,8 +159,9 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
 /** The equations that baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and the
  *  constraints below.
  *
- *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first by q' - N (v - W^-1 J^T mu), with as many
- *  additional unknowns mu, which are zero except for errors of the method. W is constant and
+ * GGL (Gear, Gupta, Leimkuhler 1985) replaces the first equation by q' - N (v - W^-1 J^T mu) and
+ * adds one unknown mu for each row. The mu are zero except for errors of the method. W is constant
+ * and
  *  diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk with M_kk s_k^2
  *  below a millionth of the largest are raised to that millionth over s_k^2, where s is the scale
  *  of a coordinate. */
@@ -187,7 +188,8 @@ typedef struct baum_sparse {
 } baum_sparse;
 
 /** Evaluate the residual F(t, y, y') of the differential-algebraic equations with y = (q, v,
- *  lambda); for GGL y = (q, v, lambda, mu). Redundant rows are replaced by lambda_i, and mu_i.
+ * lambda); for GGL y = (q, v, lambda, mu). Redundant rows are replaced by lambda_i = 0, and for GGL
+ * mu_i = 0.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
@@ -198,8 +200,8 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
                                              double *residual);
 
 /** Evaluate the Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only.
- *  To learn the number of entries, call it first with all arrays of `out` NULL. It allocates; do
- *  not use it in inner loops.
+ * To learn the number of entries, first call the function with all arrays of `out` NULL. It
+ * allocates memory, so do not use it in inner loops.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param      c            [1/s] finite
@@ -211,9 +213,9 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const double *y, const double *dy,
                                                       baum_sparse *out);
 
-/** Assemble: move q by the mass-weighted least change to Phi(q, t) = 0, and complete v. Each Newton
- *  step is the least. The sum is close to the least, too, unless J changes much over the move; then
- *  name in `held` the bodies that must stay.
+/** Assemble: move q by the least mass-weighted change that satisfies Phi(q, t) = 0, and complete v.
+ * Each Newton step is the least possible. Their sum is close to the least possible unless J changes
+ * much over the move. In that case name the bodies that must stay in `held`.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
  *  @param[in,out] v            (nv) finite entries are kept exactly; NaN entries follow from the

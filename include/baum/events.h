@@ -9,10 +9,11 @@
  *  steps from its start. The search is the same for every integrator. A function that passes zero
  *  twice between two evaluations goes unseen; reduce max_step or the step.
  *
- *  Zero at the start: an event that is zero at the start, after baum_simulation_set_state() or
- *  where a run reverses is not triggered by leaving zero, only by coming back. An event counts as
+ * Zero at the start: if an event is zero at the start, after baum_simulation_set_state() or where a
+ * run reverses, leaving zero does not trigger it; coming back does. An event counts as
  *  zero if it reaches zero within its tolerance or within 1e-10 T, where T is 1 over the rate that
- *  baum_simulation_explain() states. For IDA, which begins on the constraints, this is 10 rtol T.
+ * baum_simulation_explain() states. For IDA, which first moves the state onto the constraints, this
+ * is 10 rtol T.
  *  baum_simulation_set_input() and baum_simulation_set_driver() trigger nothing: a function that
  *  jumps there continues with its new sign.
  *
@@ -32,12 +33,12 @@ extern "C" {
 typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after steps and cannot ask
-   *  for smaller ones: > 0 stops the call like < 0. Default: NULL, the coordinate of `joint`. */
+  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after steps, so it cannot
+   * ask for smaller ones: > 0 stops the call, as < 0 does. Default: NULL, the coordinate of
+   * `joint`. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, in place of function. Default: none. */
-  /** [rad or m] of the coordinate; of an angle in space up to whole revolutions. Default: 0. */
-  double value;
+  double value;        /**< [rad or m] of the coordinate. Default: 0. */
   /** [-] 1: only rising in time, -1: only falling, 0: both. Default: 0. */
   int32_t direction;
   bool terminal;    /**< The call stops at the event with BAUM_STOP_EVENT. Default: true. */
@@ -56,8 +57,9 @@ static inline baum_event_def baum_event_def_default(void)
 }
 
 /** Add an event to a run, from the present state on. A run that stops at an event returns
- *  BAUM_STOP_EVENT and stands exactly at it; the next call continues. baum_simulation_sample() has
- *  then recorded the rows before the event. Events at the same time are all recorded before the run
+ * BAUM_STOP_EVENT and stands exactly at it; the next call continues. baum_simulation_sample() has
+ * then filled the rows of the times before the event. Events at the same time are all recorded
+ * before the run
  *  stops. An event at the end of a call belongs to that call.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
@@ -71,9 +73,9 @@ BAUM_API baum_status baum_simulation_add_event(baum_simulation *simulation,
 /** An event that has happened. */
 typedef struct baum_event_record {
   size_t struct_size; /**< Set by baum_simulation_event(). */
-  double t;           /**< [s] when; equal for events that cannot be separated in time. */
-  int32_t event;      /**< [-] its number from baum_simulation_add_event(). */
-  int32_t direction;  /**< [-] 1 rising in time, -1 falling. */
+  double t;      /**< [s] time of the event; equal for events that cannot be separated in time. */
+  int32_t event; /**< [-] number of the event, from baum_simulation_add_event(). */
+  int32_t direction; /**< [-] 1 rising in time, -1 falling. */
 } baum_event_record;
 
 /** Count the events that have happened since the run was created.

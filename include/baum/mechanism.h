@@ -10,8 +10,7 @@
  *    drivers, couplings or user constraints.
  *  - A *force* is anything else that acts on bodies.
  *
- *  A mechanism that is given wholly by functions is one body of user coordinates and one user
- *  constraint.
+ * A mechanism given by functions alone is one body of user coordinates and one user constraint.
  *
  *  Equations (Flores et al. 2008, equation numbers in brackets): constraints Phi(q, t) = 0 (1),
  *  their first derivative Phi' = J v - nu (3), their second derivative Phi'' = J a - gamma, zero by
@@ -29,8 +28,8 @@
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- *  baum_mechanism_set_K(). They promise the same for every kind; the functions of
- *  baum_coordinates_def say what.
+ * baum_mechanism_set_K(). They behave alike for every kind; their comments are at
+ * baum_coordinates_def.
  *
  *  Versions: fields are only ever appended to a struct. `struct_size` tells the library which
  *  fields a program knows. A program that was compiled with an older version passes a smaller
@@ -529,12 +528,12 @@ typedef struct baum_mobility {
   int32_t redundant_rows;
   int32_t conflicting_rows; /**< [-] rows that cannot be met together with the others. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
-  /** The initial configuration has fewer independent rows than its neighbours, or is within 1e-5 of
-   *  one that has, relative to the scales. */
+  /** The initial configuration is singular: J has a lower rank there than nearby. Also true within
+   * 1e-5 of such a configuration, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
-  char text[1024];           /**< The same as a message that names the elements. */
+  char text[1024];           /**< The same in words, with the names of the elements. */
 } baum_mobility;
 
 /** Count degrees of freedom, redundant and conflicting rows and free bodies, in the assembled
@@ -551,9 +550,9 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
  *  follow from the structure; user functions are not counted. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
-  int32_t bodies;     /**< [-] without ground. */
-  int32_t joints;     /**< [-] with drivers and user constraints. */
-  int32_t forces;     /**< [-] without gravity. */
+  int32_t bodies;     /**< [-] bodies without ground. */
+  int32_t joints;     /**< [-] joints, drivers and user constraints. */
+  int32_t forces;     /**< [-] forces without gravity. */
   int32_t velocities; /**< [-] nv. */
   int32_t rows;       /**< [-] nc. */
   /** [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
@@ -563,20 +562,20 @@ typedef struct baum_report {
   int32_t islands;        /**< [-] groups of bodies connected by joints, without fixed bodies. */
   /** [-] bodies welded to ground; solved for only if multipliers are wanted. */
   int32_t fixed_bodies;
-  bool constant_mass;       /**< All masses are constant and inverted once. */
-  bool constant_force;      /**< All forces are constant. */
-  bool blocks;              /**< Solved by blocks (BAUM_SOLVER_BLOCK), otherwise by KLU. */
-  int32_t nodes;            /**< [-] pairs of rows; 0 for KLU. */
-  int32_t couplings;        /**< [-] between nodes during elimination; 0 for KLU. */
-  int32_t fill;             /**< [-] couplings that elimination adds; 0 for KLU. */
-  int32_t most_couplings;   /**< [-] of one node; 0 for KLU. */
-  int32_t most_joints;      /**< [-] of one body that is not fixed. */
-  baum_body_id most_joined; /**< That body; none if there are no joints. */
-  char text[2048];          /**< The same as lines of text that name elements and reasons. */
+  bool constant_mass;     /**< All masses are constant, so they are inverted only once. */
+  bool constant_force;    /**< All forces are constant. */
+  bool blocks;            /**< Solved by blocks (BAUM_SOLVER_BLOCK), otherwise by KLU. */
+  int32_t nodes;          /**< [-] nodes of the block solver, which are pairs of rows; 0 for KLU. */
+  int32_t couplings;      /**< [-] couplings of nodes during elimination; 0 for KLU. */
+  int32_t fill;           /**< [-] couplings that elimination adds; 0 for KLU. */
+  int32_t most_couplings; /**< [-] largest number of couplings of a node; 0 for KLU. */
+  int32_t most_joints;    /**< [-] largest number of joints of a body that is not fixed. */
+  baum_body_id most_joined; /**< The body with most joints; none if there are no joints. */
+  char text[2048];          /**< The same in words, with the names of elements and the reasons. */
 } baum_report;
 
-/** Report what a mechanism costs, in the assembled initial configuration at t = 0, with the solver
- *  that a run chooses by default.
+/** Report what an evaluation costs, in the assembled initial configuration at t = 0 and with the
+ * solver that a run chooses by default.
  *  @param      mechanism    if it is not frozen, a frozen copy is examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
@@ -587,11 +586,11 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
 /** Compare the derivatives that user functions return (jacobian, nu, gamma, force_q, force_v, and
  *  those of laws and curves) with differences. Creating a simulation does this by default.
  *
- *  The check runs in the design configuration at t = 0 and in three configurations beside it at t =
- *  0, 0.37 and 1.3. An entry is wrong if it is off by more than 1e-6 of itself plus 1e-9 of its
- *  row. mass() must be symmetric, without negative numbers on its diagonal in the design
- *  configuration, and constant if constant_mass says so. Kinks raise no alarm, nor do
- *  configurations and times at which a function fails. If a function fails in all configurations,
+ * The check runs in the design configuration at t = 0 and in three configurations near it at t = 0,
+ * 0.37 and 1.3. An entry is wrong if its error exceeds 1e-6 of its own size plus 1e-9 of the size
+ * of its row. mass() must be symmetric, without negative numbers on its diagonal in the design
+ * configuration, and constant if constant_mass says so. The check accepts kinks, and skips
+ * configurations and times at which a function fails. If a function fails in all configurations,
  *  the check returns that failure, except for laws of drivers.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both

@@ -47,8 +47,8 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           explicit, with rtol or with a fixed step. Twelve evaluations per step, three more if
  *           the step is interpolated. Formulations as baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** Starts with Runge-Kutta steps, and again after baum_simulation_set_state(), _set_input() and
- *  _set_driver(), a reversal of time and a target off the grid.
+/** Starts with Runge-Kutta steps. It restarts with them after baum_simulation_set_state(),
+ * _set_input() and _set_driver(), after a reversal of time and after a target off the grid.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
  *           BAUMGARTE (best damping), UNSTABILIZED; its past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
@@ -66,20 +66,22 @@ BAUM_API const baum_integrator *baum_rattle(void);
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** Iterates by fixed point; with gains, by Newton on the part that the gains make stiff. High gains
- *  therefore do not limit the steps, but stiff forces do. CVODE projects only with BDF.
+/** Solves each step by fixed-point iteration, and with gains by Newton's method on the terms that
+ * the gains make stiff. High gains therefore do not limit the steps, but stiff forces do. CVODE
+ * projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** For stiff forces. Newton iteration with the true sparse Jacobian, including the derivatives of
  *  all joints and forces. PROJECTION projects inside each step, before the error test.
  *  @return  SUNDIALS CVODE, BDF, rtol. PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** INDEX3 exists for comparison: its error is far above its tolerance.
+/** INDEX3 exists for comparison only: its error is far above its tolerance.
  *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
  *           UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
-/** For mechanisms without degrees of freedom, whose drivers determine every coordinate by Phi(q, t)
- *  = 0; others are refused. It solves for configurations to rounding at the requested times, by
+/** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
+ * every coordinate; other mechanisms are refused. It solves for configurations to rounding at the
+ * requested times, by
  *  continuation along the branch of the initial configuration. It takes no formulation, gains,
  *  step, rtol or atol. If the mechanism locks or branches cross, the run stops with
  *  BAUM_ERR_SINGULAR; it never jumps to another branch.
@@ -109,7 +111,7 @@ BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrato
 
 /** Form of the equations of motion. */
 typedef enum baum_formulation {
-  BAUM_FORMULATION_DEFAULT = 0, /**< The first in the integrator's list. */
+  BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
   /** (5): J a = gamma; the constraint violation drifts. */
   BAUM_FORMULATION_UNSTABILIZED = 1,
   BAUM_FORMULATION_BAUMGARTE = 2,  /**< (7): J a = gamma - 2 alpha Phi' - beta^2 Phi. */
@@ -137,28 +139,28 @@ typedef enum baum_start {
   BAUM_START_ASSEMBLE = 0,
   /** Refuse a configuration or velocities that violate the constraints. */
   BAUM_START_EXACT = 1,
-  /** Take them as they are, with free velocities zero; only bodies welded to ground are moved to
-   *  where the welds hold them. */
+  /** Take both as they are, with free velocities zero. Only bodies welded to ground are moved, to
+   * where the welds hold them. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
 /** Solver of the equations of motion (7). baum_simulation_explain() states which one is used, and
  *  why. Assembly and the multipliers of redundant rows use KLU and QR in any case. */
 typedef enum baum_solver {
-  /** BLOCK if it suits the mechanism; KLU and QR where that cannot be trusted. */
+  /** BLOCK if it suits the mechanism; KLU and QR where BLOCK is not accurate. */
   BAUM_SOLVER_AUTO = 0,
   BAUM_SOLVER_KLU = 1, /**< Sparse LU of the whole system, refactored on a fixed pattern. */
   /** Sparse rank-revealing QR; slow. For comparison and singular configurations. */
   BAUM_SOLVER_QR = 2,
-  /** Schur complement in blocks of two rows, without a fallback. Refused for mechanisms it does not
-   *  suit: a body with more than about 50 joints, a dense net, or a mass matrix that is not
-   *  positive definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
+  /** Schur complement in blocks of two rows, without a fallback. It is refused if a body has more
+   * than about 50 joints, if the joints form a dense net, or if the mass matrix is not positive
+   * definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
-/** Called at intervals during a call that advances a run; each such call restarts the interval. It
- *  may read the run, also with baum_simulation_get(). Functions that change, advance or save the
- *  run fail there (BAUM_ERR_STATE), and destroying it does nothing.
+/** Called at intervals while a call advances a run. Each such call starts a new interval. It
+ * may read the run, also with baum_simulation_get(). Functions that change, advance or save the run
+ * fail inside it (BAUM_ERR_STATE), and destroying the run does nothing.
  *  @param simulation  the run
  *  @param t           [s] present time
  *  @param user        the option `user`
@@ -236,8 +238,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_UNSUPPORTED (integrator and formulation do not go together; not in this build;
- *           kinematics with degrees of freedom or with an energy account; no point of the gain rule
- *           for this method; a mechanism that RATTLE or blocks do not suit), BAUM_ERR_INCONSISTENT,
+ * kinematics for a mechanism with degrees of freedom, or with an energy account; the method has no
+ * gains by this rule; a mechanism that RATTLE or blocks do not suit), BAUM_ERR_INCONSISTENT,
  *           BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
  *           BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
@@ -272,9 +274,9 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
-/** Replace time and state; multistep methods restart. The state is treated as the option `start`
- *  says, unless it violates the constraints no more than the run already does. Such a state is
- *  taken as it is.
+/** Replace time and state; multistep methods restart. If the state violates the constraints no more
+ * than the run already does, it is taken as it is; otherwise the option `start` decides what
+ * happens.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -540,13 +542,14 @@ typedef struct baum_counters {
   int64_t rejected;   /**< [-] steps that failed an error test or an iteration. */
   /** [-] shorter steps of a fixed-step method to a target off its grid. */
   int64_t short_steps;
-  int64_t evaluations; /**< [-] of (7) or of the residual. */
-  /** [-] refactorizations of the matrix in (7), and of those of IDA and CVODE. */
+  /** [-] evaluations of the equations of motion, (7) or the residual of an implicit method. */
+  int64_t evaluations;
+  /** [-] factorizations of the matrix in (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
-  /** [-] of these, those that chose new pivots and may allocate. */
+  /** [-] the part of factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
-  int64_t nonlinear_iterations; /**< [-] of CVODE, IDA, kinematics. */
-  int64_t restarts;             /**< [-] of multistep and variable-step methods. */
+  int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
+  int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
   int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
   double wall;                  /**< [s] inside advance_to, step and sample. */
@@ -554,10 +557,10 @@ typedef struct baum_counters {
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  /** [m or rad] (alpha/beta^2) h max |gamma_i|, for both Eulers with stable gains of at least
-   *  0.1/h; NaN: not predicted. */
+  /** [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|. Only for both
+   * Eulers with stable gains of at least 0.1/h, otherwise NaN. */
   double predicted_phi;
-  double predicted_phi_rate; /**< [m/s or rad/s] (h/2) max |gamma_i|; NaN likewise. */
+  double predicted_phi_rate; /**< [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|. */
   /** [J] change of kinetic and potential energy since the start, including the work of drivers,
    *  inputs and dampers. */
   double energy_change;
@@ -565,26 +568,27 @@ typedef struct baum_counters {
   double start_change;
   double alpha; /**< [1/s] in use. */
   double beta;  /**< [1/s] in use. */
-  /** [-] factor by which a step multiplies a violation in the long run; NaN without BAUMGARTE and
-   *  with variable steps. */
+  /** [-] factor by which each step multiplies a violation in the long run. NaN without BAUMGARTE
+   * and with variable steps. */
   double spectral_radius;
-  /** [1/s] effective, -ln(spectral_radius) / h: alpha for small gains with alpha = beta; infinite
-   *  for dead-beat gains, negative if violations grow; NaN likewise. */
+  /** [1/s] decay rate of violations, -ln(spectral_radius) / h. It equals alpha for small gains with
+   * alpha = beta, is infinite for dead-beat gains and negative if violations grow. NaN if
+   * spectral_radius is. */
   double damping;
   int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
-  /** [-] of these, those after which the motion is or may be on another branch. */
+  /** [-] the part of these intervals after which the motion is or may be on another branch. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration, taken regardless of their error
    *  estimate. */
   int64_t forced_steps;
-  /** [J] of the energy account: energy that the method itself has added so far; NaN without the
-   *  option energy_account. */
+  /** [J] energy that the method itself has added so far, from the energy account. NaN without the
+   * option energy_account. */
   double energy_residual;
   int64_t doubts; /**< [-] kinds of warnings that doubt the motion. */
-  /** [-] largest estimated global error of the positions since the start, relative to the
-   *  characteristic length and to radians. 0 while the local errors of fixed steps are negligible.
-   *  NaN if unknown: with variable steps without the option error_check, or if the estimate would
-   *  cost more than the run. */
+  /** [-] largest estimated global error of the positions since the start: lengths relative to the
+   * characteristic length, angles in radians. It is 0 while the local errors of fixed steps are
+   * negligible. It is NaN with variable steps without the option error_check, and if the estimate
+   * would cost more than the run. */
   double error_estimate;
 } baum_counters;
 
@@ -599,33 +603,37 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
 /** Where the energy of a run came from since its start or the last baum_simulation_set_state();
  *  setting inputs and drivers does not reset it. Positive work adds energy to the mechanism.
  *
- *  The residual is an error of the method, of its order in the step or of the size of its
- *  tolerance. An evaluation that fails ends the account with a warning; works and residual are NaN
- *  from then on. The account does not change the motion.
+ * The residual is the energy error of the method. It falls with the step at the order of the
+ * method, or with the tolerance. If an evaluation fails, the account ends with a warning, and works
+ * and residual are NaN from then on. The account does not change the motion.
  *
- *  Cost, in additional evaluations of (7) or (5) per step: 3 with a fixed step, but 18 with dp5 and
- *  48 with rk8, which subdivide the step for the account; 4 with variable steps, 7 with rk8
- *  including its interpolant. BAUMGARTE adds 2 to 4. */
+ * The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
+ * 3, but 18 with dp5 and 48 with rk8, which subdivide the step for the account. With variable steps
+ * these are 4, or 7 with rk8 including its interpolant. BAUMGARTE adds 2 to 4. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
-  double kinetic;     /**< [J] v^T M v / 2 at present. */
-  /** [J] of gravity, linear springs, constant loads and user potentials. */
+  double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
+  /** [J] present potential energy of gravity, linear springs, constant loads and user
+   * potentials. */
   double potential;
-  double start; /**< [J] kinetic plus potential at the start. */
-  /** [J] of loads with an input or a torque, and of those that follow their body. */
+  double start; /**< [J] kinetic plus potential energy at the start. */
+  /** [J] work of loads with an input or a torque, and of loads that follow their body. */
   double loads;
-  double springs;     /**< [J] of springs with a user law. */
-  double dampers;     /**< [J] of the damping of linear springs. */
-  double user_forces; /**< [J] of user forces, without the change of their potential. */
-  /** [J] of the forces of user coordinates, without the change of their potential, plus v^T M' v /
-   *  2 of theirs; 0 if the force has the velocity terms of Lagrange's equations. */
+  double springs;     /**< [J] work of springs with a user law. */
+  double dampers;     /**< [J] work of the dampers of linear springs. */
+  double user_forces; /**< [J] work of user forces, without the change of their potential. */
+  /** [J] work of the forces of user coordinates, without the change of their potential, plus the
+   * integral of v^T M' v / 2. The velocity terms of Lagrange's equations add nothing to this
+   * sum. */
   double bodies;
-  double drivers;    /**< [J] -nu^T lambda: of drivers and other rows that depend on time. */
-  double violation;  /**< [J] -Phi'^T lambda: of rows with Phi' not 0. */
-  double projection; /**< [J] changes of kinetic and potential energy by projections. */
-  double gains;      /**< [J] work of the gains; a part of drivers and violation, do not add it. */
-  double residual;   /**< [J] kinetic + potential - start - all works except gains. */
-  int64_t evaluations; /**< [-] of (5) and (7) for the account; the counters exclude them. */
+  double drivers; /**< [J] work of drivers and other rows that depend on time, from -nu^T lambda. */
+  double violation;  /**< [J] work of violated constraints, from -Phi'^T lambda. */
+  double projection; /**< [J] change of kinetic and potential energy by projections. */
+  /** [J] work of the gains. It is part of drivers and violation, so do not add it. */
+  double gains;
+  double residual; /**< [J] kinetic + potential - start - all works except gains. */
+  /** [-] evaluations of (5) and (7) for the account, which the counters exclude. */
+  int64_t evaluations;
 } baum_energy_account;
 
 /** Read the energy account at the present state.
@@ -639,28 +647,29 @@ BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
 
 /** How a motion continues after a singular configuration, where branches of motion cross. */
 typedef enum baum_branch {
-  BAUM_BRANCH_CONTINUED = 1, /**< It continues smoothly. */
-  /** Its velocity has jumped: it is on another branch. Do not trust it. */
+  BAUM_BRANCH_CONTINUED = 1, /**< The motion continues smoothly. */
+  /** The velocity has jumped: the motion is on another branch. Do not trust it. */
   BAUM_BRANCH_LEFT = 2,
-  BAUM_BRANCH_UNKNOWN = 3 /**< The steps do not tell. */
+  BAUM_BRANCH_UNKNOWN = 3 /**< The steps do not allow a decision. */
 } baum_branch;
 
-/** An interval in which a run was near a singular configuration. The pivot is the smallest of the
- *  equations of motion relative to the largest of the run so far; it falls with the square of the
- *  distance from a singular configuration. The run lists an interval when it has left it, if the
- *  pivot was below 1e-3 or as small as the constraint violation makes it. */
+/** An interval in which a run was near a singular configuration. Its pivot is the smallest pivot of
+ * the equations of motion, relative to the largest such value of the run so far. It falls with the
+ * square of the distance from a singular configuration. The run lists an interval after leaving it,
+ * if the pivot was below 1e-3 or so small that the constraint violation explains it. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] last step before it. */
-  double end;         /**< [s] first step after it. */
+  double begin;       /**< [s] end of the last step before the interval. */
+  double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, also between steps. */
-  double pivot;       /**< [-] smallest pivot, relative to the usual one; also between steps. */
-  /** [-] difference of the velocity from the smooth continuation of the earlier motion, relative to
-   *  its size; NaN: unknown. */
+  /** [-] smallest pivot, relative to the largest of the run so far; also between steps. */
+  double pivot;
+  /** [-] difference between the velocity after the interval and the smooth continuation of the
+   * motion before it, relative to the size of the velocity. NaN: unknown. */
   double jump;
   double jump_error;   /**< [-] estimated error of jump; NaN: unknown. */
   baum_branch branch;  /**< How the motion continues. */
-  baum_joint_id joint; /**< With the smallest pivot; none if unknown. */
+  baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
 /** Read a near-singular interval. Runs of baum_kinematics() have none.
@@ -673,21 +682,21 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
                                                    baum_near_singular *out, size_t caller_size);
 
 /** Kinds of warnings. Kinds from 100 on doubt the motion: the result may be wrong by far more than
- *  its tolerance. The others tell what to know about a correct result. */
+ * its tolerance. The others are notes on a correct result. */
 typedef enum baum_warning_code {
-  BAUM_WARNING_REDUNDANT_ROWS = 1,      /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,               /**< The stability of the gains is not known. */
-  BAUM_WARNING_NOISY_DERIVATIVES = 3,   /**< rtol is below the error of differences. */
-  BAUM_WARNING_INDEX3 = 4,              /**< IDA at index 3: for comparison only. */
-  BAUM_WARNING_LOOSE_VELOCITIES = 5,    /**< Ill-conditioned rows leave velocities loose. */
-  BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
-  BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
+  BAUM_WARNING_REDUNDANT_ROWS = 1,    /**< Some multipliers are not unique. */
+  BAUM_WARNING_GAINS = 2,             /**< The stability of the gains is not known. */
+  BAUM_WARNING_NOISY_DERIVATIVES = 3, /**< rtol is below the error of differences. */
+  BAUM_WARNING_INDEX3 = 4,            /**< IDA at index 3: for comparison only. */
+  BAUM_WARNING_LOOSE_VELOCITIES = 5,  /**< Ill-conditioned rows hardly determine the velocities. */
+  BAUM_WARNING_ENERGY_ACCOUNT = 6,    /**< The energy account has ended. */
+  BAUM_WARNING_ILL_CONDITIONED = 7,   /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_BRANCH = 100,            /**< It may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,         /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102,     /**< Omitted rows no longer follow from the others. */
-  BAUM_WARNING_ACCURACY = 103,          /**< The estimated error of the motion is large. */
-  BAUM_WARNING_SINGULAR_START = 104     /**< Several motions may leave the initial configuration. */
+  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
+  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the others. */
+  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
+  BAUM_WARNING_SINGULAR_START = 104 /**< Several motions may leave the initial configuration. */
 } baum_warning_code;
 
 /** Name of a kind of warnings.
@@ -703,12 +712,12 @@ typedef struct baum_warning {
   baum_joint_id joint;    /**< Joint of the first one; all-zero: none. */
   double first;           /**< [s] time of the first one. */
   double last;            /**< [s] time of the last one. */
-  int64_t count;          /**< [-] how many there were. */
-  char text[400];         /**< Message of the first one, and how often it came. */
+  int64_t count;          /**< [-] number of warnings of this kind. */
+  char text[400];         /**< Message of the first one, and the count. */
 } baum_warning;
 
-/** Read the warnings of one kind. A run keeps one entry per kind, in the order in which they first
- *  came.
+/** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
+ * warnings.
  *  @param      simulation   the run
  *  @param      k            0 to counters.warnings - 1
  *  @param[out] out          filled

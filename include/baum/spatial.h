@@ -31,10 +31,11 @@ typedef struct baum_spatial_body_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double inertia[6];  /**< [kg m^2] about the centre of mass, body axes: xx, yy, zz, xy, xz, yz, the
-                        *   entries of the tensor with their sign (xy = - integral of x y dm).
-                        *   Positive definite, and no principal moment above the sum of the two
-                        *   others. Default: (1, 1, 1, 0, 0, 0). */
+  /** [kg m^2] about the centre of mass, body axes: xx, yy, zz, xy, xz, yz, the entries of the
+   *  tensor with their sign (xy = - integral of x y dm). No principal moment is negative or above
+   *  the sum of the two others. One may be 0, that of a slender rod: one below 1e-10 of the largest
+   *  is raised to that. Default: (1, 1, 1, 0, 0, 0). */
+  double inertia[6];
   double position[3]; /**< [m] of the centre of mass, design configuration. Default: (0, 0, 0). */
   double orientation[4]; /**< [-] unit quaternion w, x, y, z, design configuration; its length may
                           *   be off by 1e-6. Default: (1, 0, 0, 0). */

@@ -55,8 +55,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
 /* ---- revolute joint -------------------------------------------------------------------------- */
 
 /** A hinge about an axis. Five rows: points coincide [m], axes are parallel [-]. Its coordinate is
- *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration,
- *  between -pi and pi. */
+ *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration. A
+ *  run counts its revolutions. Calls of a workspace give the angle between -pi and pi. */
 typedef struct baum_spatial_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -109,8 +109,8 @@ typedef struct baum_spatial_universal_def {
   double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be set.
-   */
+  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be
+   *  set. */
   double axis_b[3];
 } baum_spatial_universal_def;
 

@@ -36,32 +36,33 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero; fixed step only. */
-  /** alpha = beta in proportion to the angular velocity of the motion, limited. */
+  /** alpha = beta in proportion to the angular velocity of the motion, with an upper limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Least spectral radius; fixed step only. */
 } baum_gain_rule;
 
-/** A rule with its numbers, made by one of the functions below. All-zero is BAUM_GAINS_DEFAULT. */
+/** A rule with its numbers. One of the functions below makes it. All-zero is BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
 } baum_gains;
 
-/* Every rule: where it is stable, what violation it leaves, what it does to accuracy and cost.
- * Figures: a pendulum of 1 m released level, 1 s, h = 0.0025 s; more in
- * docs/theory/gain_rules.md. */
+/* The comment of each rule states where it is stable, which violation it leaves, and its effect on
+ * accuracy and cost. The figures are those of a pendulum of 1 m released level, over 1 s with h =
+ * 0.0025 s; docs/theory/gain_rules.md has more. */
 
-/** Gains as numbers. A fixed-step method is stable if (alpha h, beta^2 h^2) lies in its region, a
+/** Given gains. A fixed-step method is stable if (alpha h, beta^2 h^2) lies in its region, a
  *  variable-step method if alpha >= 0.618 beta. With alpha = beta a violation decays as exp(-alpha
- *  t). The steps keep adding violations: with Euler |Phi'| of about h |gamma| / 2 and |Phi| of
- *  about h |gamma| / alpha, with other methods of their order in h. The method keeps its order,
+ * t). The steps keep adding violations. With Euler these are |Phi'| of about h |gamma| / 2 and
+ * |Phi| of about h |gamma| / alpha; with other methods they fall with h at the order of the method.
+ * The method keeps its order,
  *  because the gains do not grow as h shrinks. Up to alpha h = 0.3 the gains cost nothing; beyond,
  *  the cost of an explicit variable-step method grows in proportion to alpha.
  *  @param alpha,beta  [1/s] >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
-/** Gains relative to the step. Stable in the region of the method. Both Eulers leave |Phi'| = h
+/** Gains relative to the step, stable in the region of the method. Both Eulers leave |Phi'| = h
  *  |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|. Runge-Kutta methods lose order as
  *  with baum_gains_deadbeat(), for the same reason.
  *  @param alpha_h   [-] alpha h >= 0
@@ -72,7 +73,7 @@ BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 /** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With
  *  explicit Euler the roots lie on the unit circle (marginal: violations stay), with semi-implicit
  *  Euler and AB2 to AB4 outside (refused). With RK2 these gains are dead-beat; with RK3 and RK4 the
- *  spectral radius is 0.47 and 0.37. Accuracy as with baum_gains_deadbeat().
+ * spectral radius is 0.47 and 0.37. The accuracy is that of baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
@@ -89,8 +90,9 @@ BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
  *  Eulers leave |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma| (semi-implicit: half of it).
  *
  *  Runge-Kutta methods lose their order, because the gains grow as the step shrinks: orders 2, 3,
- *  4, 5, 8 become 1, 2, 2, 3, 2, and errors are 800 times (RK2) to 4000 times (RK4) those without
- *  gains. The Eulers, of order 1, lose none. Fixed step only. Multistep methods have no such point
+ * 4, 5, 8 become 1, 2, 2, 3, 2, and errors are 800 times (RK2) to 4000 times (RK4) as large as
+ * without gains. The Eulers remain of order 1. Fixed step only. Multistep methods have no such
+ * point
  *  and refuse the rule.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_deadbeat(void);
@@ -98,7 +100,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
 /** Gains alpha = beta, constant during a run, in proportion to the mean angular velocity max(|v|/L,
  *  sqrt(|a|/L)) over the first radians of the motion. L is the characteristic length.
  *
- *  Factor with degrees of freedom left: 0.35 at a fixed step (RK2 0.05 to keep its order; the
+ * Factor on that angular velocity if degrees of freedom are left: 0.35 at a fixed step (RK2 0.05 to
+ * keep its order; the
  *  Eulers and Adams-Bashforth 0.2), 0.25 for CVODE and IDA, 0.1 for explicit variable-step methods,
  *  whose steps are longer. If drivers prescribe the whole motion: 0.6 at a fixed step, 2 at
  *  variable steps, 40 for CVODE and IDA, whose matrix contains the stiffness of the gains.
@@ -109,7 +112,7 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *
  *  The angular velocity comes from a pilot run of 5 steps and 14 evaluations when the run is
  *  created; the counters include it. With degrees of freedom left it is at least sqrt(g/L), at
- *  which gravity swings the mechanism. If the pilot run fails, the part before the failure counts.
+ * which gravity swings the mechanism. If the pilot run fails, its part before the failure is used.
  *  A mechanism at rest in equilibrium gets sqrt(g/L). Without gravity it gets alpha = 0.01/h, or 1
  *  1/s at variable steps, which only suits machines with time scales of seconds.
  *  docs/theory/gain_rules.md compares other factors.
@@ -119,8 +122,8 @@ BAUM_API baum_gains baum_gains_auto(void);
 /** The point of least spectral radius: the dead-beat point if the method has one, otherwise alpha =
  *  beta = 2/(3h) with radius 0.58 for AB2, and radius 0.69 for AB3 and 0.81 for AB4. It is the
  *  default for AB2 to AB4, whose violations it makes 10 to 100 times smaller than auto. AB2 to AB4
- *  keep their order, because they have no stages between steps; their errors are 1.3 (AB3) to 8
- *  times (AB2, AB4) those without gains. Other methods above order 1 lose order, see
+ * keep their order, because they have no stages between steps; their errors are 1.3 times (AB3) to
+ * 8 times (AB2, AB4) as large as without gains. Other methods above order 1 lose order, see
  *  baum_gains_deadbeat(). Fixed step only.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_best_damping(void);
@@ -141,8 +144,8 @@ typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
   baum_stability stability; /**< Class. */
   double spectral_radius;   /**< [-] largest |z|; NaN without a region. */
-  /** [-] for each of the two modes the largest root z, real and imaginary part; the larger mode
-   *  first. NaN without a region. */
+  /** [-] largest root z of each of the two modes, as real and imaginary part; the mode with the
+   * larger |z| comes first. NaN without a region. */
   double z[2][2];
   /** [-] 1 - spectral_radius, computed without cancellation: the fraction of the slowest violation
    *  that a step removes. Negative if violations grow; NaN without a region. */
@@ -160,7 +163,7 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
-/** State in words what holds for a method, also without a region.
+/** Describe the effect of gains with a method in words, also for a method without a region.
  *  @param integrator  may be NULL
  *  @return  static text of one or two messages; NULL for NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
@@ -168,8 +171,8 @@ BAUM_API const char *baum_stability_statement(const baum_integrator *integrator)
 /** Find the largest alpha h up to which alpha = damping_ratio x beta is stable.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
- *  @param[out] alpha_h        [-] the first instability from 0 on; 0 if small gains are unstable.
- *                             baum_stability_intervals() finds what follows.
+ * @param[out] alpha_h [-] the first instability from 0 on; 0 if small gains are unstable.
+ * baum_stability_intervals() finds stable intervals beyond it.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
@@ -195,8 +198,9 @@ BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
 BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrator,
                                                 double damping_ratio, double *alpha_h);
 
-/** Find the point of fastest decay with alpha h > 0: the dead-beat point if there is one; of
- *  several points the one of least gains. Takes tens of milliseconds for Adams-Bashforth methods.
+/** Find the point of fastest decay with alpha h > 0: the dead-beat point if there is one. If
+ * several points are equally good, it is the one with the smallest gains. Takes tens of
+ * milliseconds for Adams-Bashforth methods.
  *  @param      integrator        the method
  *  @param[out] alpha_h,beta2_h2  [-] the point
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */

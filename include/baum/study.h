@@ -16,9 +16,9 @@
  *
  *  Threads: one study is used by one thread at a time, except baum_study_cancel(). baum_study_run()
  *  uses as many threads as the options say and calls user functions, including those of the
- *  mechanism, from each of them. Meanwhile its progress function may cancel it and, with one
- *  thread, read it. Functions that change the study fail there with BAUM_ERR_STATE, and destroying
- *  it does nothing.
+ * mechanism, from each of them. The progress function may cancel the study and, with one thread,
+ * read it. Functions that change the study fail inside the progress function with BAUM_ERR_STATE,
+ * and destroying the study does nothing.
  *
  *  Texts are owned by the study. They are valid until the next call that changes it.
  */
@@ -56,7 +56,7 @@ BAUM_API void baum_study_destroy(baum_study *study);
 /** Called after each entry and during the reference, by one thread at a time, which may not be that
  *  of the caller.
  *  @param study  the study
- *  @param done   entries whose error is known plus entries whose time is known
+ * @param done number of known errors plus number of known times
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
@@ -70,15 +70,16 @@ typedef struct baum_study_options {
   int32_t samples;
   /** [-] 1 to 1024, for errors. Times are always measured one by one. Default: 1. */
   int32_t threads;
-  /** [-] 1 to 1e6, most runs to measure the time of an entry; long runs are repeated less.
+  /** [-] 1 to 1e6, largest number of runs that measure the time of an entry; long runs are repeated
+   * less often.
    *  Default: 5. */
   int32_t repeats;
-  /** [s] > 0 of CPU time, longest run of an entry; may be infinite. The reference may take a
+  /** [s] > 0, largest CPU time of a run; may be infinite. The reference may take a
    *  minute, or five times this limit. Default: 10. */
   double entry_limit;
-  /** [s] > 0 of wall time for one baum_study_run(); may be infinite. Default: infinity. */
+  /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
   double time_budget;
-  /** Measure the works of the stabilization, at the cost of baum_energy_account. Default: true. */
+  /** Measure the work of the stabilization, at the cost of baum_energy_account. Default: true. */
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
@@ -109,8 +110,8 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
 
 /* ---- settings -------------------------------------------------------------------------------- */
 
-/** Add one setting. A setting that cannot be run is found out by running it and stays as a refused
- *  entry.
+/** Add one setting. A setting is only checked when it runs; one that cannot run stays as a refused
+ * entry.
  *  @param     study    unchanged on failure
  *  @param[in] options  copied; start_time, progress and user are ignored
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
@@ -258,17 +259,17 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** The results of an entry: X(type, name, known, unit, meaning). The struct below, the study file,
  *  CSV, JSON and Python are generated from this list. Results marked DONE are known for entries
- *  that are done. Errors are the largest over all samples, `final` ones those at the last sample.
- *  They are never below the uncertainty of the reference. */
+ * that are done. Errors are the largest over all samples; names with `final` mean the error at the
+ * last sample. Errors are never below the uncertainty of the reference. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")         \
-  X(baum_status, status, ALWAYS, "", "of its run")                                              \
+  X(baum_status, status, ALWAYS, "", "status of its run")                                       \
   X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                 \
-  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so the errors are not either")  \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")     \
   X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")            \
   X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                         \
-  X(double, alpha, ALWAYS, "1/s", "of the gains in use; 0: none")                               \
-  X(double, beta, ALWAYS, "1/s", "of the gains in use; 0: none")                                \
+  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                  \
+  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                    \
   X(double, error, DONE, "1", "as defined by baum_study_set_error()")                           \
   X(double, error_final, DONE, "1", "error at the last sample")                                 \
   X(double, error_half, DONE, "1", "error over the first half of the samples")                  \
@@ -420,9 +421,9 @@ typedef struct baum_study_method {
   const baum_integrator *integrator; /**< Of its entries. */
   baum_formulation formulation;      /**< Of its entries. */
   baum_gains gains;                  /**< Of its entries. */
-  bool fixed_step;                   /**< Entries differ in step, not in rtol. */
+  bool fixed_step;                   /**< True if entries differ in step, false if in rtol. */
   int32_t entries;                   /**< [-] number of entries. */
-  int32_t usable;                    /**< [-] of these, those that are done and not `off`. */
+  int32_t usable;                    /**< [-] entries that are done and not `off`. */
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
   double slope;       /**< [-] d log error / d log step or rtol where errors fall; NaN: unknown. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN: unknown. */

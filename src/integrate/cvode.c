@@ -53,7 +53,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Build the system of Newton's iteration afresh each time: its derivatives cost about an evaluation.
+/* Rebuild the system of Newton's iteration each time: its derivatives cost about an evaluation.
  * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,

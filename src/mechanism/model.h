@@ -161,6 +161,9 @@ typedef struct baum_i_point {
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   baum_i_spatial_frame *spatial; /* likewise; NULL where nothing is spatial */
+  /* (joint_count, 2) angle and rate of spatial joints at angles[2 joint_count], a time: angles are
+   * the nearest to those that go on at these rates. */
+  double *angles;
   const double *inputs;          /* (input_count) present values; NULL while there are none */
   double *scratch;               /* (mechanism->scratch_size) for gathering and differences */
   bool retry;                    /* set when the last failure may vanish with a smaller step */

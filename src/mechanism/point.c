@@ -61,8 +61,11 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
   point->spatial = mechanism->spatial
                      ? baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial)
                      : NULL;
+  point->angles = mechanism->spatial
+                    ? baum_i_alloc(2 * (size_t)mechanism->joint_count + 1, sizeof *point->angles)
+                    : NULL;
   if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized) ||
-      (mechanism->spatial && !point->spatial)) {
+      (mechanism->spatial && (!point->spatial || !point->angles))) {
     return baum_i_fail_memory();
   }
   if (point->spatial) {
@@ -80,6 +83,7 @@ void baum_i_point_release(baum_i_point *point)
   baum_i_free(point->scratch);
   baum_i_free(point->normalized);
   baum_i_free(point->spatial);
+  baum_i_free(point->angles);
 }
 
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v)

@@ -22,6 +22,7 @@ static const double SAME_TIME = 1e-9;
 
 static void keep_trial(baum_simulation *run)
 {
+  baum_i_run_follow_angles(run, run->state.t, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
   if (run->account) {
@@ -152,6 +153,7 @@ static baum_status internal_step(baum_simulation *run)
   if (run->account) {
     baum_i_account_step(run);
   }
+  baum_i_run_follow_angles(run, run->ahead.t, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->counters.steps++;
   BAUM_I_TRY(baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v));

@@ -4,10 +4,10 @@
  * where all functions have their values from before, and the next one begins at b. Backward in time
  * a step ends at b and the next begins before it. Nothing moves in between. Methods with a history
  * restart there (restart.c). */
-
 #include <float.h>
 #include <math.h>
 
+#include "base/hot.h"
 #include "simulate/run.h"
 
 /* Size of the gap, relative to the largest time that the method computes with: times of stages must
@@ -29,8 +29,8 @@ static bool is_later(const baum_simulation *run, double t, double b)
 
 /* The next of `count` rising times on the way from t, which stand `stride` bytes apart; infinite
  * when there is none. */
-static double find_next(const baum_simulation *run, const void *times, size_t stride, int count,
-                        double t)
+BAUM_I_INLINE double find_next(const baum_simulation *run, const void *times, size_t stride,
+                               int count, double t)
 {
   const char *at = times;
   double found = -(double)INFINITY; /* the last that is not later than t */

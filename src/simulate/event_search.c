@@ -100,14 +100,10 @@ static baum_status value_at(baum_simulation *run, double t)
 
 /* ---- one event ---- */
 
-static const double HALF_REVOLUTION = 3.141592653589793;
-
 static bool has_passed(const baum_i_events *events, int k)
 {
-  const baum_i_event *event = &events->list[k];
-  const baum_i_event_mark *mark = &events->marks[k];
-  bool jumps = event->wraps && fabs(event->next - mark->value) > HALF_REVOLUTION;
-  return mark->side != 0 && baum_i_sign(event->next) != mark->side && !jumps;
+  int32_t side = events->marks[k].side;
+  return side != 0 && baum_i_sign(events->list[k].next) != side;
 }
 
 /* In time, whichever way the run goes. */

@@ -135,7 +135,7 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
     const baum_i_joint *joint = w->mechanism->joints[event->joint];
     baum_i_coordinate coordinate;
     joint->type->coordinate(joint, &w->point, &coordinate);
-    event->next = baum_i_coordinate_offset(joint, coordinate.value - def->value);
+    event->next = coordinate.value - def->value;
   } else {
     w->point.asking = true;
     answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
@@ -201,7 +201,6 @@ static baum_status begin_last(baum_simulation *run)
   baum_i_event *event = &events->list[k];
   const baum_mechanism *m = run->workspace->mechanism;
   event->joint = event->def.joint.index1 != 0 ? baum_i_joint_index(m, event->def.joint) : -1;
-  event->wraps = event->joint >= 0 && baum_i_coordinate_wraps(m->joints[event->joint]);
   baum_i_point_set(&run->workspace->point, run->state.t, run->state.q, run->state.v);
   baum_status status = evaluate_one(run, k, &run->state);
   if (status != BAUM_OK) {

@@ -21,7 +21,6 @@ typedef struct baum_i_event_mark {
 typedef struct baum_i_event {
   baum_event_def def; /* with a copy of its name */
   int joint;          /* of its coordinate, or -1 */
-  bool wraps;         /* jumps from pi to -pi, which passes nothing */
   double next;        /* value at the state evaluated last */
   double found;       /* time at which it passes zero in the stretch under way; NaN: does not */
 } baum_i_event;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What every part of a run uses: copy a state, make a workspace like the run's, warn (one entry per
  * kind), fail, finish. */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,6 +17,29 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
   to->t = from->t;
   memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
   memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
+}
+
+void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_state *state)
+{
+  static const double REVOLUTION = 6.283185307179586;
+  baum_i_point *point = &run->workspace->point;
+  const baum_mechanism *m = point->mechanism;
+  if (!point->angles) {
+    return;
+  }
+  baum_i_point_set(point, state->t, state->q, state->v);
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    if (joint->type->is_angle && joint->type->width == BAUM_I_SPACE) {
+      baum_i_coordinate c;
+      joint->type->coordinate(joint, point, &c);
+      double *angle = point->angles + 2 * (ptrdiff_t)k;
+      double expected = angle[0] + 0.5 * (angle[1] + c.rate) * (state->t - from);
+      angle[0] = expected + remainder(c.value - expected, REVOLUTION);
+      angle[1] = c.rate;
+    }
+  }
+  point->angles[2 * m->joint_count] = state->t;
 }
 
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own)

@@ -99,6 +99,10 @@ struct baum_simulation {
 /* Copy time, positions and velocities. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
+/* Count the revolutions of joints in space: angles go on from those that the workspace has of the
+ * time `from` to those at a state. */
+void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_state *state);
+
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
 {
   return baum_i_problem_has_fixed_step(&run->problem);

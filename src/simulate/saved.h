@@ -12,7 +12,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 10, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 11, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
 /* Parts that are read by name, in this order; the others are copied back as they are. */
 enum {

@@ -247,6 +247,7 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy)
 void baum_i_run_accept(baum_simulation *run, double energy)
 {
   baum_i_run_observe(run, run->trial.t, false);
+  baum_i_run_follow_angles(run, run->trial.t, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->start_energy = energy;

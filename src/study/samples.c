@@ -15,7 +15,6 @@
 
 #include "base/alloc.h"
 #include "dynamics/dynamics.h"
-#include "mechanism/general/coordinate.h"
 #include "study/study.h"
 
 baum_i_layout baum_i_study_layout(const baum_study *study)
@@ -145,35 +144,6 @@ static double of_energy(const double *got, const double *wanted, int energy)
   return distance(got[energy] + got[energy + 1], wanted[energy] + wanted[energy + 1]);
 }
 
-/* The value next to `wanted` that says the same: an angle in space is known up to whole revolutions.
- */
-static double nearest_of(const baum_mechanism *m, const baum_channel *channel, double got,
-                         double wanted)
-{
-  if (channel->quantity != BAUM_JOINT_COORDINATE) {
-    return got;
-  }
-  const baum_i_joint *joint = m->joints[baum_i_joint_index(m, channel->joint)];
-  return baum_i_coordinate_wraps(joint) ? wanted + baum_i_coordinate_offset(joint, got - wanted)
-                                        : got;
-}
-
-static double of_channels(const baum_study *study, const double *got, const double *wanted,
-                          int first)
-{
-  const baum_mechanism *m = study->mechanism;
-  double largest = (double)NAN;
-  for (int k = 0; k < study->channel_count; k++) {
-    const baum_channel *channel = &study->channels[k];
-    int end = first + baum_channels_width(m, channel, 1);
-    double nearest = nearest_of(m, channel, got[first], wanted[first]);
-    double begins = distance(nearest, wanted[first]) * study->reference.weight[first];
-    largest = fmax(largest, fmax(begins, largest_of(study, got, wanted, first + 1, end)));
-    first = end;
-  }
-  return largest;
-}
-
 static void keep_largest(double of[2], double value)
 {
   of[0] = fmax(of[0], value);
@@ -194,7 +164,8 @@ baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_sa
     keep_largest(d.v, largest_of(study, got, wanted, l.v, l.v + l.nv));
     keep_largest(d.lambda, largest_of(study, got, wanted, l.lambda, l.lambda + l.nc));
     keep_largest(d.energy, of_energy(got, wanted, l.energy));
-    keep_largest(d.error, l.user < l.width ? of_channels(study, got, wanted, l.user) : d.q[1]);
+    keep_largest(d.error,
+                 l.user < l.width ? largest_of(study, got, wanted, l.user, l.width) : d.q[1]);
     if (fabs(samples->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
       d.error[2] = d.error[0];
     }

@@ -108,6 +108,7 @@ static void tops_keep_the_order(void **state)
   (void)state;
   observe_all("heavy top with its Jacobian");
   observe_all("ball");
+  observe_all("spatial heavy top");
 }
 
 int main(void)

@@ -18,7 +18,7 @@ class Table(unittest.TestCase):
             ("baum_simulation_step: count is 0", "count is 0"),
             ("must be one such as baum_euler()", 'must be one such as "euler"'),
             ("such as baum_rk4 or baum_cvode_adams", 'such as "rk4" or "cvode_adams"'),
-            ("is none of baum_simulation_save()", "is none of save()"),
+            ("was not written by baum_simulation_save()", "was not written by save()"),
             ("baum_stability_best() has the point", "baum.stability_best() has the point"),
             ("make gains with baum_gains_fixed()", "make gains with baum.fixed()"),
             ("baum_catalog_times() gives those", "baum.catalog.times() gives those"),

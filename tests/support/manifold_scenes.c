@@ -14,6 +14,7 @@
 #include "manifold_bodies.h"
 #include "manifold_tops.h"
 #include "rotation.h"
+#include "spatial_scenes.h"
 
 enum { SIZE = MANIFOLD_SIZE };
 
@@ -433,6 +434,23 @@ const manifold_scene manifold_scenes[MANIFOLD_SCENES] = {
    true,
    {3, 1, 4}},
   {"ball", manifold_build_ball, NULL, NULL, manifold_solve_ball, 3, false, {3, 1, 4}},
+  {"spatial four-bar",
+   spatial_build_four_bar,
+   spatial_build_planar_four_bar,
+   spatial_translate_four_bar,
+   NULL,
+   1,
+   true,
+   {3, 3, 4},
+   3},
+  {"spatial heavy top",
+   manifold_build_spatial_top,
+   NULL,
+   NULL,
+   manifold_solve_heavy_top,
+   3,
+   true,
+   {3, 1, 4}},
   {"driven slider-crank", build_driven_crank, NULL, NULL, solve_driven_crank, 0, false, {2, 3, 2}},
 };
 

@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 9 /* nq, nv, nc */ };
+enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 11 /* nq, nv, nc */ };
 
 typedef struct manifold_scene {
   const char *name;
@@ -23,9 +23,10 @@ typedef struct manifold_scene {
   bool gyroscopic; /* forces depend on velocities */
   struct {
     int first; /* of q */
-    int count; /* one every four numbers */
+    int count; /* one every four numbers, of quaternions every seven */
     int length;
-  } units; /* parts of q of unit length */
+  } units;            /* parts of q of unit length */
+  int redundant_rows; /* 0 unless given */
 } manifold_scene;
 
 extern const manifold_scene manifold_scenes[MANIFOLD_SCENES];

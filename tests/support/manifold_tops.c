@@ -99,6 +99,28 @@ void manifold_build_given_top(baum_mechanism *mechanism)
   build_top(mechanism, &heavy_top, true);
 }
 
+void manifold_build_spatial_top(baum_mechanism *mechanism)
+{
+  baum_body_id id;
+  const top *of = &heavy_top;
+  baum_spatial_body_def body = baum_spatial_body_def_default();
+  baum_spatial_spherical_def joint = baum_spatial_spherical_def_default();
+  body.mass = of->body.mass;
+  memcpy(body.inertia, of->body.inertia, 3 * sizeof *body.inertia);
+  memcpy(body.orientation, of->p, sizeof of->p);
+  memcpy(body.angular_velocity, of->w, sizeof of->w);
+  rotate(of->p, of->point, body.position);
+  for (int i = 0; i < 3; i++) {
+    body.position[i] = -body.position[i];
+  }
+  check(baum_mechanism_add_spatial_body(mechanism, &body, &id));
+  joint.body_b = id;
+  memset(joint.point, 0, sizeof joint.point);
+  joint.body_a = BAUM_GROUND;
+  check(baum_mechanism_add_spatial_spherical(mechanism, &joint, NULL));
+  check(baum_mechanism_set_gravity(mechanism, 0.0, 0.0, -9.81));
+}
+
 void manifold_build_ball(baum_mechanism *mechanism)
 {
   build_top(mechanism, &ball, true);

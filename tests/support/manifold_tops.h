@@ -12,6 +12,8 @@ void manifold_solve_free_top(double t, double *q);
 void manifold_build_heavy_top(baum_mechanism *mechanism);
 void manifold_build_given_top(baum_mechanism *mechanism);
 void manifold_solve_heavy_top(double t, double *q);
+/* The heavy top as a spatial body on a spherical joint. */
+void manifold_build_spatial_top(baum_mechanism *mechanism);
 void manifold_build_ball(baum_mechanism *mechanism);
 void manifold_solve_ball(double t, double *q);
 

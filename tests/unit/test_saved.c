@@ -18,7 +18,7 @@
 static const struct {
   int version;
   uint64_t list;
-} VERSIONS[] = {{9, 0x448b4b059414f4fd}, {10, 0x448b4b059414f4fd}};
+} VERSIONS[] = {{9, 0x448b4b059414f4fd}, {10, 0x448b4b059414f4fd}, {11, 0x492d9d0abb55ace3}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 

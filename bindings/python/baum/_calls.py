@@ -2,9 +2,9 @@
 """How the C library is called: statuses, exceptions of callbacks, Ctrl-C, one thread at a time.
 
 Python handles signals in the main thread, between two of its instructions. A long call made there
-would delay Ctrl-C until its end, and in a call that comes back through callbacks KeyboardInterrupt
-could be raised where nothing can catch it. Such calls are therefore handed to a second thread,
-while the main thread waits where it can be interrupted. Calls from other threads are made directly.
+would delay Ctrl-C until its end, and if the call runs Python callbacks, KeyboardInterrupt could be
+raised where nothing can catch it. Such calls are therefore handed to a second thread, while the
+main thread waits where it can be interrupted. Calls from other threads are made directly.
 """
 
 from __future__ import annotations
@@ -33,12 +33,13 @@ STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 def raise_later(error: BaseException | None) -> None:
-    """Keep what a callback raised until the call that it stopped has returned."""
+    """Keep the exception of a callback until the call that it stopped has returned."""
     _here.error = error
 
 
 def make(function: Call, *arguments: Any) -> errors.Status:
-    """Call a function that returns a status; raise what a callback raised, or baum.Error below 0.
+    """Call a function that returns a status. Raise the exception of a callback, or baum.Error for a
+    status below 0.
 
     A call may succeed although a callback failed, for example where the library evaluates a
     mechanism at times that the run will not reach. The exception is then discarded.
@@ -82,8 +83,8 @@ class _Task:
         self._error: BaseException | None = None
 
     def claim(self) -> bool:
-        """Whether the caller is the first to ask: only the first may make the call or discard it.
-        Ctrl-C may strike before the call has reached the worker."""
+        """Whether the caller is the first to claim this call. Only the first may make or discard
+        it, because Ctrl-C may strike before the call has reached the worker."""
         me = object()
         return self._claims.setdefault("first", me) is me
 
@@ -147,8 +148,9 @@ def in_main_thread() -> bool:
 
 
 def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | None = None) -> Any:
-    """Call so that Ctrl-C works: it cancels, waits until the call returns, and is then raised. A
-    second Ctrl-C does not wait; what the call uses stays alive and busy until it returns."""
+    """Make a call that Ctrl-C can stop: KeyboardInterrupt cancels it, waits until it returns, and
+    is then raised. A second Ctrl-C does not wait; the objects that the call uses stay alive and
+    busy until it returns."""
     global _worker
     if not in_main_thread():
         return function(*arguments)
@@ -165,7 +167,7 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
 
 
 def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
-    """Ask a call to stop and wait until it has; a call that has not begun never begins."""
+    """Ask a call to stop and wait until it has stopped. A call that has not begun is discarded."""
     try:
         if task.claim():
             return
@@ -209,7 +211,7 @@ class Handle:
 
     @property
     def busy(self) -> bool:
-        """Whether a call uses it."""
+        """Whether a call is using the object."""
         return bool(self._users)
 
     @property
@@ -218,7 +220,7 @@ class Handle:
         return self._address is None
 
     def call(self, function: Call, *arguments: Any) -> errors.Status:
-        """make() with this object as the first argument."""
+        """Like make(), with this object as the first argument."""
         # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C
         # strikes.
         me = object()
@@ -231,7 +233,7 @@ class Handle:
                 del self._users["now"]
 
     def close(self) -> None:
-        """Destroy the object, unless that is done already."""
+        """Destroy the object unless it is already destroyed."""
         me = object()
         try:
             if self._users.setdefault("now", me) is not me:
@@ -253,13 +255,13 @@ class Handle:
 
 
 class Closing:
-    """An object that can be closed, also by `with`."""
+    """An object that close() or the end of a `with` block closes."""
 
     _owner: Handle
 
     def close(self) -> None:
-        """Free its memory and files at once instead of when Python collects it. Arrays and runs
-        that it has returned remain valid; other uses of it raise baum.Error."""
+        """Free memory and files of the object now, not only when Python collects it. Arrays and
+        runs that it has returned remain valid; any other use of it raises baum.Error."""
         self._owner.close()
 
     def __enter__(self: Self) -> Self:

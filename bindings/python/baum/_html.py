@@ -10,7 +10,7 @@ MOST = 30  # rows
 
 
 def table(caption: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """A table with escaped texts and at most MOST rows; numbers have four digits."""
+    """An HTML table of at most MOST rows. Texts are escaped; numbers have four digits."""
     rows = list(rows)
     lines = [_row("th", header), *(_row("td", row) for row in rows[:MOST])]
     if len(rows) > MOST:

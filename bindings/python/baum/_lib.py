@@ -26,7 +26,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 def _folders() -> Iterator[Path]:
-    """Where a library may lie beside this package: in it, in its environment, in the build tree."""
+    """Folders where the library may be: in this package, in its environment, in the build tree."""
     yield PACKAGE
     tree = PACKAGE.parents[2]
     if (tree / "include" / "baum" / "baum.h").exists():
@@ -67,7 +67,7 @@ def _open() -> tuple[ctypes.CDLL, str]:
 
 
 def _check_version(library: Any, path: str) -> str:
-    """Refuse a library of another interface: before 1.0 major and minor must agree."""
+    """Refuse a library with another interface: before 1.0, major and minor version must agree."""
     try:
         library.baum_version.restype = ctypes.c_char_p
         version: str = library.baum_version().decode()
@@ -82,7 +82,7 @@ def _check_version(library: Any, path: str) -> str:
 
 
 def _declare(library: ctypes.CDLL, path: str, prototypes: dict[str, tuple[Any, Any]]) -> None:
-    """Give every function its result and arguments."""
+    """Declare the result and argument types of every function."""
     for name, (result, arguments) in prototypes.items():
         try:
             function = getattr(library, name)
@@ -93,8 +93,8 @@ def _declare(library: ctypes.CDLL, path: str, prototypes: dict[str, tuple[Any, A
 
 
 def _check_structs(library: ctypes.CDLL, path: str) -> None:
-    """Compare the size of every definition with that of the library. One of the library may have
-    grown since: what the shorter one lacks has its default."""
+    """Compare the size of every definition with the size in the library. A definition of the
+    library may have grown since; the missing fields then have their defaults."""
     for struct, name in _abi.DEFAULTS.items():
         room = (ctypes.c_char * (4 * ctypes.sizeof(struct)))()
         getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))
@@ -120,12 +120,12 @@ def default(struct: type[Struct]) -> Struct:
 
 
 def text(value: bytes) -> str:
-    """A text of the library, in the names of this package."""
+    """A text of the library, with the names of this package."""
     return in_python(value.decode(errors="replace"))
 
 
 def open_catalog() -> ctypes.CDLL:
-    """The library of the catalogue, which lies beside this one."""
+    """The library of the catalogue, in the same folder as the main one."""
     folder, name = os.path.split(path)
     beside = os.path.join(folder, name.replace("baum", "baum_catalog", 1))
     try:

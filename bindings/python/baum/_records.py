@@ -18,11 +18,11 @@ class Mobility(NamedTuple):
     redundant_rows: [-] rows that depend on others at every nearby configuration.
     conflicting_rows: [-] rows that cannot be met together with the others.
     free_bodies: [-] bodies without a joint.
-    near_singular: The initial configuration has fewer independent rows than its neighbours, or
-        is within 1e-5 of one that has, relative to the scales.
+    near_singular: The initial configuration is singular: J has a lower rank there than nearby.
+        Also true within 1e-5 of such a configuration, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: Joint of worst_phi.
-    text: The same as a message that names the elements.
+    text: The same in words, with the names of the elements.
     """
 
     degrees_of_freedom: int
@@ -38,9 +38,9 @@ class Mobility(NamedTuple):
 class Report(NamedTuple):
     """What an evaluation of the accelerations costs, and which work it skips.
 
-    bodies: [-] without ground.
-    joints: [-] with drivers and user constraints.
-    forces: [-] without gravity.
+    bodies: [-] bodies without ground.
+    joints: [-] joints, drivers and user constraints.
+    forces: [-] forces without gravity.
     velocities: [-] nv.
     rows: [-] nc.
     degrees_of_freedom: [-] nv - rank of J; -1: not known, see mobility().
@@ -48,16 +48,16 @@ class Report(NamedTuple):
     constant_rows: [-] rows that do not depend on time.
     islands: [-] groups of bodies connected by joints, without fixed bodies.
     fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are wanted.
-    constant_mass: All masses are constant and inverted once.
+    constant_mass: All masses are constant, so they are inverted only once.
     constant_force: All forces are constant.
     blocks: Solved by blocks ("block"), otherwise by KLU.
-    nodes: [-] pairs of rows; 0 for KLU.
-    couplings: [-] between nodes during elimination; 0 for KLU.
+    nodes: [-] nodes of the block solver, which are pairs of rows; 0 for KLU.
+    couplings: [-] couplings of nodes during elimination; 0 for KLU.
     fill: [-] couplings that elimination adds; 0 for KLU.
-    most_couplings: [-] of one node; 0 for KLU.
-    most_joints: [-] of one body that is not fixed.
-    most_joined: That body; none if there are no joints.
-    text: The same as lines of text that name elements and reasons.
+    most_couplings: [-] largest number of couplings of a node; 0 for KLU.
+    most_joints: [-] largest number of joints of a body that is not fixed.
+    most_joined: The body with most joints; none if there are no joints.
+    text: The same in words, with the names of elements and the reasons.
     """
 
     bodies: int
@@ -89,11 +89,14 @@ class Counters(NamedTuple):
     steps: [-] accepted.
     rejected: [-] steps that failed an error test or an iteration.
     short_steps: [-] shorter steps of a fixed-step method to a target off its grid.
-    evaluations: [-] of (7) or of the residual.
-    factorizations: [-] refactorizations of the matrix in (7), and of those of IDA and CVODE.
-    full_factorizations: [-] of these, those that chose new pivots and may allocate.
-    nonlinear_iterations: [-] of CVODE, IDA, kinematics.
-    restarts: [-] of multistep and variable-step methods.
+    evaluations: [-] evaluations of the equations of motion, (7) or the residual of an implicit
+        method.
+    factorizations: [-] factorizations of the matrix in (7) and of the matrices of IDA and
+        CVODE.
+    full_factorizations: [-] the part of factorizations that chose new pivots, which may
+        allocate memory.
+    nonlinear_iterations: [-] iterations of CVODE, IDA and kinematics.
+    restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
     warnings: [-] kinds of warnings, see warnings.
     wall: [s] inside advance_to, step and sample.
@@ -101,29 +104,31 @@ class Counters(NamedTuple):
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
     max_phi_joint: Joint of max_phi.
     max_phi_rate_joint: Joint of max_phi_rate.
-    predicted_phi: [m or rad] (alpha/beta^2) h max |gamma_i|, for both Eulers with stable gains
-        of at least 0.1/h; NaN: not predicted.
-    predicted_phi_rate: [m/s or rad/s] (h/2) max |gamma_i|; NaN likewise.
+    predicted_phi: [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|.
+        Only for both Eulers with stable gains of at least 0.1/h, otherwise NaN.
+    predicted_phi_rate: [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|.
     energy_change: [J] change of kinetic and potential energy since the start, including the
         work of drivers, inputs and dampers.
     start_change: [-] largest displacement of the last assembly, relative to the scales.
     alpha: [1/s] in use.
     beta: [1/s] in use.
-    spectral_radius: [-] factor by which a step multiplies a violation in the long run; NaN
+    spectral_radius: [-] factor by which each step multiplies a violation in the long run. NaN
         without "baumgarte" and with variable steps.
-    damping: [1/s] effective, -ln(spectral_radius) / h: alpha for small gains with alpha = beta;
-        infinite for dead-beat gains, negative if violations grow; NaN likewise.
+    damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. It equals alpha for small
+        gains with alpha = beta, is infinite for dead-beat gains and negative if violations
+        grow. NaN if spectral_radius is.
     near_singular_intervals: [-] see near_singular.
-    branch_warnings: [-] of these, those after which the motion is or may be on another branch.
+    branch_warnings: [-] the part of these intervals after which the motion is or may be on
+        another branch.
     forced_steps: [-] steps of rk8 and dp5 across a singular configuration, taken regardless of
         their error estimate.
-    energy_residual: [J] of the energy account: energy that the method itself has added so far;
-        NaN without the option energy_account.
+    energy_residual: [J] energy that the method itself has added so far, from the energy
+        account. NaN without the option energy_account.
     doubts: [-] kinds of warnings that doubt the motion.
-    error_estimate: [-] largest estimated global error of the positions since the start,
-        relative to the characteristic length and to radians. 0 while the local errors of fixed
-        steps are negligible. NaN if unknown: with variable steps without the option
-        error_check, or if the estimate would cost more than the run.
+    error_estimate: [-] largest estimated global error of the positions since the start: lengths
+        relative to the characteristic length, angles in radians. It is 0 while the local errors
+        of fixed steps are negligible. It is NaN with variable steps without the option
+        error_check, and if the estimate would cost more than the run.
     """
 
     steps: int
@@ -160,21 +165,23 @@ class Counters(NamedTuple):
 class EnergyAccount(NamedTuple):
     """Where the energy of a run has come from.
 
-    kinetic: [J] v^T M v / 2 at present.
-    potential: [J] of gravity, linear springs, constant loads and user potentials.
-    start: [J] kinetic plus potential at the start.
-    loads: [J] of loads with an input or a torque, and of those that follow their body.
-    springs: [J] of springs with a user law.
-    dampers: [J] of the damping of linear springs.
-    user_forces: [J] of user forces, without the change of their potential.
-    bodies: [J] of the forces of user coordinates, without the change of their potential, plus
-        v^T M' v / 2 of theirs; 0 if the force has the velocity terms of Lagrange's equations.
-    drivers: [J] -nu^T lambda: of drivers and other rows that depend on time.
-    violation: [J] -Phi'^T lambda: of rows with Phi' not 0.
-    projection: [J] changes of kinetic and potential energy by projections.
-    gains: [J] work of the gains; a part of drivers and violation, do not add it.
+    kinetic: [J] present kinetic energy v^T M v / 2.
+    potential: [J] present potential energy of gravity, linear springs, constant loads and user
+        potentials.
+    start: [J] kinetic plus potential energy at the start.
+    loads: [J] work of loads with an input or a torque, and of loads that follow their body.
+    springs: [J] work of springs with a user law.
+    dampers: [J] work of the dampers of linear springs.
+    user_forces: [J] work of user forces, without the change of their potential.
+    bodies: [J] work of the forces of user coordinates, without the change of their potential,
+        plus the integral of v^T M' v / 2. The velocity terms of Lagrange's equations add
+        nothing to this sum.
+    drivers: [J] work of drivers and other rows that depend on time, from -nu^T lambda.
+    violation: [J] work of violated constraints, from -Phi'^T lambda.
+    projection: [J] change of kinetic and potential energy by projections.
+    gains: [J] work of the gains. It is part of drivers and violation, so do not add it.
     residual: [J] kinetic + potential - start - all works except gains.
-    evaluations: [-] of (5) and (7) for the account; the counters exclude them.
+    evaluations: [-] evaluations of (5) and (7) for the account, which the counters exclude.
     """
 
     kinetic: float
@@ -197,15 +204,15 @@ class NearSingular(NamedTuple):
     """An interval in which a run was near a singular configuration. branch is "continued", "left"
     or "unknown". The joint is a handle or None, and a name after unpickling.
 
-    begin: [s] last step before it.
-    end: [s] first step after it.
+    begin: [s] end of the last step before the interval.
+    end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, also between steps.
-    pivot: [-] smallest pivot, relative to the usual one; also between steps.
-    jump: [-] difference of the velocity from the smooth continuation of the earlier motion,
-        relative to its size; NaN: unknown.
+    pivot: [-] smallest pivot, relative to the largest of the run so far; also between steps.
+    jump: [-] difference between the velocity after the interval and the smooth continuation of
+        the motion before it, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
     branch: How the motion continues.
-    joint: With the smallest pivot; none if unknown.
+    joint: Joint whose rows have the smallest pivot; none if unknown.
     """
 
     begin: float
@@ -230,13 +237,13 @@ class StudyEntry(NamedTuple):
     rtol: [-] NaN for entries with a step.
     method: [-] see methods.
     state: done, refused, failed, timed_out or waiting
-    status: of its run
+    status: status of its run
     at_floor: error is at the uncertainty of the reference
-    untrusted: the reference is not trusted, so the errors are not either
+    untrusted: the reference is not trusted, so neither are the errors
     off: another motion: error_q above 0.1, or a branch warning
     unstable: its gains do not damp with this step
-    alpha: [1/s] of the gains in use; 0: none
-    beta: [1/s] of the gains in use; 0: none
+    alpha: [1/s] alpha in use; 0: no gains
+    beta: [1/s] beta in use; 0: no gains
     error: [-] as defined by error
     error_final: [-] error at the last sample
     error_half: [-] error over the first half of the samples
@@ -328,9 +335,9 @@ class StudyMethod(NamedTuple):
     integrator: Of its entries.
     formulation: Of its entries.
     gains: Of its entries.
-    fixed_step: Entries differ in step, not in rtol.
+    fixed_step: True if entries differ in step, false if in rtol.
     entries: [-] number of entries.
-    usable: [-] of these, those that are done and not `off`.
+    usable: [-] entries that are done and not `off`.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
     slope: [-] d log error / d log step or rtol where errors fall; NaN: unknown.
     work_per_digit: [-] factor on work for one more digit; NaN: unknown.
@@ -406,17 +413,17 @@ class CatalogEntry(NamedTuple):
     name: Such as "slider_crank".
     title: Name for people.
     source: Where its data come from.
-    provenance: How its reference was made and checked; "" without reference.
+    provenance: How its reference was computed and checked; "" without reference.
     note: What to know before running it; may be "".
     parameter_count: [-] see baum.catalog.parameter_at().
-    sample_count: [-] of the reference, including the start; 0: no reference.
+    sample_count: [-] samples of the reference, including the start; 0: no reference.
     start_time: [s] of the reference and of the problem.
     end_time: [s] of the reference and of the problem.
     digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN
         without reference.
     digits_v: [-] the same for velocities.
     exact: The reference consists of formulas.
-    smooth: With default parameters it stays away from singular configurations.
+    smooth: With default parameters the motion avoids singular configurations.
     parameters: Its parameters by name.
     """
 
@@ -439,13 +446,13 @@ class CatalogEntry(NamedTuple):
 class CatalogError(NamedTuple):
     """How far a run is from the reference of the catalogue.
 
-    q: [-] largest of positions over all times; NaN if a state is not finite.
-    v: [-] largest of velocities; NaN likewise, and if they were not given.
-    q_final: [-] of positions at the last time.
-    v_final: [-] of velocities at the last time.
-    q_time: [s] of the largest error of positions.
-    v_time: [s] of the largest error of velocities.
-    q_floor: [-] what the trusted digits mean for positions.
+    q: [-] largest error of positions over all times; NaN if a state is not finite.
+    v: [-] the same for velocities; NaN also if they are not given.
+    q_final: [-] error of positions at the last time.
+    v_final: [-] error of velocities at the last time.
+    q_time: [s] time of the largest error of positions.
+    v_time: [s] time of the largest error of velocities.
+    q_floor: [-] uncertainty of the positions of the reference.
     v_floor: [-] the same for velocities.
     """
 

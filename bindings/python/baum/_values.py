@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers, points and arrays on their way to the library and back: checked here, so that messages
-name them."""
+"""Converts numbers, points and arrays to the library's types and back. They are checked here, so
+that messages can name them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def integer(value: Any, label: str, bits: int = 32) -> int:
 
 
 def truth(value: Any, label: str) -> bool:
-    """A bool, or 0 or 1. Text is refused, because "no" would be true."""
+    """A bool, from a bool, 0 or 1. Text is refused, because "no" would be true."""
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)

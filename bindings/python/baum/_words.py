@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts of the library in the names of this package: the one place where C becomes Python."""
+"""Rewrites messages of the library with the names of this package. No other module does so."""
 
 from __future__ import annotations
 
@@ -51,7 +51,8 @@ _RULES = [(re.compile(pattern), instead) for pattern, instead in TABLE]
 
 
 def in_python(text: str) -> str:
-    """A text of the library without names of C; what stands in quotes, such as names, is kept."""
+    """A text of the library with Python's names in place of C's. Quoted parts, such as names of
+    elements, stay as they are."""
     parts = re.split(r'("[^"]*")', text)
     for pattern, instead in _RULES:
         parts[::2] = [pattern.sub(instead, part) for part in parts[::2]]

@@ -37,7 +37,7 @@ class Adding:
     """The methods of a Mechanism that add an element.
 
     Each method returns a handle. name: a label for messages and lookups; None numbers the element,
-    for example "body1". Arguments that are None have the default that the method describes. Bodies,
+    for example "body1". An argument that is None has the default that the method describes. Bodies,
     joints and inputs are given as handles or names.
 
     Errors: TypeError for values of a wrong type, ValueError for wrong sizes and names that are
@@ -174,8 +174,8 @@ class Adding:
 
         Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
         ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
-        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. angle: the value of
-        angle_b - angle_a that is kept [rad], default that of the design configuration.
+        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. angle: the constant
+        value of angle_b - angle_a [rad], by default taken from the design configuration.
         """
         return self._add(Joint, "planar_translational", locals())
 
@@ -289,9 +289,9 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. One row.
 
         curve(xy): F [m], F_x, F_y, F_xx, F_xy, F_yy at x and y [m] from body_a's point, in the axes
-        of body_a. F with a gradient of about 1 near the curve behaves best. point: in ground axes
-        in the design configuration [m]; or point_a, point_b: in the axes of the bodies [m]. user:
-        what a compiled function receives.
+        of body_a. Choose F with a gradient of about 1 near the curve, so that tolerances keep their
+        meaning. point: in ground axes in the design configuration [m]; or point_a, point_b: in the
+        axes of the bodies [m]. user: what a compiled function receives.
         """
         return self._add(Joint, "planar_curve", locals())
 
@@ -308,9 +308,9 @@ class Adding:
     ) -> Joint:
         """Couple the coordinates a and b of two joints. One row: b = ratio a + offset, or b = f(a).
 
-        ratio: unit of b per unit of a. offset: [rad] or [m] as b, default that of the design
-        configuration. law(a): f, its first and its second derivative, for example of a cam. user:
-        what a compiled function receives.
+        ratio: unit of b per unit of a. offset: in the unit of b, [rad] or [m], by default taken
+        from the design configuration. law(a): f, its first and its second derivative, for example
+        of a cam. user: what a compiled function receives.
         """
         return self._add(Joint, "coupling", locals())
 
@@ -471,8 +471,8 @@ class Adding:
     def input(self, name: str | None = None, initial: Scalar = 0.0) -> Input:
         """Add an input: a number that acts from outside, such as the torque of a motor.
 
-        Loads and force functions name it. Every run and workspace starts with the value `initial`
-        and holds it until set_input() is called there.
+        Loads and force functions refer to it. Every run and workspace starts with the value
+        `initial` and holds it until set_input() is called there.
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')
@@ -485,7 +485,7 @@ class Adding:
     # ---- how -------------------------------------------------------------------------------------
 
     def _add(self, made: type[Added], kind_name: str, given: dict[str, Any]) -> Added:
-        """Add an element; given: the arguments of a method above, by name."""
+        """Add an element. given: the arguments of one of the methods above, by name."""
         kind = KINDS[kind_name]
         fields = {field: value for field, value in given.items() if field != "self"}
         name = fields["name"] = self._new_name(fields["name"], kind.family)

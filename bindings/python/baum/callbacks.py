@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions of the user in the form that the library calls.
+"""Wraps functions of the user so that the library can call them.
 
 A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
-value. It is wrapped in a shell that the library can call. The shell passes q and v as read-only
+value. A shell around it has the form that the library calls. The shell passes q and v as read-only
 arrays, checks the returned value and writes it to the library's memory, and keeps an exception
 until the call that it stopped has returned. q and v are valid during the call only. A force
 function that names inputs receives their present values after v, as floats.
@@ -37,9 +37,8 @@ Write = Callable[[int, Any], None]
 
 
 class _Views(dict[int, Array]):
-    """Arrays on memory of the library, by address. The library uses few addresses, so an array,
-    which is expensive to make, is rarely made. An array is only a window on memory, so it can be
-    used again for the same address."""
+    """Arrays that share memory with the library, by address. Creating an array is expensive. The
+    library uses few addresses, and an array of the same address can be used again."""
 
     def __init__(self, shape: Shape, writeable: bool) -> None:
         super().__init__()
@@ -78,7 +77,8 @@ def _checked(value: Any, shape: Shape, label: str) -> Array:
 
 
 def _writer(shape: Shape, label: str) -> Write:
-    """A function that writes a returned value to an address, quickly if it has the right type."""
+    """A function that writes a returned value to an address. It has a fast path for values of the
+    right type."""
     views = _Views(shape, writeable=True)
     single = int(np.prod(shape)) == 1
     first = (0,) * len(shape)
@@ -134,7 +134,7 @@ def _shell_force(function: Function, write: Write, nq: int, nv: int) -> Shell:
 
 
 def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
-    """A maker of shells for functions that take the inputs at these places after v."""
+    """A function that makes shells for functions that take these inputs after v."""
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
@@ -249,7 +249,7 @@ def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shel
 
 
 def _answer_nan(error: BaseException, out: int, count: int) -> None:
-    """Report an exception of a function without a status: the library stops at NaN."""
+    """Report an exception of a function that returns no status: NaN stops the library."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):
@@ -301,8 +301,8 @@ def wrap(
     """A function pointer of type `kind` for a Python function or an address. The caller keeps it
     alive.
 
-    label names the function in messages. shape is that of its value. nq and nv are the lengths of q
-    and v. inputs are the indices of the inputs that a force function receives.
+    label names the function in messages. shape is the shape of its value. nq and nv are the lengths
+    of q and v. inputs are the indices of the inputs that a force function receives.
     """
     address = address_of(function)
     if address is not None:

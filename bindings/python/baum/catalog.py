@@ -10,9 +10,9 @@
     run = m.simulate(known.t, "rk8", rtol=1e-8)
     print(catalog.compare(run, "n_four_bar", windows=3).q)
 
-Omitted parameters have their defaults. Data, times and states are in SI units. A reference that
-holds only for the defaults is refused for other parameters. docs/mechanisms.md lists all
-mechanisms. Unknown names and parameters raise baum.Error.
+Parameters that are not given have their defaults. Data, times and states are in SI units. A
+reference that holds only for the defaults is refused for other parameters. docs/mechanisms.md lists
+all mechanisms. Unknown names and parameters raise baum.Error.
 """
 
 from __future__ import annotations
@@ -122,7 +122,8 @@ def compare(
     name: str,
     **parameters: Scalar,
 ) -> Error:
-    """How far a Run of the mechanism, or its (t, q, v), is from the reference. v may be None."""
+    """Errors of a Run of the mechanism, or of given (t, q, v), against the reference. v may be
+    None."""
     t, q, v = (run.t, run.q, run.v) if isinstance(run, Run) else run
     known = run.mechanism if isinstance(run, Run) else None
     mechanism = build(name, **parameters) if known is None else known

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can be read from a run: channels. A channel is a named group of columns.
+"""Channels, the quantities that can be read from a run. A channel is a named group of columns.
 
 The channels of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy and
 energy_account. Those of a body or joint are its attributes, such as m["slider"].pose and
@@ -54,7 +54,7 @@ WHOLE = {
 
 
 class Layout:
-    """Where each of several channels is in a row of numbers."""
+    """The places of several channels in a row of numbers."""
 
     def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
         self.channels = {channel.key: channel for channel in channels}

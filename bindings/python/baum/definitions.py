@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Definitions: from keyword arguments to the library's structs and back.
 
-A field that is None keeps its default, or in a change its present value. NaN is a value: "not
-given".
+None keeps the default of a field, or its present value when a definition is changed. NaN is a value
+that means "not given".
 """
 
 from __future__ import annotations
@@ -155,8 +155,8 @@ class Definition:
         return self
 
     def _places(self, inputs: Iterable[Any]) -> tuple[int, ...]:
-        """The indices of inputs in the mechanism. The library does not know what functions take, so
-        inputs of other mechanisms are refused here."""
+        """The indices of inputs in the mechanism. Inputs of other mechanisms are refused here,
+        because the library does not know which inputs a Python function takes."""
         own = []
         for given in inputs:
             given = self._find("input", given)

@@ -38,7 +38,7 @@ class Frame(NamedTuple):
         return cmath.exp(1j * self.angle)
 
     def local(self, axes: tuple[float, float]) -> complex:
-        """A point in ground axes, given in body axes; a particle has only the origin."""
+        """The ground coordinates of a point in body axes. A particle has only the origin."""
         point = complex(*axes)
         s = (point - self.place) / self.turned
         at_origin = not self.has_angle and abs(s) <= 1e-9 * (abs(point) + abs(self.place))
@@ -99,8 +99,8 @@ def _measured(name: str, values: Values, a: Frame, b: Frame) -> float:
 
 
 def taken(element: Element, moved: Collection[str]) -> Values:
-    """The fields that a joint or force takes from the design configuration, as numbers, if it is
-    attached to one of the bodies named in `moved`."""
+    """The numbers that a joint or force takes from the design configuration, by field. Empty unless
+    it acts on one of the bodies named in `moved`."""
     values = element.definition
     if "joint_a" in values:
         a, b = values["joint_a"], values["joint_b"]
@@ -122,6 +122,6 @@ def taken(element: Element, moved: Collection[str]) -> Values:
 
 
 def _is_at(values: Values, moved: Collection[str]) -> bool:
-    """Whether a joint or force with bodies is attached to one of these."""
+    """Whether the element with these values acts on a body named in `moved`."""
     bodies = [values.get(end) for end in ("body_a", "body_b", "carrier")]
     return "body_a" in values and any(body.name in moved for body in bodies if body is not None)

@@ -37,12 +37,12 @@ GROUND = Entry("body", None, _abi.BAUM_GROUND, 0, 0)
 
 
 def one(family: str) -> str:
-    """The name of a family with its article: a body, an input."""
+    """The name of a family with its article, such as "a body" or "an input"."""
     return f"an {family}" if family[0] in "aeiou" else f"a {family}"
 
 
 class Element:
-    """What bodies, joints, forces and inputs have in common.
+    """Base class of bodies, joints, forces and inputs.
 
     mechanism: the mechanism that it belongs to. name: its name there.
     """
@@ -90,7 +90,7 @@ class Body(Element):
 
     @property
     def columns(self) -> tuple[slice, slice]:
-        """Its places in q and v of a frozen mechanism."""
+        """Indices of the body in q and v of a frozen mechanism."""
         return self.mechanism.columns(self)
 
     @property
@@ -108,7 +108,7 @@ class Body(Element):
 
     @property
     def acceleration(self) -> Channel:
-        """Channel: accelerations [m/s^2], [rad/s^2] that belong to `pose`."""
+        """Channel: accelerations [m/s^2], [rad/s^2] of the columns of `pose`."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
 
     def pose_of(self, point: ArrayLike) -> Channel:
@@ -140,7 +140,7 @@ class Joint(Element):
 
     @property
     def rows(self) -> slice:
-        """Its rows in Phi and lambda of a frozen mechanism."""
+        """Rows of the joint in Phi and lambda of a frozen mechanism."""
         return self.mechanism.rows(self)
 
     @property
@@ -150,7 +150,7 @@ class Joint(Element):
 
     @property
     def phi_rate(self) -> Channel:
-        """Channel: rate of the violation, J v - nu [m/s], [rad/s]."""
+        """Channel: time derivative of the violation, J v - nu [m/s], [rad/s]."""
         return self._channel("phi_rate", _Q.BAUM_PHI_RATE)
 
     @property
@@ -169,7 +169,7 @@ class Joint(Element):
     def coordinate(self) -> Channel:
         """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
         along an axis [m], [m/s]: translational, pin in a slot, prismatic, cylindrical, point on a
-        line. The angle of a spatial revolute joint is between -pi and pi."""
+        line."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property
@@ -195,7 +195,7 @@ class Input(Element):
 
     @property
     def initial(self) -> float:
-        """The value at the start of every run and workspace."""
+        """The value with which every run and workspace starts."""
         return self.mechanism.initial(self)
 
     @property

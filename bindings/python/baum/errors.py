@@ -59,7 +59,7 @@ class Error(Exception):
     """A call failed.
 
     status: the Status. str(error): the message of the library, in the names of this package.
-    run: what a failed simulate() or sample() had recorded, else None.
+    run: the samples that a failed simulate() or sample() had recorded, else None.
     """
 
     def __init__(self, status: int, message: str) -> None:
@@ -72,7 +72,7 @@ class Error(Exception):
 
 
 class Retry(Exception):
-    """Raise it in a function of the mechanism to request a smaller step."""
+    """Raise this in a function of the mechanism to request a smaller step."""
 
 
 # ---- warnings of runs ----------------------------------------------------------------------------
@@ -118,13 +118,13 @@ class NoisyDerivativesWarning(Warning):
 
 
 class Index3Warning(Warning):
-    """The run uses "ida" with the formulation "index3", which is for comparison only."""
+    """The run uses "ida" with the formulation "index3", which exists for comparison only."""
 
     code = 4
 
 
 class LooseVelocitiesWarning(Warning):
-    """Ill-conditioned constraint rows leave velocities loose."""
+    """Ill-conditioned constraint rows hardly determine the velocities."""
 
     code = 5
 
@@ -186,7 +186,7 @@ KINDS = {
 
 
 def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
-    """The baum.Warning of a warning of the library about a joint."""
+    """Convert a warning of the library about a joint to a baum.Warning."""
     base = DoubtWarning if struct.doubts_motion else Warning
     warning = KINDS.get(struct.code, base)(text(struct.text))
     warning.code, warning.joint = struct.code, joint.name if joint else None

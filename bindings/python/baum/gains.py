@@ -2,7 +2,7 @@
 """Baumgarte's gains: rules for alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi = 0.
 
 Each function returns a rule for the option `gains` of a run. It raises TypeError for values that
-are no numbers; the run raises baum.Error for values that are out of range.
+are not numbers; the run raises baum.Error for values that are out of range.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Gains:
 
 
 def fixed(alpha: Scalar, beta: Scalar) -> Gains:
-    """Gains as numbers [1/s], both >= 0."""
+    """Given gains [1/s], both >= 0."""
     return Gains("fixed", alpha=alpha, beta=beta)
 
 

@@ -2,8 +2,8 @@
 """Integrators by name, and their stability with Baumgarte's gains.
 
 The functions of stability take an integrator or its name. They raise ValueError for a name that
-does not exist, TypeError for values that are no numbers, and baum.Error for an integrator without a
-region of stability, such as one that chooses its steps.
+does not exist, TypeError for values that are not numbers, and baum.Error for an integrator without
+a region of stability, such as one that chooses its steps.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Integrator:
     """An integration method.
 
     name: for the argument `integrator`. order: of accuracy, 0 if it varies. fixed_step: it takes
-    `step`. variable_step: it takes `rtol`. formulations: names, the default first. A run of a
-    method with both kinds of steps is given one of `step` and `rtol`; "kinematics" takes neither.
+    `step`. variable_step: it takes `rtol`. formulations: names, the default first. If a method
+    offers both, give a run one of `step` and `rtol`; "kinematics" takes neither.
     """
 
     def __init__(self, address: int) -> None:
@@ -83,12 +83,12 @@ def lookup(value: Any) -> Integrator:
 
 
 class Amplification(NamedTuple):
-    """What a step leaves of a constraint violation.
+    """How one step amplifies a constraint violation.
 
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
     spectral_radius: the largest |z| [-]. roots: the largest root z of each of the two modes.
-    damping: what a step removes of a violation, 1 - |z| with full precision. Numbers are NaN
-    without a region.
+    damping: the fraction of a violation that a step removes, 1 - |z| with full precision. Numbers
+    are NaN without a region.
     """
 
     stability: str
@@ -186,7 +186,7 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """The effect of gains with a method as text, also of a method that chooses its steps."""
+    """The effect of gains with a method in words, also for a method that chooses its steps."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 

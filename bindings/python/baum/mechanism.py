@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is simulated: bodies, joints, forces and inputs."""
+"""Mechanisms, which consist of bodies, joints, forces and inputs."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ class Mechanism(Adding, AddingInSpace):
 
     A joint is placed by `point` (ground axes, design configuration) or by `point_a` and `point_b`
     (body axes); joints in space also have an `axis`, and may have an `axis_b`. m["A"] is the handle
-    of the element "A". Functions are called with (t, q) or (t, q, v) of the bodies they are given
-    for, and return their value.
+    of the element "A". Functions receive (t, q) or (t, q, v) of
+    the bodies that they are given for, and return their value.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class Mechanism(Adding, AddingInSpace):
             self.characteristic_length = characteristic_length
 
     def _adopt(self, address: Any, like: Mechanism | None = None) -> None:
-        """Become the owner of a mechanism of the library, with the elements of another one."""
+        """Take over a mechanism of the library and the elements of another Mechanism."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
         self.has_python = like is not None and like.has_python
@@ -154,8 +154,8 @@ class Mechanism(Adding, AddingInSpace):
         return list(self._entries)
 
     def _handle(self, name: str, families: Sequence[str]) -> Element:
-        """The handle of an element of one of these families. It is the same object as long as
-        somebody keeps it."""
+        """The handle of an element of one of these families. It is the same object as long as a
+        reference to it exists."""
         entry = self._entries.get(name)
         if entry is None:
             known = [known for known, entry in self._entries.items() if entry.family in families]
@@ -183,7 +183,7 @@ class Mechanism(Adding, AddingInSpace):
         return found
 
     def find(self, family: str, value: Any) -> Any:
-        """The body, joint or input for a handle, a name or an id of the library; None for the id
+        """The body, joint or input of a handle, a name or an id of the library; None for the id
         "none". Raises KeyError or TypeError for anything else."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
@@ -338,7 +338,8 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """The fields that keep joints and forces as they are although bodies have moved."""
+        """The numbers that fix joints and forces in body axes before bodies are moved, by
+        element."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
@@ -399,8 +400,8 @@ class Mechanism(Adding, AddingInSpace):
         return values
 
     def check_derivatives(self) -> None:
-        """Compare the derivatives that functions return with differences. Raises baum.Error, which
-        names the wrong entry."""
+        """Compare the derivatives that functions return with differences. Raises baum.Error, whose
+        message names the wrong entry."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:
@@ -446,6 +447,6 @@ class Mechanism(Adding, AddingInSpace):
         of them.
 
         The run starts at the option start_time. baum.Simulation describes the options and the
-        errors. Exceptions carry what was recorded before as `run`.
+        errors. Exceptions have the attribute `run` with the samples recorded so far.
         """
         return Simulation(self, integrator, **options).sample(times, record)

@@ -33,7 +33,8 @@ class Line:
         self._first: float | None = None
 
     def update(self, fraction: float) -> None:
-        """Show how much is done, 0 to 1, and at the same speed how long the rest takes."""
+        """Show the fraction that is done, 0 to 1, and the time that the rest takes at the same
+        speed."""
         now = time.monotonic()
         if self._first is None:
             self._first = fraction
@@ -47,7 +48,7 @@ class Line:
         self.show(f"{bar(fraction)} {100 * fraction:.0f} %{left}")
 
     def show(self, text: str, end: str = "") -> None:
-        """Replace what the line says."""
+        """Replace the text of the line."""
         try:
             self._out.write(f"\r{self._title}: {text:<{BAR + 28}}{end}")
             self._out.flush()
@@ -55,12 +56,12 @@ class Line:
             self._next = float("inf")
 
     def close(self) -> None:
-        """End the line with the time that was spent."""
+        """End the line with the time spent."""
         self.show(duration(time.monotonic() - self._begun), end="\n")
 
 
 class RunLine(Line):
-    """The line of a run from one time to another [s]."""
+    """Progress line of a run between two times [s]."""
 
     def __init__(self, out: TextIO, start: float, end: float) -> None:
         super().__init__(out, f"run to t = {end:g} s")
@@ -73,11 +74,11 @@ class RunLine(Line):
 
 
 class StudyLine(Line):
-    """The line of a study.
+    """Progress line of a study.
 
     methods: the index of the method of each entry. Every setting of a method is assumed to cost
-    twice as much as the coarser one before it. The study runs all entries from coarse to fine, and
-    then, to time them, in their own order.
+    twice as much as the coarser one before it. The study first runs all entries from coarse to
+    fine. It then times them in their own order.
     """
 
     def __init__(self, out: TextIO, methods: Sequence[int]) -> None:
@@ -101,13 +102,13 @@ class StudyLine(Line):
 
 
 def bar(fraction: float) -> str:
-    """A bar of which that part is filled."""
+    """A bar that is filled to this fraction."""
     filled = int(BAR * fraction)
     return f"[{'#' * filled}{'.' * (BAR - filled)}]"
 
 
 def duration(seconds: float) -> str:
-    """In words, with no more digits than an estimate has."""
+    """A duration as text, with as many digits as an estimate deserves."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

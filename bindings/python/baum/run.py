@@ -69,7 +69,7 @@ class Place(NamedTuple):
 
 
 class Account(NamedTuple):
-    """What a simulation knows about itself at the end of a run."""
+    """The state of a simulation at the end of a run."""
 
     counters: Counters
     explain: str
@@ -86,9 +86,9 @@ class Run:
     is a recorded channel (n x columns). Poses and velocities of bodies need no recording, because
     they are parts of q and v: run["slider.pose"].
 
-    status: Status.OK, WARNED, or STOP_CANCELLED and STOP_EVENT; with the last two the samples end
-    early. counters: what the run has cost. explain: how it was done, as text. warnings: a
-    baum.Warning for each kind. near_singular, events: lists for the whole simulation so far.
+    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early. counters:
+    what the run has cost. explain: how it was done, as text. warnings: a baum.Warning for each
+    kind. near_singular, events: lists for the whole simulation so far.
     energy_account: at the end; None without the option energy_account.
 
     A run can be pickled; its `mechanism` is then None.
@@ -172,8 +172,8 @@ class Run:
         return name in self._slices or self._of_body(name) is not None
 
     def __getitem__(self, key: ChannelLike) -> Array:
-        """The columns (n x columns) of a channel, which is given by itself or by name. Raises
-        KeyError for a channel that was not recorded."""
+        """The columns (n x columns) of a channel, given as a channel or by name. Raises KeyError
+        for a channel that was not recorded."""
         name = key.key if isinstance(key, Channel) else key
         recorded = self._slices.get(name)
         if recorded is not None:
@@ -198,7 +198,7 @@ class Run:
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
-        """Where pose or velocity of a body are in q or v, or None."""
+        """The places of a body's pose or velocity in q or v, or None."""
         body, _, what = str(name).rpartition(".")
         place = self._place_of(body) if what in ("pose", "velocity") else None
         if place is None:
@@ -240,8 +240,8 @@ class Run:
         return self._units[key]
 
     def to_dict(self) -> dict[str, Array]:
-        """All columns (n) by name: "t", and of each recorded channel its key, with the index of the
-        column if it has several, such as "energy[1]"."""
+        """All columns (n) by name. The names are "t" and the keys of the recorded channels, with
+        the index of the column if a channel has several, such as "energy[1]"."""
         named = {"t": self.t}
         for key in self:
             named.update(zip(self._names(key), self[key].T))
@@ -293,7 +293,7 @@ def _common(names: list[str]) -> str:
 
 
 def _axes(count: int, given: Any) -> list[Axes]:
-    """As many axes as there are units: those given, or those of a new figure."""
+    """One axes for each unit: those that are given, or those of a new figure."""
     if given is not None:
         found = list(np.ravel(given))
         if len(found) != count:

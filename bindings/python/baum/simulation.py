@@ -61,7 +61,7 @@ AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
 
 def _word(words: Mapping[str, int], label: str) -> Callable[[Any], int]:
-    """A converter from one of some words."""
+    """A function that converts one of several words."""
 
     def convert(value: Any) -> int:
         if value not in words:
@@ -154,7 +154,7 @@ def _progress(holder: list[Watcher]) -> Any:
 
 
 def row_factors(mechanism: Mechanism, factors: Any) -> Array:
-    """Factors of all rows (nc) from those of some joints."""
+    """Gain factors of all rows (nc) from the factors of some joints."""
     if not hasattr(factors, "items"):
         raise TypeError(f"row_gains: {{joint: factor}} is wanted, not {factors!r}")
     values = np.ones(mechanism.sizes.nc)
@@ -211,7 +211,7 @@ class Simulation(_calls.Closing):
         baum.integrators() lists them with order and formulations.
     step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
     atol: added to rtol [unit of the coordinate] >= 0, default none. max_step: longest variable step
-        [s] > 0, default none; for forces that start late.
+        [s] > 0, default none. Set it if forces start late.
     formulation: "default" is the first that the integrator offers; "unstabilized", "baumgarte",
         "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
         "generalized_alpha" have "index3" only.
@@ -225,8 +225,8 @@ class Simulation(_calls.Closing):
     start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
         configuration that violates them; "as_given" takes it as it is.
     solver: "auto", "klu", "qr" or "block". check_derivatives: compare the derivatives of your
-        functions with differences first. max_steps: of one call, before it fails.
-    energy_account: account for the works that `energy_account` and its channel report.
+        functions with differences first. max_steps: number of steps after which a call fails.
+    energy_account: record the works that `energy_account` and its channel report.
     error_check: estimate the error of the motion by a second integration
         (counters.error_estimate), and warn if it is large. Fixed steps are checked in any case
         where the error may matter.
@@ -328,7 +328,7 @@ class Simulation(_calls.Closing):
 
     @property
     def _has_python(self) -> bool:
-        """Whether calls may come back through Python."""
+        """Whether calls may run Python callbacks."""
         return self.mechanism.has_python or bool(self._event_functions)
 
     def sample(self, times: ArrayLike, record: ChannelLike | Sequence[ChannelLike] = ()) -> Run:
@@ -336,7 +336,7 @@ class Simulation(_calls.Closing):
         one or several, at each of them.
 
         Raises the same as advance_to(). Exceptions, also KeyboardInterrupt and those of your
-        functions, carry what was recorded so far as `run`.
+        functions, have the attribute `run` with the samples recorded so far.
         """
         given = vector(np.atleast_1d(times), None, "times")
         channels = [record] if isinstance(record, (str, Channel)) else record
@@ -388,7 +388,7 @@ class Simulation(_calls.Closing):
     def set_input(self, input: InputLike, value: Scalar) -> None:
         """Set an input from the present time on. It is held until it is set again.
 
-        Variable-step methods restart, which costs multistep methods small steps. A loop that sets
+        Variable-step methods restart; multistep methods then take small steps. A loop that sets
         inputs often runs best with a fixed step, or with "rk8".
         """
         found = self.mechanism.find("input", input)
@@ -503,8 +503,8 @@ class Simulation(_calls.Closing):
         self._warned = {warning.code: warning.count for warning in self.warnings}
 
     def continue_from(self, other: Simulation) -> None:
-        """Continue where another run of the same mechanism stands, also one that has failed: with
-        its state, inputs and driver laws, and the options of this run."""
+        """Continue from the present state of another run of the same mechanism, even one that has
+        failed. State, inputs and driver laws come from that run; the options of this run stay."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
         self._call(lib.baum_simulation_continue, other._owner.address)
@@ -523,7 +523,7 @@ class Simulation(_calls.Closing):
         at_once: bool = False,
         end: float | None = None,
     ) -> Status:
-        """A call that moves the run, to the time `end` if that is known."""
+        """Call a function that advances the run, to the time `end` if it is known."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
@@ -548,7 +548,7 @@ class Simulation(_calls.Closing):
         return status
 
     def _call(self, function: Any, *arguments: Any) -> Any:
-        """A short call, in a second thread only if it may come back through Python."""
+        """Make a short call, in a second thread only if it may run Python callbacks."""
         if self._has_python:
             return _calls.interruptible(self._owner.call, function, *arguments)
         return self._owner.call(function, *arguments)
@@ -598,14 +598,15 @@ class Simulation(_calls.Closing):
 
     @property
     def unique_multipliers(self) -> NDArray[np.bool_]:
-        """Which multipliers are unique at the present state: one bool per constraint row (nc)."""
+        """Whether each multiplier is unique at the present state: one bool per row (nc)."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)
         return np.array(unique, dtype=bool)
 
     @property
     def energy_account(self) -> EnergyAccount:
-        """Where the energy has come from. Raises baum.Error without energy_account=True."""
+        """The energy account at the present state. Raises baum.Error without
+        energy_account=True."""
         struct = _abi.baum_energy_account()
         self._call(lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct))
         return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
@@ -654,8 +655,8 @@ class Simulation(_calls.Closing):
 
     @property
     def explain(self) -> str:
-        """How the run is done: formulation, integrator, gains and their reason, stability, solver,
-        redundancy, tolerances."""
+        """The methods of the run in words: formulation, integrator, gains and their reason,
+        stability, solver, redundancy, tolerances."""
         return text(lib.baum_simulation_explain(self._owner.address))
 
     @property

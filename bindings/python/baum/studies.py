@@ -123,18 +123,19 @@ class Study(_calls.Closing):
     reference, solution, digits: a reference instead of the study's own. reference is (times, q),
         (times, q, v) or (times, q, v, lambda_) with a row for each time; solution(t) returns (q, v)
         or (q, v, lambda_). digits: the number of digits that can be trusted.
-    samples: times at which errors are taken, 2 to 1e6. repeats: most runs for the CPU time of an
-        entry. entry_limit: longest run of an entry, CPU time [s]. time_budget: of one run(), wall
-        time [s]. threads: default the number of processors, but 1 for a mechanism with Python
-        functions. energy_account: measure the works of the stabilization. validate: also run
-        entries that may be recommended over twice the span and from other starts.
+    samples: number of times at which errors are measured, 2 to 1e6. repeats: largest number of runs
+        that measure the CPU time of an entry. entry_limit: largest CPU time of a run [s].
+        time_budget: largest wall time of one run() [s]. threads: default the number of processors,
+        but 1 for a mechanism with Python functions. energy_account: measure the works of the
+        stabilization. validate: also run entries that may be recommended over twice the span and
+        from perturbed starts.
     file: path of a file that keeps the results, from which a later study continues.
     grid: what run() adds to a study without settings: "quick", which takes seconds, or about a
         minute with Python functions; or "full", about 25 times as long.
     progress: by default a bar with an estimate of the time left, in a terminal or a notebook;
-        False: nothing. A function progress(done, total) is called after entries, of which timed
-        ones count twice, and cancels if it returns a true value; of the study it may use cancel()
-        and len() only.
+        False: nothing. A function progress(done, total) is called after each entry; an entry counts
+        once for its error and once for its time. It cancels the study if it returns a true value.
+        It may call cancel() and len() of the study, but nothing else.
 
     Use it in a `with` block to free its memory and file at the end of the block.
 
@@ -302,10 +303,11 @@ class Study(_calls.Closing):
     ) -> Study:
         """Add the standard grid, or its part of one integrator or formulation. Returns the study.
 
-        settings: steps or tolerances of each method, 1 to 64. constants: constant gains beside the
-        rules, 0 to 4. coarsest: longest step of methods of order 2 and more [s], default by the
-        speed of the motion. finest: least rtol [-], default 1e-13, or 1e-11 if derivatives are
-        computed by differences. quick: the quick grid with at most 5 settings of each integrator.
+        settings: steps or tolerances of each method, 1 to 64. constants: number of constant gains
+        in addition to the gain rules, 0 to 4. coarsest: longest step of methods of order 2 and
+        above [s], by default from the speed of the motion. finest: smallest rtol [-], default
+        1e-13, or 1e-11 if derivatives are computed by differences. quick: the quick grid with at
+        most 5 settings of each integrator.
         """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
@@ -395,7 +397,7 @@ class Study(_calls.Closing):
 
     @property
     def methods(self) -> list[StudyMethod]:
-        """Methods, and the cost of a digit with each."""
+        """The methods, with the cost factor of one more digit."""
         count = lib.baum_study_method_count(self._owner.address)
         return [
             self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
@@ -421,7 +423,7 @@ class Study(_calls.Closing):
 
     @property
     def error_text(self) -> str:
-        """What the error means."""
+        """The definition of the error in words."""
         return text(lib.baum_study_error_text(self._owner.address))
 
     # ---- answers ---------------------------------------------------------------------------------
@@ -435,7 +437,7 @@ class Study(_calls.Closing):
         return list(entries[: count.value])
 
     def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
-        """The cost of the method of that index at an error [-]: evaluations for "work", CPU time
+        """The cost of the method with this index at an error [-]: evaluations for "work", CPU time
         [s] for "cpu"."""
         out = ctypes.c_double()
         given = integer(method, "method"), number(error, "error"), _cost(cost)
@@ -443,15 +445,15 @@ class Study(_calls.Closing):
         return out.value
 
     def compare(self, a: int, b: int, error: Scalar, cost: Cost = "work") -> float:
-        """The cost of the method of index a over that of index b, at the same error [-]."""
+        """The cost of method a divided by the cost of method b (indices), at the same error [-]."""
         out = ctypes.c_double()
         given = integer(a, "a"), integer(b, "b"), number(error, "error"), _cost(cost)
         self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """The cheapest setting for an error [-] that also holds for nearby starts and over twice
-        the span. Raises baum.Error if there is none."""
+        """The cheapest setting for an error [-] that it also keeps from perturbed starts and over
+        twice the span. Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
@@ -469,7 +471,7 @@ class Study(_calls.Closing):
         return Recommendation(self._keywords(best), text(why.value))
 
     def _keywords(self, best: Any) -> dict[str, Any]:
-        """What differs from the defaults, as keywords of Simulation."""
+        """The options that differ from the defaults, as keywords of Simulation."""
         plain = default(_abi.baum_simulation_options)
         found = {"integrator": _value("integrator", best.integrator)}
         words = {"formulation": FORMULATIONS, "start": STARTS, "solver": SOLVERS}

@@ -76,7 +76,7 @@ def _coordinate(joint: Joint) -> str:
 
 
 def _rows(joint: Joint) -> Units:
-    """Units of the rows of a joint; those of couplings and drivers are units of coordinates."""
+    """Units of the rows of a joint. Couplings and drivers have units of coordinates."""
     assert joint.kind is not None
     if joint.kind.units:
         return joint.kind.units

@@ -40,7 +40,7 @@ class Workspace(_calls.Closing):
         self._sizes = mechanism.sizes
 
     def _call(self, function: Any, *arguments: Any) -> None:
-        """A call, in a second thread only if it may come back through Python."""
+        """Make a call, in a second thread only if it may run Python callbacks."""
         if self.mechanism.has_python:
             _calls.interruptible(self._owner.call, function, *arguments)
         else:
@@ -62,7 +62,7 @@ class Workspace(_calls.Closing):
         return vector(v, self._sizes.nv, "v")
 
     def set_input(self, input: InputLike, value: Scalar) -> None:
-        """Set an input. Before, it has its initial value."""
+        """Set an input. Until then it has its initial value."""
         found = self.mechanism.find("input", input)
         self._owner.call(lib.baum_workspace_set_input, found.id, number(value, found.name))
 
@@ -183,9 +183,9 @@ class Workspace(_calls.Closing):
     ) -> tuple[Array, Array]:
         """The nearest q (nq) with Phi = 0, and v (nv) with J v = nu.
 
-        q, v: where to start, default the design configuration. Finite entries of v are kept, NaN
-        entries follow. held: bodies whose positions do not change. Raises baum.Error if the joints
-        cannot be closed.
+        q, v: initial guess, by default the design configuration. Finite entries of v are kept; NaN
+        entries follow from the constraints. held: bodies whose positions do not change. Raises
+        baum.Error if the joints cannot be closed.
         """
         design_q, design_v = self.design()
         q = design_q if q is None else self._q(q)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Packing of columns. Kernels write the same number of columns for each body: three in the plane, x,
- * y and angle; six in space, the velocity of the origin in ground axes and the angular velocity in
- * body axes. Packing keeps the columns that a body has. A planar particle has no angle, a spatial
- * one no angular velocity, ground has no columns. In space a planar body has x, y and the rotation
- * about z.
+/* Packing of columns. Kernels write the same number of columns for each body: three in the plane,
+ * x, y and angle; six in space, the velocity of the origin in ground axes and the angular velocity
+ * in body axes. Packing keeps the columns that a body has. A planar particle has no angle, a
+ * spatial one no angular velocity, ground has no columns. In space a planar body has x, y and the
+ * rotation about z.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H

@@ -2,8 +2,6 @@
 /* Checks and design values of joints' coordinates. */
 #include "mechanism/general/coordinate.h"
 
-#include <math.h>
-
 #include "base/message.h"
 
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
@@ -20,17 +18,6 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
   return joint->type->check_coordinate
            ? joint->type->check_coordinate(mechanism, joint->element.def, label)
            : BAUM_OK;
-}
-
-bool baum_i_coordinate_wraps(const baum_i_joint *joint)
-{
-  return joint->type->is_angle && joint->type->width == BAUM_I_SPACE;
-}
-
-double baum_i_coordinate_offset(const baum_i_joint *joint, double difference)
-{
-  static const double REVOLUTION = 6.283185307179586;
-  return baum_i_coordinate_wraps(joint) ? remainder(difference, REVOLUTION) : difference;
 }
 
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)

@@ -14,9 +14,4 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
  * `lower`. */
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint);
 
-/* How far a coordinate is from a value, given their difference. An angle in space is known up to
- * whole revolutions: then between -pi and pi. */
-double baum_i_coordinate_offset(const baum_i_joint *joint, double difference);
-bool baum_i_coordinate_wraps(const baum_i_joint *joint);
-
 #endif

@@ -74,6 +74,23 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
+/* The coordinate, and how far it is from s. Of an angle in space whole revolutions do not matter.
+ * They are taken off both before these are compared, because the difference of two large angles is
+ * rounded. */
+static double find_offset(const baum_i_joint *driven, const baum_i_point *point, double s,
+                          baum_i_coordinate *c)
+{
+  static const double REVOLUTION = 6.283185307179586;
+  if (!driven->type->is_angle || driven->type->width != BAUM_I_SPACE) {
+    driven->type->coordinate(driven, point, c);
+    return c->value - s;
+  }
+  baum_i_point near_zero = *point;
+  near_zero.angles = NULL;
+  driven->type->coordinate(driven, &near_zero, c);
+  return remainder(c->value - remainder(s, REVOLUTION), REVOLUTION);
+}
+
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                    const baum_i_rows *out)
 {
@@ -83,9 +100,9 @@ baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *poin
   }
   const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
   baum_i_coordinate c;
-  driven->type->coordinate(driven, point, &c);
+  double offset = find_offset(driven, point, s[0], &c);
   if (out->phi) {
-    out->phi[joint->row] = baum_i_coordinate_offset(driven, c.value - s[0]);
+    out->phi[joint->row] = offset;
   }
   if (out->jacobian) {
     baum_i_columns_pack_any(point->mechanism, &joint->span, driven->type->width, 1, c.gradient,

@@ -75,6 +75,8 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
  *   first 1 / z, second -1 / z^2, third 2 / z^3
  */
 
+static const double REVOLUTION = 6.283185307179586;
+
 /* Derivatives of the angle by (c, s): entry j has j derivatives by s. */
 typedef struct angle {
   double first[2];
@@ -94,6 +96,16 @@ static angle angle_of(double c, double s)
                  .third = {2.0 * d[1], 2.0 * d[0], -2.0 * d[1], -2.0 * d[0]}};
 }
 
+/* Within a step, which may be longer than a revolution. */
+static double expected_angle(const baum_i_joint *joint, const baum_i_point *point)
+{
+  if (!point->angles) {
+    return 0.0;
+  }
+  const double *angle = point->angles + 2 * (ptrdiff_t)(joint->element.index - 1);
+  return angle[0] + angle[1] * (point->t - point->angles[2 * point->mechanism->joint_count]);
+}
+
 void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
                                baum_i_coordinate *out)
 {
@@ -107,7 +119,9 @@ void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *po
   baum_i_spatial_row_at(&pair, type->coordinate[1], &x[0]);
   baum_i_spatial_row_at(&pair, type->coordinate[0], &x[1]);
   const angle g = angle_of(x[0].value, x[1].value);
-  *out = (baum_i_coordinate){.value = atan2(x[1].value, x[0].value)};
+  double near = expected_angle(joint, point);
+  double angle = atan2(x[1].value, x[0].value);
+  *out = (baum_i_coordinate){.value = near + remainder(angle - near, REVOLUTION)};
   for (int i = 0; i < 2; i++) {
     out->rate += g.first[i] * x[i].rate;
     out->gamma += g.first[i] * x[i].gamma;

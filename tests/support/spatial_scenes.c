@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motions in space against solutions found in another way: tops by Euler's equations
- * (manifold_tops.c), planar mechanisms in a tilted plane by their planar twins. */
+#include "spatial_scenes.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +12,6 @@
 
 #include "base/rotation.h"
 #include "check.h"
-
-#include <baum/baum.h>
 
 /* The plane of the twins: x and y of the plane in ground axes. */
 static const double TILT[4] = {0.7, -0.1, 0.5, 0.5};
@@ -41,11 +39,9 @@ static void link_place(int k, double place[3])
   place[2] = atan2(b[1] - a[1], b[0] - a[0]);
 }
 
-static baum_mechanism *planar_four_bar(void)
+void spatial_build_planar_four_bar(baum_mechanism *m)
 {
-  baum_mechanism *m = NULL;
   baum_body_id last = BAUM_GROUND;
-  check(baum_mechanism_create(&m));
   for (int k = 0; k < 4; k++) {
     baum_body_id next = BAUM_GROUND;
     if (k < 3) {
@@ -56,7 +52,7 @@ static baum_mechanism *planar_four_bar(void)
       def.inertia = 0.1 * (k + 1);
       memcpy(def.position, place, sizeof def.position);
       def.angle = place[2];
-      def.angular_velocity = k == 0 ? 2.0 : (double)NAN;
+      def.angular_velocity = k == 0 ? 4.0 : (double)NAN;
       check(baum_mechanism_add_planar_body(m, &def, &next));
     }
     baum_planar_revolute_def pin = baum_planar_revolute_def_default();
@@ -66,19 +62,15 @@ static baum_mechanism *planar_four_bar(void)
     check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
     last = next;
   }
-  check(baum_mechanism_freeze(m));
-  return m;
 }
 
 /* Of spatial revolute joints, in the tilted plane. */
-static baum_mechanism *spatial_four_bar(void)
+void spatial_build_four_bar(baum_mechanism *m)
 {
   static const double normal[3] = {0.0, 0.0, 1.0};
   static const double down[3] = {0.0, -9.81, 0.0};
   double gravity[3];
-  baum_mechanism *m = NULL;
   baum_body_id last = BAUM_GROUND;
-  check(baum_mechanism_create(&m));
   tilt(down, gravity);
   check(baum_mechanism_set_gravity(m, gravity[0], gravity[1], gravity[2]));
   for (int k = 0; k < 4; k++) {
@@ -97,7 +89,7 @@ static baum_mechanism *spatial_four_bar(void)
       memcpy(p, TILT, sizeof p);
       baum_i_quaternion_normalize(p);
       baum_i_quaternion_product(p, spin, def.orientation);
-      def.angular_velocity[2] = k == 0 ? 2.0 : (double)NAN;
+      def.angular_velocity[2] = k == 0 ? 4.0 : (double)NAN;
       check(baum_mechanism_add_spatial_body(m, &def, &next));
     }
     baum_spatial_revolute_def pin = baum_spatial_revolute_def_default();
@@ -109,59 +101,18 @@ static baum_mechanism *spatial_four_bar(void)
     check(baum_mechanism_add_spatial_revolute(m, &pin, NULL));
     last = next;
   }
-  check(baum_mechanism_freeze(m));
-  return m;
 }
 
-static baum_simulation *start(const baum_mechanism *m, const baum_integrator *integrator,
-                              baum_formulation formulation, double rtol)
+void spatial_translate_four_bar(const double *twin_q, double *q)
 {
-  baum_simulation *run = NULL;
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = integrator;
-  o.formulation = formulation;
-  if (rtol > 0.0) {
-    o.rtol = rtol;
-  } else {
-    o.step = 1e-3;
+  double p[4];
+  memcpy(p, TILT, sizeof p);
+  baum_i_quaternion_normalize(p);
+  for (int k = 0; k < 3; k++) {
+    const double at[3] = {twin_q[3 * k], twin_q[3 * k + 1], 0.0};
+    double half = 0.5 * twin_q[3 * k + 2];
+    const double spin[4] = {cos(half), 0.0, 0.0, sin(half)};
+    tilt(at, q + 7 * k);
+    baum_i_quaternion_product(p, spin, q + 7 * k + 3);
   }
-  check(baum_simulation_create(m, &o, &run));
-  return run;
-}
-
-static void a_four_bar_in_a_tilted_plane_moves_as_its_planar_twin(void **state)
-{
-  (void)state;
-  baum_mechanism *planar = planar_four_bar();
-  baum_mechanism *spatial = spatial_four_bar();
-  baum_simulation *a = start(planar, baum_rk8(), BAUM_FORMULATION_PROJECTION, 0.0);
-  baum_simulation *b = start(spatial, baum_rk8(), BAUM_FORMULATION_PROJECTION, 0.0);
-  for (int i = 1; i <= 10; i++) {
-    check(baum_simulation_advance_to(a, 0.2 * i));
-    check(baum_simulation_advance_to(b, 0.2 * i));
-    const double *q = baum_simulation_q(a);
-    const double *p = baum_simulation_q(b);
-    for (int k = 0; k < 3; k++) {
-      const double at[3] = {q[3 * k], q[3 * k + 1], 0.0};
-      double want[3];
-      tilt(at, want);
-      for (int j = 0; j < 3; j++) {
-        if (fabs(p[7 * k + j] - want[j]) > 1e-10) {
-          fail_msg("t = %g: body %d is off by %g", 0.2 * i, k, p[7 * k + j] - want[j]);
-        }
-      }
-    }
-  }
-  baum_simulation_destroy(a);
-  baum_simulation_destroy(b);
-  baum_mechanism_destroy(planar);
-  baum_mechanism_destroy(spatial);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_four_bar_in_a_tilted_plane_moves_as_its_planar_twin),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
