@@ -164,10 +164,10 @@ typedef struct baum_i_point {
   /* (joint_count, 2) angle and rate of spatial joints at angles[2 joint_count], a time: angles are
    * the nearest to those that go on at these rates. */
   double *angles;
-  const double *inputs;          /* (input_count) present values; NULL while there are none */
-  double *scratch;               /* (mechanism->scratch_size) for gathering and differences */
-  bool retry;                    /* set when the last failure may vanish with a smaller step */
-  bool asking;                   /* a user function is running, which must not use this point */
+  const double *inputs; /* (input_count) present values; NULL while there are none */
+  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
+  bool retry;           /* set when the last failure may vanish with a smaller step */
+  bool asking;          /* a user function is running, which must not use this point */
 } baum_i_point;
 
 /* Frame of a body in the design configuration at rest, from its definition; valid before freeze. */
