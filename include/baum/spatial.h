@@ -148,14 +148,14 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 /** A force at a point of a body and a moment on it. With an input both are multiplied by its
  *  value. */
 typedef struct baum_spatial_load_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
-  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;  /**< Default: none, must be set; not ground. */
-  double point[3];    /**< [m] on the body, its axes. Default: (0, 0, 0). */
-  double force[3];    /**< [N]. Default: (0, 0, 0). */
-  double moment[3];   /**< [N m] about the point; zero on a particle. Default: (0, 0, 0). */
-  bool follows_body; /**< Force and moment are in body axes, else in ground axes. Default: false. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body;   /**< Default: none, must be set; not ground. */
+  double point[3];     /**< [m] on the body, its axes. Default: (0, 0, 0). */
+  double force[3];     /**< [N]. Default: (0, 0, 0). */
+  double moment[3];    /**< [N m] about the point; zero on a particle. Default: (0, 0, 0). */
   baum_input_id input; /**< Default: none. */
+  bool follows_body; /**< Force and moment are in body axes, else in ground axes. Default: false. */
 } baum_spatial_load_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -6,6 +6,7 @@
 #ifndef BAUM_I_BASE_ROTATION_H
 #define BAUM_I_BASE_ROTATION_H
 
+#include <float.h>
 #include <math.h>
 
 static inline double baum_i_dot3(const double a[3], const double b[3])
@@ -58,9 +59,14 @@ static inline double baum_i_quaternion_length(const double p[4])
   return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
 }
 
+/* What has unit length to rounding stays as it is, so that a state that was read can be set again
+ * without a change. */
 static inline void baum_i_quaternion_normalize(double p[4])
 {
   double length = baum_i_quaternion_length(p);
+  if (fabs(length - 1.0) <= 4.0 * DBL_EPSILON) {
+    return;
+  }
   for (int i = 0; i < 4; i++) {
     p[i] /= length;
   }

@@ -48,6 +48,21 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body)
 
 /* ---- points ---- */
 
+/* Memory that mechanisms with spatial elements need beside the rest. */
+static baum_status create_spatial(const baum_mechanism *mechanism, baum_i_point *point)
+{
+  if (!mechanism->spatial) {
+    return BAUM_OK;
+  }
+  point->spatial = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial);
+  point->angles = baum_i_alloc(2 * (size_t)mechanism->joint_count + 1, sizeof *point->angles);
+  if (!point->spatial || !point->angles) {
+    return baum_i_fail_memory();
+  }
+  point->spatial[0] = baum_i_spatial_frame_at(BAUM_I_FRAME_GROUND, NULL, NULL);
+  return BAUM_OK;
+}
+
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point)
 {
   *point = (baum_i_point){.mechanism = mechanism,
@@ -58,23 +73,13 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
   point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
   point->normalized =
     mechanism->flat ? NULL : baum_i_alloc((size_t)mechanism->nq, sizeof *point->normalized);
-  point->spatial = mechanism->spatial
-                     ? baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial)
-                     : NULL;
-  point->angles = mechanism->spatial
-                    ? baum_i_alloc(2 * (size_t)mechanism->joint_count + 1, sizeof *point->angles)
-                    : NULL;
-  if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized) ||
-      (mechanism->spatial && (!point->spatial || !point->angles))) {
+  if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized)) {
     return baum_i_fail_memory();
-  }
-  if (point->spatial) {
-    point->spatial[0] = baum_i_spatial_frame_at(BAUM_I_FRAME_GROUND, NULL, NULL);
   }
   for (int i = 0; i <= mechanism->body_count; i++) {
     point->frames[i].c = 1.0;
   }
-  return BAUM_OK;
+  return create_spatial(mechanism, point);
 }
 
 void baum_i_point_release(baum_i_point *point)

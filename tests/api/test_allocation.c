@@ -19,7 +19,7 @@
 
 /* ---- what is run ---- */
 
-enum { CHANNELS = 14, WIDTH_MAX = 240, SAMPLES = 7 };
+enum { CHANNELS = 14, WIDTH_MAX = 480, SAMPLES = 7 };
 
 static bool is_of_a_body(baum_quantity quantity)
 {
@@ -190,9 +190,9 @@ static void jumps_of_inputs_allocate_nothing(void **state)
 
 /* A state to evaluate at. */
 typedef struct point {
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
-  double y[2 * EVERY_NV + 2 * EVERY_NC];
+  double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
   double out[EVERY_NV * EVERY_NV];
 } point;
 
@@ -331,9 +331,9 @@ static void replacing_survives_every_failing_allocation(void **state)
 /* Sizes first, then all three arrays, as a caller would. */
 static baum_status evaluate_jacobian(baum_workspace *w, const point *p)
 {
-  static int32_t columns[2 * EVERY_NV + EVERY_NC + 1];
-  static int32_t rows[(2 * EVERY_NV + EVERY_NC) * (2 * EVERY_NV + EVERY_NC)];
-  static double values[(2 * EVERY_NV + EVERY_NC) * (2 * EVERY_NV + EVERY_NC)];
+  static int32_t columns[EVERY_NQ + EVERY_NV + EVERY_NC + 1];
+  static int32_t rows[(EVERY_NQ + EVERY_NV + EVERY_NC) * (EVERY_NQ + EVERY_NV + EVERY_NC)];
+  static double values[(EVERY_NQ + EVERY_NV + EVERY_NC) * (EVERY_NQ + EVERY_NV + EVERY_NC)];
   const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_sparse out = {NULL, NULL, NULL, 0};
   baum_status status = baum_workspace_residual_jacobian(w, &dae, 1.0, 0.0, p->y, p->y, &out);
@@ -398,10 +398,10 @@ static baum_status go(baum_simulation *run, const every_element *parts, double s
 {
   baum_channel channels[CHANNELS];
   double row[WIDTH_MAX];
-  double state[2 * EVERY_NV];
+  double state[EVERY_NQ + EVERY_NV];
   (void)make_channels(parts, channels);
-  memcpy(state, baum_simulation_q(run), EVERY_NV * sizeof *state);
-  memcpy(state + EVERY_NV, baum_simulation_v(run), EVERY_NV * sizeof *state);
+  memcpy(state, baum_simulation_q(run), EVERY_NQ * sizeof *state);
+  memcpy(state + EVERY_NQ, baum_simulation_v(run), EVERY_NV * sizeof *state);
   baum_status status = baum_simulation_advance_to(run, span);
   if (reached_the_end(status)) {
     status = act(run, parts);
@@ -415,7 +415,7 @@ static baum_status go(baum_simulation *run, const every_element *parts, double s
     status = baum_simulation_schedule_input(run, parts->throttle, times, values, 2);
   }
   if (status == BAUM_OK) {
-    status = baum_simulation_set_state(run, 0.0, state, state + EVERY_NV);
+    status = baum_simulation_set_state(run, 0.0, state, state + EVERY_NQ);
   }
   return status == BAUM_OK ? baum_simulation_advance_to(run, -span) : status;
 }

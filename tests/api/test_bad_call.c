@@ -290,9 +290,9 @@ static void calls_on_a_workspace_refuse_null_and_what_is_not_finite(void **state
 {
   (void)state;
   every_element parts = every_element_make(NULL);
-  static double q[EVERY_NV];
+  static double q[EVERY_NQ];
   static double v[EVERY_NV];
-  static double y[2 * EVERY_NV + EVERY_NC];
+  static double y[EVERY_NQ + EVERY_NV + EVERY_NC];
   static double out[EVERY_NV * EVERY_NV];
   const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
   baum_sparse sparse = {NULL, NULL, NULL, 0};
@@ -320,9 +320,9 @@ static void workspaces_refuse_the_rest_by_name(void **state)
   every_element parts = every_element_make(NULL);
   every_element others = every_element_make(NULL);
   baum_workspace *w = GARBAGE;
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
-  double y[2 * EVERY_NV + EVERY_NC] = {0.0};
+  double y[EVERY_NQ + EVERY_NV + EVERY_NC] = {0.0};
   baum_dae dae = {.index = (baum_residual)5};
   ASSERT_SAYS(baum_workspace_create(NULL, &w), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   assert_null(w);
@@ -464,7 +464,7 @@ static void a_run_and_a_workspace_keep_their_mechanism_alive(void **state)
   o.step = 1e-3;
   baum_simulation *run = NULL;
   baum_workspace *w = NULL;
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double phi[EVERY_NC];
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
   assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);

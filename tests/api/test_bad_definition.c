@@ -152,7 +152,7 @@ static void check_number(every_element *parts, const element_kind *kind, const e
 {
   any_def def;
   kind->good(parts, &def);
-  double values[2] = {0.0, 0.0};
+  double values[FIELD_NUMBERS_MAX] = {0.0};
   values[i] = bad;
   memcpy(def.bytes + field->offset, values, field->size);
   char message[PARTS_SIZE];
@@ -181,7 +181,8 @@ static void check_not_finite(every_element *parts, const element_kind *kind)
     const element_field *field = &fields.list[k];
     bool nan_is_fine = may_be_nan(field->name) && kind != &element_kinds[0];
     nan_is_fine = nan_is_fine || begins(field->name, "velocity") ||
-                  begins(field->name, "angular_velocity") || begins(field->name, "point");
+                  begins(field->name, "angular_velocity") || begins(field->name, "point") ||
+                  begins(field->name, "axis_b");
     for (size_t i = 0; field->type == FIELD_NUMBERS && i < field->size / sizeof(double); i++) {
       check_number(parts, kind, field, i, (double)INFINITY);
       check_number(parts, kind, field, i, -(double)INFINITY);

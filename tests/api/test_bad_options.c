@@ -392,7 +392,7 @@ static baum_simulation *make_run(const every_element *parts)
 /* Time, q, v of a run, to be compared. */
 typedef struct snapshot {
   double t;
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
 } snapshot;
 

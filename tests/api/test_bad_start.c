@@ -234,7 +234,7 @@ static bool all_finite(const double *values, int count)
 
 static void check_readable(baum_simulation *run)
 {
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   const baum_channel channel = baum_channel_of(BAUM_Q);
   baum_counters counters;
   assert_int_equal(baum_simulation_get(run, &channel, 1, q), BAUM_OK);
@@ -264,7 +264,7 @@ static void check_fault_on_the_way(step_mode mode, int f)
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(mode.integrator),
              faults[f].message, t);
   }
-  assert_true(all_finite(baum_simulation_q(run), EVERY_NV));
+  assert_true(all_finite(baum_simulation_q(run), EVERY_NQ));
   assert_true(all_finite(baum_simulation_v(run), EVERY_NV));
   ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].message);
   fault.fails = false;
@@ -347,7 +347,7 @@ static void check_single_fault(step_mode mode, int f, int64_t n)
     fail_msg("%s, call %lld: %s: %s", baum_integrator_name(mode.integrator), (long long)n,
              baum_status_name(status), baum_message());
   }
-  assert_true(all_finite(baum_simulation_q(run), EVERY_NV));
+  assert_true(all_finite(baum_simulation_q(run), EVERY_NQ));
   assert_true(all_finite(baum_simulation_v(run), EVERY_NV));
   status = baum_simulation_advance_to(run, 0.02);
   assert_true(status == BAUM_OK || status == BAUM_WARNED);

@@ -34,9 +34,9 @@ typedef struct scene {
   stage stage;
   every_element parts;
   baum_workspace *w;
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
-  double y[2 * EVERY_NV + 2 * EVERY_NC];
+  double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
   baum_simulation *run;
   baum_simulation *from; /* further on, with a schedule and a law of its own */
   model pendulum;
@@ -150,7 +150,7 @@ static void add_state(baum_i_digest *d, const baum_simulation *run)
 {
   double t = baum_simulation_time(run);
   baum_i_digest_add(d, &t, sizeof t);
-  baum_i_digest_add(d, baum_simulation_q(run), EVERY_NV * sizeof(double));
+  baum_i_digest_add(d, baum_simulation_q(run), EVERY_NQ * sizeof(double));
   baum_i_digest_add(d, baum_simulation_v(run), EVERY_NV * sizeof(double));
 }
 

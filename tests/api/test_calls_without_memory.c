@@ -31,10 +31,10 @@ typedef struct scene {
   baum_study *study; /* of report, over */
   baum_study *fresh;
 
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
   double lambda[EVERY_NC];
-  double y[2 * EVERY_NV + 2 * EVERY_NC];
+  double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
   double x[EVERY_NV * EVERY_NV];
   double two[2];
   double later; /* [s] */

@@ -161,7 +161,7 @@ static int cheap_channels(const every_element *parts, baum_channel channels[8])
   return count;
 }
 
-enum { SAMPLES = 12, ROW = 200 };
+enum { SAMPLES = 12, ROW = EVERY_NQ + EVERY_NV + 2 * EVERY_NC + 12 };
 
 /* Evaluations of a run that records count channels, from 0.05 s on at every step. */
 static int64_t cost_of(const every_element *parts, const baum_integrator *integrator,

@@ -19,8 +19,9 @@
 
 enum { HEADER_SIZE = 65536, TEXT_SIZE = 128, NAME_SIZE = 64, FILL = 0xA5, OTHER_FILL = 0x5A };
 
-static const char *const header_names[] = {"mechanism.h", "planar.h", "planar_joints.h",
-                                           "simulation.h", "spline.h"};
+static const char *const header_names[] = {"mechanism.h",  "planar.h",  "planar_joints.h",
+                                           "simulation.h", "spatial.h", "spatial_joints.h",
+                                           "spline.h"};
 enum { HEADERS = sizeof header_names / sizeof *header_names };
 
 /* The headers, one after the other; to be freed. */
@@ -385,8 +386,9 @@ static any_def change(const element_kind *kind, const any_def *good, const char 
   def.head.name = name;
   for (int k = 0; k < fields.count; k++) {
     const element_field *field = &fields.list[k];
-    double value[2];
-    if (field->type != FIELD_NUMBERS) {
+    double value[FIELD_NUMBERS_MAX];
+    bool keeps_length = strcmp(field->name, "orientation") == 0;
+    if (field->type != FIELD_NUMBERS || keeps_length) {
       continue;
     }
     memcpy(value, def.bytes + field->offset, field->size);
@@ -539,7 +541,7 @@ static void sizes_rows_and_columns_follow_the_order_of_adding(void **state)
   every_element parts = every_element_make(NULL);
   int32_t size[3] = {0, 0, 0};
   assert_int_equal(baum_mechanism_sizes(parts.mechanism, &size[0], &size[1], &size[2]), BAUM_OK);
-  const int32_t sizes[3] = {EVERY_NV, EVERY_NV, EVERY_NC};
+  const int32_t sizes[3] = {EVERY_NQ, EVERY_NV, EVERY_NC};
   assert_memory_equal(size, sizes, sizeof sizes);
   const baum_joint_id joints[] = {parts.pin,  parts.rod,   parts.guide,
                                   parts.weld, parts.motor, parts.circle};

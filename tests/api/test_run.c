@@ -81,7 +81,7 @@ static step_mode mode_at(int k)
 static void check_same_state(const baum_simulation *a, const baum_simulation *b)
 {
   assert_true(baum_simulation_time(a) == baum_simulation_time(b));
-  assert_memory_equal(baum_simulation_q(a), baum_simulation_q(b), EVERY_NV * sizeof(double));
+  assert_memory_equal(baum_simulation_q(a), baum_simulation_q(b), EVERY_NQ * sizeof(double));
   assert_memory_equal(baum_simulation_v(a), baum_simulation_v(b), EVERY_NV * sizeof(double));
 }
 
@@ -181,14 +181,14 @@ static void out_and_back_ends_near_the_start(void **state)
     baum_simulation_options o = options_in(mode_at(k));
     o.step = isnan(o.step) ? o.step : 1e-4;
     scene s = open_with(&o);
-    double start[EVERY_NV];
+    double start[EVERY_NQ];
     memcpy(start, baum_simulation_q(s.run), sizeof start);
     assert_true(baum_simulation_advance_to(s.run, 0.05) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, -0.05) >= BAUM_OK);
     assert_true(baum_simulation_time(s.run) == -0.05);
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
     assert_true(baum_simulation_time(s.run) == 0.0);
-    for (int i = 0; i < EVERY_NV; i++) {
+    for (int i = 0; i < EVERY_NQ; i++) {
       /* Order 1 with h = 1e-4 over 0.2 s: |a| h t is about 1e-3. */
       ASSERT_NEAR(baum_simulation_q(s.run)[i], start[i], 0.0, 1e-3);
     }
@@ -236,7 +236,7 @@ static void a_run_can_be_put_back_to_where_it_was(void **state)
   (void)state;
   for (int k = 0; mode_at(k).integrator; k++) {
     scene s = open_mode(mode_at(k));
-    double q[EVERY_NV];
+    double q[EVERY_NQ];
     double v[EVERY_NV];
     assert_true(baum_simulation_advance_to(s.run, 0.05) >= BAUM_OK);
     memcpy(q, baum_simulation_q(s.run), sizeof q);
@@ -255,7 +255,7 @@ static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
   for (int k = 0; mode_at(k).integrator; k++) {
     scene a = open_mode(mode_at(k));
     scene b = open_mode(mode_at(k));
-    double q[EVERY_NV];
+    double q[EVERY_NQ];
     double v[EVERY_NV];
     memcpy(q, baum_simulation_q(a.run), sizeof q);
     memcpy(v, baum_simulation_v(a.run), sizeof v);
@@ -264,7 +264,7 @@ static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
     assert_true(baum_simulation_time(a.run) == 0.0);
     assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(b.run, 0.1) >= BAUM_OK);
-    for (int i = 0; i < EVERY_NV; i++) {
+    for (int i = 0; i < EVERY_NQ; i++) {
       /* Assembly of the state that was set moves it by rounding. */
       ASSERT_NEAR(baum_simulation_q(a.run)[i], baum_simulation_q(b.run)[i], 0.0, 1e-7);
     }
@@ -282,7 +282,7 @@ static void samples_off_the_grid_do_not_alter_the_motion(void **state)
   (void)state;
   const double off[TIMES] = {0.0, 0.003, 0.0101, 0.0255, 0.0256, 0.03, 0.047, 0.0699, 0.1};
   const baum_channel channel = baum_channel_of(BAUM_Q);
-  double rows[TIMES * EVERY_NV];
+  double rows[TIMES * EVERY_NQ];
   int64_t done = 0;
   for (int k = 0; mode_at(k).integrator; k++) {
     scene a = open_mode(mode_at(k));
@@ -291,7 +291,7 @@ static void samples_off_the_grid_do_not_alter_the_motion(void **state)
     assert_true(baum_simulation_sample(b.run, off, TIMES, &channel, 1, rows, &done) >= BAUM_OK);
     assert_int_equal(done, TIMES);
     check_same_state(a.run, b.run);
-    assert_memory_equal(rows + (TIMES - 1) * EVERY_NV, baum_simulation_q(a.run),
+    assert_memory_equal(rows + (TIMES - 1) * EVERY_NQ, baum_simulation_q(a.run),
                         EVERY_NV * sizeof(double));
     assert_int_equal(counters_of(a.run).steps, counters_of(b.run).steps);
     assert_int_equal(counters_of(b.run).short_steps, 0);
@@ -305,13 +305,13 @@ static void a_sample_is_what_an_advance_to_its_time_finds(void **state)
   (void)state;
   const double times[3] = {0.0134, 0.0345, 0.06};
   const baum_channel channel = baum_channel_of(BAUM_Q);
-  double rows[3 * EVERY_NV];
+  double rows[3 * EVERY_NQ];
   for (int k = 0; mode_at(k).integrator; k++) {
     scene a = open_mode(mode_at(k));
     scene b = open_mode(mode_at(k));
     assert_true(baum_simulation_sample(a.run, times, 3, &channel, 1, rows, NULL) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(b.run, times[0]) >= BAUM_OK);
-    assert_memory_equal(rows, baum_simulation_q(b.run), EVERY_NV * sizeof(double));
+    assert_memory_equal(rows, baum_simulation_q(b.run), EVERY_NQ * sizeof(double));
     close_scene(&a);
     close_scene(&b);
   }
@@ -349,16 +349,16 @@ static void channels_agree_with_each_other(void **state)
     baum_channel_of_body(BAUM_BODY_POSE, s.parts.masses),
   };
   enum { COUNT = sizeof channels / sizeof *channels };
-  double row[EVERY_NV + 3 + 3 + 2 + EVERY_NC + 1 + 2];
+  double row[EVERY_NQ + 3 + 3 + 2 + EVERY_NC + 1 + 2];
   assert_int_equal(baum_channels_width(s.parts.mechanism, channels, COUNT),
                    (int)(sizeof row / sizeof *row));
   assert_int_equal(baum_simulation_get(s.run, channels, COUNT, row), BAUM_OK);
   const double *q = row;
-  const double *tip = q + EVERY_NV;
+  const double *tip = q + EVERY_NQ;
   const double *rate = tip + 3;
   const double *coordinate = rate + 3;
   const double *phi = coordinate + 2;
-  assert_memory_equal(q, baum_simulation_q(s.run), EVERY_NV * sizeof *q);
+  assert_memory_equal(q, baum_simulation_q(s.run), EVERY_NQ * sizeof *q);
   ASSERT_NEAR(tip[0], q[0] + 0.05 * cos(q[2]), 1e-14, 0.0);
   ASSERT_NEAR(tip[1], q[1] + 0.05 * sin(q[2]), 1e-14, 0.0);
   assert_memory_equal(rate, baum_simulation_v(s.run), 3 * sizeof *rate);
@@ -485,7 +485,7 @@ static void a_run_explains_itself(void **state)
     assert_non_null(strstr(text, "alpha 4.5 1/s, beta 5.5 1/s"));
     assert_non_null(strstr(text, isnan(o.step) ? "rtol 1e-08" : "fixed step 0.01 s"));
     assert_non_null(strstr(text, "klu"));
-    assert_non_null(strstr(text, "degrees of freedom 4"));
+    assert_non_null(strstr(text, "degrees of freedom 9"));
     close_scene(&s);
   }
 }

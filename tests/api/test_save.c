@@ -28,8 +28,8 @@ static const char *program; /* argv[0] */
 /* What a run has come to: all that can be read of it. */
 typedef struct outcome {
   double t;
-  double q[SAVED_NV_MAX];
-  double v[SAVED_NV_MAX];
+  double q[SAVED_NQ_MAX];
+  double v[SAVED_NQ_MAX];
   baum_counters counters;
   baum_energy_account account;
   double input;
@@ -61,7 +61,7 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
 {
   memset(out, 0, sizeof *out);
   out->t = baum_simulation_time(run);
-  memcpy(out->q, baum_simulation_q(run), (size_t)scene->nv * sizeof *out->q);
+  memcpy(out->q, baum_simulation_q(run), (size_t)scene->nq * sizeof *out->q);
   memcpy(out->v, baum_simulation_v(run), (size_t)scene->nv * sizeof *out->v);
   assert_int_equal(baum_simulation_counters(run, &out->counters, sizeof out->counters), BAUM_OK);
   if (scene->options.energy_account) {

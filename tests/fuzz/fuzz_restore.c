@@ -21,7 +21,7 @@ typedef struct scene {
   unsigned char *changed;
   size_t size;
   size_t room;
-  double then[EVERY_NV]; /* q three steps on */
+  double then[EVERY_NQ]; /* q three steps on */
 } scene;
 
 static const baum_integrator *integrator_at(int k)

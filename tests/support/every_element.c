@@ -144,16 +144,6 @@ static int track_curve(const double xy[2], double out[6], void *user)
 
 /* ---- definitions ---- */
 
-#define GOOD(NAME)                                                 \
-  static baum_##NAME##_def NAME##_def(const every_element *parts); \
-  void good_##NAME(const every_element *parts, any_def *to)        \
-  {                                                                \
-    baum_##NAME##_def def = NAME##_def(parts);                     \
-    memset(to, 0, sizeof *to);                                     \
-    memcpy(to, &def, sizeof def);                                  \
-  }                                                                \
-  static baum_##NAME##_def NAME##_def(const every_element *parts)
-
 GOOD(planar_body)
 {
   (void)parts;
@@ -497,21 +487,25 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
-/* Kinds before the spline driver, the last, and before the joints of the train. */
-enum { EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - 1, EVERY_WITHOUT_TRAIN = EVERY_WITHOUT_WHEEL - 5 };
+/* Kinds before the joints of the train, before the spline driver, and before those in space. */
+enum { EVERY_WITHOUT_TRAIN = 13, EVERY_WITHOUT_WHEEL = 18, EVERY_WITHOUT_SPACE = 19 };
 
-static baum_status add_all(every_element *parts)
+/* The first kinds, and what they hang on. */
+static baum_status add_kinds(every_element *parts, int count)
 {
   baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);
   if (status == BAUM_OK) {
     status = baum_mechanism_add_input(parts->mechanism, "throttle", 1.0, &parts->throttle);
   }
-  for (int k = 0; k < ELEMENT_KINDS && status == BAUM_OK; k++) {
+  for (int k = 0; k < count && status == BAUM_OK; k++) {
     if (k == EVERY_WITHOUT_TRAIN) {
       status = add_train(parts);
     }
     if (k == EVERY_WITHOUT_WHEEL) {
       status = add_wheel(parts);
+    }
+    if (k == EVERY_WITHOUT_SPACE) {
+      status = every_element_add_spatial_bodies(parts);
     }
     if (status == BAUM_OK) {
       status = add_kind(parts, &element_kinds[k]);
@@ -526,14 +520,14 @@ static baum_status add_all(every_element *parts)
   return status;
 }
 
-baum_status every_element_build(every_element *parts)
+static baum_status build(every_element *parts, int kinds)
 {
   every_fault *fault = parts->fault;
   memset(parts, 0, sizeof *parts);
   parts->fault = fault;
   baum_status status = baum_mechanism_create(&parts->mechanism);
   if (status == BAUM_OK) {
-    status = add_all(parts);
+    status = add_kinds(parts, kinds);
   }
   if (status != BAUM_OK) {
     baum_mechanism_destroy(parts->mechanism);
@@ -542,10 +536,25 @@ baum_status every_element_build(every_element *parts)
   return status;
 }
 
-every_element every_element_make(every_fault *fault)
+baum_status every_element_build(every_element *parts)
+{
+  return build(parts, ELEMENT_KINDS);
+}
+
+static every_element make(every_fault *fault, int kinds)
 {
   every_element parts = {.fault = fault};
-  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  assert_int_equal(build(&parts, kinds), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
   return parts;
+}
+
+every_element every_element_make(every_fault *fault)
+{
+  return make(fault, ELEMENT_KINDS);
+}
+
+every_element every_element_make_planar(void)
+{
+  return make(NULL, EVERY_WITHOUT_SPACE);
 }

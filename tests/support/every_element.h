@@ -7,9 +7,13 @@
  *   spring, load, drag (user force), torsion spring; disc on an axle, geared with the crank; bar
  *   on a rail, a rack on the disc; bead in a slot of the disc, where the crank's angle puts it
  *   (coupling); pea on a curve of the bar; a wheel on a hinge that is driven along a spline
- *   (cam).
+ *   (cam);
+ *   in space: shaft in a bearing; yoke on a cross of it, with a shoe on a plane; ram on a slide;
+ *   top in a socket of the shaft and on a table of the ram; tube in a sleeve, cap clamped to it;
+ *   ball on a wire of the yoke, on a strut of the cap; coil (spring), push (load).
  *
- * 26 coordinates and 22 rows, 4 degrees of freedom; drawn in its exact start pose.
+ * 71 positions, 65 velocities and 56 rows, 9 degrees of freedom, of which 26, 26, 22 and 4 are
+ * planar and come first; the design configuration fulfils all rows but that of cam.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -45,6 +49,13 @@ typedef struct every_element {
   baum_body_id bead;
   baum_body_id pea;
   baum_body_id wheel;
+  baum_body_id shaft;
+  baum_body_id ball;
+  baum_body_id yoke;
+  baum_body_id ram;
+  baum_body_id top;
+  baum_body_id tube;
+  baum_body_id cap;
   baum_joint_id pin;
   baum_joint_id rod;
   baum_joint_id guide;
@@ -60,17 +71,29 @@ typedef struct every_element {
   baum_joint_id track;
   baum_joint_id hinge;
   baum_joint_id cam;
+  baum_joint_id bearing;
+  baum_joint_id cross;
+  baum_joint_id shoe;
+  baum_joint_id slide;
+  baum_joint_id socket;
+  baum_joint_id table;
+  baum_joint_id sleeve;
+  baum_joint_id clamp;
+  baum_joint_id wire;
+  baum_joint_id strut;
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
   baum_force_id twist;
-  baum_input_id throttle;        /* of the load, 1 at first */
+  baum_force_id coil;
+  baum_force_id push;
+  baum_input_id throttle;        /* of load and push, 1 at first */
   every_fault *fault;            /* `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* of the definitions */
   baum_body_id drag_bodies[1];
 } every_element;
 
-enum { EVERY_NV = 26, EVERY_NC = 22, EVERY_DEF_SIZE = 256 };
+enum { EVERY_NQ = 71, EVERY_NV = 65, EVERY_NC = 56, EVERY_DEF_SIZE = 256 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -85,7 +108,7 @@ typedef union any_def {
 typedef enum field_type {
   FIELD_SIZE,     /* struct_size */
   FIELD_NAME,     /* copied text */
-  FIELD_NUMBERS,  /* double or double[2] */
+  FIELD_NUMBERS,  /* doubles, at most FIELD_NUMBERS_MAX */
   FIELD_INTEGER,  /* int32_t, int64_t or an enum */
   FIELD_FLAG,     /* bool */
   FIELD_ID,       /* of a body or joint */
@@ -117,7 +140,7 @@ typedef struct element_kind {
 } element_kind;
 
 /* All of a definition, in its order. */
-enum { ELEMENT_FIELDS_MAX = 32 };
+enum { ELEMENT_FIELDS_MAX = 32, FIELD_NUMBERS_MAX = 6 };
 typedef struct element_fields {
   element_field list[ELEMENT_FIELDS_MAX];
   int count;
@@ -125,7 +148,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 19 };
+enum { ELEMENT_KINDS = 33 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };
@@ -139,6 +162,9 @@ baum_status every_element_build(every_element *parts);
 
 /* The same, frozen; fails the test on failure. */
 every_element every_element_make(every_fault *fault);
+
+/* Without the part in space: nq = nv. */
+every_element every_element_make_planar(void);
 
 /* Whether an integrator takes it: there are dampers and a mass that varies among its elements. */
 static inline bool every_element_suits(const baum_integrator *integrator)

@@ -3,6 +3,8 @@
 #ifndef BAUM_TEST_EVERY_ELEMENT_GOOD_H
 #define BAUM_TEST_EVERY_ELEMENT_GOOD_H
 
+#include <string.h>
+
 #include "every_element.h"
 
 void good_planar_body(const every_element *parts, any_def *to);
@@ -24,5 +26,33 @@ void good_planar_gear(const every_element *parts, any_def *to);
 void good_coupling(const every_element *parts, any_def *to);
 void good_planar_curve(const every_element *parts, any_def *to);
 void good_spline_driver(const every_element *parts, any_def *to);
+void good_spatial_body(const every_element *parts, any_def *to);
+void good_spatial_particle(const every_element *parts, any_def *to);
+void good_spatial_spherical(const every_element *parts, any_def *to);
+void good_spatial_revolute(const every_element *parts, any_def *to);
+void good_spatial_universal(const every_element *parts, any_def *to);
+void good_spatial_cylindrical(const every_element *parts, any_def *to);
+void good_spatial_prismatic(const every_element *parts, any_def *to);
+void good_spatial_planar(const every_element *parts, any_def *to);
+void good_spatial_fixed(const every_element *parts, any_def *to);
+void good_spatial_distance(const every_element *parts, any_def *to);
+void good_spatial_point_on_line(const every_element *parts, any_def *to);
+void good_spatial_point_on_plane(const every_element *parts, any_def *to);
+void good_spatial_spring(const every_element *parts, any_def *to);
+void good_spatial_load(const every_element *parts, any_def *to);
+
+/* The spatial bodies of no kind's definition; in every_element_spatial.c. */
+baum_status every_element_add_spatial_bodies(every_element *parts);
+
+/* GOOD(name) { return the definition made of `parts`; } */
+#define GOOD(NAME)                                                 \
+  static baum_##NAME##_def NAME##_def(const every_element *parts); \
+  void good_##NAME(const every_element *parts, any_def *to)        \
+  {                                                                \
+    baum_##NAME##_def def = NAME##_def(parts);                     \
+    memset(to, 0, sizeof *to);                                     \
+    memcpy(to, &def, sizeof def);                                  \
+  }                                                                \
+  static baum_##NAME##_def NAME##_def(const every_element *parts)
 
 #endif

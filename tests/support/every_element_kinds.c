@@ -101,6 +101,20 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(joint, coupling, "coupling", lead),
   KIND(joint, planar_curve, "planar point on a curve", track),
   KIND(joint, spline_driver, "spline driver", cam),
+  KIND(body, spatial_body, "spatial body", shaft),
+  KIND(body, spatial_particle, "spatial particle", ball),
+  KIND(joint, spatial_revolute, "spatial revolute joint", bearing),
+  KIND(joint, spatial_universal, "spatial universal joint", cross),
+  KIND(joint, spatial_point_on_plane, "spatial point on a plane", shoe),
+  KIND(joint, spatial_prismatic, "spatial prismatic joint", slide),
+  KIND(joint, spatial_spherical, "spatial spherical joint", socket),
+  KIND(joint, spatial_planar, "spatial planar joint", table),
+  KIND(joint, spatial_cylindrical, "spatial cylindrical joint", sleeve),
+  KIND(joint, spatial_fixed, "spatial fixed joint", clamp),
+  KIND(joint, spatial_point_on_line, "spatial point on a line", wire),
+  KIND(joint, spatial_distance, "spatial distance joint", strut),
+  KIND(force, spatial_spring, "spatial spring", coil),
+  KIND(force, spatial_load, "spatial load", push),
 };
 
 /* ---- fields of a definition, as its own table has them ---- */

@@ -45,7 +45,6 @@ static void open_every_element(saved_scene *scene)
   assert_int_equal(baum_mechanism_add_break_times(parts.mechanism, breaks, 4), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
   scene->mechanism = parts.mechanism;
-  scene->nv = EVERY_NV;
   scene->has_input = true;
   scene->input = parts.throttle;
   scene->motor = parts.motor;
@@ -60,7 +59,6 @@ static void open_slider_crank(saved_scene *scene, bool doubled)
   scene->mechanism = m.mechanism;
   m.mechanism = NULL;
   model_destroy(&m);
-  scene->nv = 3 * (3 + 2);
   scene->span = 1e-2;
 }
 
@@ -68,7 +66,6 @@ static void open_driven(saved_scene *scene)
 {
   const drive motor = {.angle = 0.4, .rate = 1.0};
   scene->mechanism = four_bar_make(&motor);
-  scene->nv = 9;
   scene->span = 0.2;
 }
 
@@ -118,7 +115,6 @@ static bool open_singular(saved_scene *scene, int number)
   scene->mechanism = m.mechanism;
   m.mechanism = NULL;
   model_destroy(&m);
-  assert_int_equal(baum_mechanism_sizes(scene->mechanism, NULL, &scene->nv, NULL), BAUM_OK);
   scene->passes = 1.0;
   scene->span = 0.2;
   return true;
@@ -167,6 +163,8 @@ bool saved_scene_open(saved_scene *scene, int number)
   if (!is_pair && !open_other(scene, number)) {
     return false;
   }
+  assert_int_equal(baum_mechanism_sizes(scene->mechanism, &scene->nq, &scene->nv, NULL), BAUM_OK);
+  assert_in_range(scene->nq, scene->nv, SAVED_NQ_MAX);
   const baum_simulation_options *o = &scene->options;
   const char *formulation = baum_formulation_name(o->formulation);
   (void)snprintf(scene->name, sizeof scene->name, "%s %s %s, solver %d%s",

@@ -7,7 +7,7 @@
 
 #include <baum/baum.h>
 
-enum { SAVED_NV_MAX = 48, SAVED_NAME = 80 };
+enum { SAVED_NQ_MAX = 72, SAVED_NAME = 80 };
 
 typedef struct saved_scene saved_scene;
 
@@ -15,7 +15,8 @@ struct saved_scene {
   char name[SAVED_NAME];
   baum_mechanism *mechanism;
   baum_simulation_options options;
-  int nv;
+  int32_t nq;
+  int32_t nv;
   int times;   /* at which it is saved */
   double span; /* [s] most between two of them */
   bool has_input;

@@ -234,7 +234,7 @@ static void models_by_functions_with_and_without_derivatives(void **state)
 static void one_of_every_element(void **state)
 {
   (void)state;
-  every_element parts = every_element_make(NULL);
+  every_element parts = every_element_make_planar();
   chance c = chance_of(3);
   assert_int_equal(check_mechanism(parts.mechanism, BAUM_FORMULATION_BAUMGARTE, BY_DIFFERENCES, &c),
                    STATES);

@@ -236,7 +236,7 @@ static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **s
 static void the_jacobian_is_that_of_differences_for_every_element(void **state)
 {
   (void)state;
-  every_element parts = every_element_make(NULL);
+  every_element parts = every_element_make_planar();
   check_all_forms("every element", parts.mechanism);
   check_row_gains("every element", parts.mechanism);
   baum_mechanism_destroy(parts.mechanism);

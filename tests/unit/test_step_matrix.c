@@ -12,7 +12,7 @@
 #include "dynamics/step_matrix.h"
 #include "every_element.h"
 
-enum { SIZE = 2 * EVERY_NV + EVERY_NC, N = EVERY_NV + EVERY_NC };
+enum { SIZE = EVERY_NQ + EVERY_NV + EVERY_NC, N = EVERY_NV + EVERY_NC };
 
 typedef struct point {
   double y[SIZE];
@@ -26,23 +26,25 @@ static void choose(baum_workspace *w, point *p)
   assert_int_equal(baum_workspace_design(w, p->y, NULL), BAUM_OK);
   for (int i = 0; i < SIZE; i++) {
     double x = sin(7.3 * i + 1.0);
-    p->y[i] = i < EVERY_NV ? p->y[i] + 0.01 * x : x;
+    p->y[i] = i < EVERY_NQ ? p->y[i] + 0.01 * x : x;
     p->dy[i] = cos(3.1 * i);
   }
 }
 
 /* Along a direction d of (q, lambda scaled), with v and v' in their ratios. */
-static void move(const point *from, const double *d, double by, const baum_i_step_ratios *r,
-                 point *to)
+static void move(baum_workspace *w, const point *from, const double *d, double by,
+                 const baum_i_step_ratios *r, point *to)
 {
+  double dx[EVERY_NV];
   *to = *from;
   for (int i = 0; i < EVERY_NV; i++) {
-    to->y[i] += by * d[i];
-    to->y[EVERY_NV + i] += by * r->by_v * d[i];
-    to->dy[EVERY_NV + i] += by * r->by_a * d[i];
+    dx[i] = by * d[i];
+    to->y[EVERY_NQ + i] += by * r->by_v * d[i];
+    to->dy[EVERY_NQ + i] += by * r->by_a * d[i];
   }
+  assert_int_equal(baum_workspace_move(w, dx, to->y), BAUM_OK);
   for (int i = 0; i < EVERY_NC; i++) {
-    to->y[2 * EVERY_NV + i] += by * d[EVERY_NV + i] / r->scale;
+    to->y[EVERY_NQ + EVERY_NV + i] += by * d[EVERY_NV + i] / r->scale;
   }
 }
 
@@ -52,7 +54,7 @@ static void residual_at(baum_workspace *w, const point *p, double scale, double 
   double all[SIZE];
   assert_int_equal(baum_i_residual(w, &dae, 0.1, p->y, p->dy, all), BAUM_OK);
   for (int i = 0; i < N; i++) {
-    out[i] = (i < EVERY_NV ? scale : 1.0) * all[EVERY_NV + i];
+    out[i] = (i < EVERY_NV ? scale : 1.0) * all[EVERY_NQ + i];
   }
 }
 
@@ -74,7 +76,7 @@ static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
     d[i] = cos(5.7 * i);
   }
   for (int k = 0; k < 2; k++) {
-    move(&p, d, k == 0 ? 1e-5 : -1e-5, &ratios, &ends[k]);
+    move(w, &p, d, k == 0 ? 1e-5 : -1e-5, &ratios, &ends[k]);
     residual_at(w, &ends[k], ratios.scale, change[k]);
   }
   for (int i = 0; i < N; i++) {

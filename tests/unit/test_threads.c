@@ -31,7 +31,7 @@ typedef struct job {
   const baum_integrator *integrator;
   bool variable; /* its own steps, of one that takes both */
   baum_status status;
-  double q[EVERY_NV];
+  double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
   const every_element *parts; /* of a variant's job */

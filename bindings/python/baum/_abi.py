@@ -851,8 +851,8 @@ class baum_spatial_load_def(Structure):
         ("point", c_double * 3),
         ("force", c_double * 3),
         ("moment", c_double * 3),
-        ("follows_body", c_bool),
         ("input", baum_input_id),
+        ("follows_body", c_bool),
     ]
 
 

@@ -40,7 +40,7 @@ static baum_status check_axes(const baum_mechanism *mechanism, const void *def, 
   const baum_i_spatial_axis_head *given = def;
   const double *axis = given->axis_b;
   BAUM_I_TRY(check_turning(mechanism, def, label));
-  return baum_i_dot3(axis, axis) != 0.0
+  return axis[0] != 0.0 || axis[1] != 0.0 || axis[2] != 0.0
            ? BAUM_OK
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis_b is (0, 0, 0), must have a direction",
                          label);

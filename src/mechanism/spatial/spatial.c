@@ -93,17 +93,19 @@ static baum_status check_one_way(const baum_i_spatial_head *head, const char *la
                          label, has_length ? "" : "point, or ");
 }
 
-static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_id id,
-                                     const char *label, const char *field, const double s[3])
+baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
+                                                  const char *label, const char *field,
+                                                  const char *unit, const double s[3])
 {
   const baum_i_body *body = body_of(mechanism, id);
-  if (has_axes(body) || !baum_i_spatial_is_given(s) || baum_i_dot3(s, s) == 0.0) {
+  bool is_zero = s[0] == 0.0 && s[1] == 0.0 && s[2] == 0.0;
+  if (has_axes(body) || !baum_i_spatial_is_given(s) || is_zero) {
     return BAUM_OK;
   }
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: %s is (%g, %g, %g) m, must be (0, 0, 0) on the particle %s", label, field,
-                     s[0], s[1], s[2], baum_i_label(&body->element, text));
+                     "%s: %s is (%g, %g, %g) %s, must be (0, 0, 0) on the particle %s", label,
+                     field, s[0], s[1], s[2], unit, baum_i_label(&body->element, text));
 }
 
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
@@ -112,8 +114,10 @@ baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const voi
   const baum_i_spatial_head *head = def;
   BAUM_I_TRY(check_bodies(mechanism, head, label));
   BAUM_I_TRY(check_one_way(head, label, has_length));
-  BAUM_I_TRY(check_on_particle(mechanism, head->body_a, label, "point_a", head->point_a));
-  return check_on_particle(mechanism, head->body_b, label, "point_b", head->point_b);
+  BAUM_I_TRY(baum_i_spatial_check_zero_on_particle(mechanism, head->body_a, label, "point_a", "m",
+                                                   head->point_a));
+  return baum_i_spatial_check_zero_on_particle(mechanism, head->body_b, label, "point_b", "m",
+                                               head->point_b);
 }
 
 /* A point in ground axes to a body's axes. */

@@ -36,6 +36,11 @@ baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
                                          const char *label, const char *field);
 
+/* Check that a vector of three, if it is given, is zero where the body is a particle. */
+baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
+                                                  const char *label, const char *field,
+                                                  const char *unit, const double s[3]);
+
 /* Check the head: bodies that differ, and points that are given in exactly one way, not by `point`
  * where the element has a length. */
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,

@@ -60,7 +60,7 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
   const baum_i_spatial_pair pair = pair_at(joint, point);
   const baum_i_spatial_joint_type *type = type_of(joint);
   for (int i = 0; i < type->directed_count; i++) {
-    if (baum_i_spatial_product(&pair, type->directed[i]) < 0.0) {
+    if (baum_i_spatial_product(&pair, type->directed[i]) < 0.5) {
       return true;
     }
   }

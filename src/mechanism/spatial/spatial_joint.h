@@ -14,8 +14,8 @@ typedef struct baum_i_spatial_joint_type {
   baum_i_spatial_row rows[BAUM_I_SPATIAL_ROWS];
   /* Of a displacement, the product that it is; of an angle, those that are its sine and cosine. */
   baum_i_spatial_row coordinate[2];
-  /* Products that are 1 where the joint is mounted as meant, and -1 where its rows are fulfilled
-   * although it is mounted the wrong way round. */
+  /* Products that are 1 where the joint is mounted as meant. Where its rows are fulfilled although
+   * it is mounted the wrong way round, one of them is -1, or 0 in a weld turned by a third. */
   int directed_count;
   baum_i_spatial_row directed[2];
 } baum_i_spatial_joint_type;

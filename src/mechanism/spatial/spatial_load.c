@@ -23,8 +23,8 @@ static const baum_i_def_field fields[] = {
   BAUM_I_NUMBERS(baum_spatial_load_def, point, FINITE, "m", 0.0),
   BAUM_I_NUMBERS(baum_spatial_load_def, force, FINITE, "N", 0.0),
   BAUM_I_NUMBERS(baum_spatial_load_def, moment, FINITE, "N m", 0.0),
-  BAUM_I_FIELD(baum_spatial_load_def, follows_body, FLAG),
   BAUM_I_FIELD(baum_spatial_load_def, input, INPUT),
+  BAUM_I_FIELD(baum_spatial_load_def, follows_body, FLAG),
   {0},
 };
 
@@ -43,8 +43,12 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   if (index == 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body is ground, which does not move", label);
   }
-  bool needs_axes = !is_zero(def->point) || !is_zero(def->moment) || def->follows_body;
-  return needs_axes ? baum_i_spatial_check_turning(mechanism, def->body, label, "body") : BAUM_OK;
+  BAUM_I_TRY(
+    baum_i_spatial_check_zero_on_particle(mechanism, def->body, label, "point", "m", def->point));
+  BAUM_I_TRY(baum_i_spatial_check_zero_on_particle(mechanism, def->body, label, "moment", "N m",
+                                                   def->moment));
+  return def->follows_body ? baum_i_spatial_check_turning(mechanism, def->body, label, "body")
+                           : BAUM_OK;
 }
 
 static bool has_input(const baum_spatial_load_def *def)

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The part of the mechanism of every element that moves in space. */
+#include "every_element_good.h"
+
+/* ---- bodies ---- */
+
+static baum_spatial_body_def body_at(const char *name, double x, double y, double z)
+{
+  static const double inertia[6] = {2e-3, 3e-3, 2.5e-3, 1e-4, -2e-4, 3e-4};
+  static const double orientation[4] = {0.5, -0.5, 0.1, 0.7};
+  const double position[3] = {x, y, z};
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.name = name;
+  def.mass = 0.4;
+  memcpy(def.inertia, inertia, sizeof inertia);
+  memcpy(def.position, position, sizeof position);
+  memcpy(def.orientation, orientation, sizeof orientation);
+  return def;
+}
+
+GOOD(spatial_body)
+{
+  (void)parts;
+  return body_at("shaft", 0.2, 0.3, 0.1);
+}
+
+baum_status every_element_add_spatial_bodies(every_element *parts)
+{
+  const struct {
+    baum_body_id *id;
+    baum_spatial_body_def def;
+  } bodies[] = {
+    {&parts->yoke, body_at("yoke", 0.21, 0.1, 0.1)},
+    {&parts->ram, body_at("ram", 0.4, 0.35, 0.15)},
+    {&parts->top, body_at("top", 0.21, 0.25, 0.19)},
+    {&parts->tube, body_at("tube", -0.2, 0.35, 0.05)},
+    {&parts->cap, body_at("cap", -0.18, 0.3, 0.05)},
+  };
+  baum_status status = BAUM_OK;
+  for (size_t k = 0; k < sizeof bodies / sizeof *bodies && status == BAUM_OK; k++) {
+    status = baum_mechanism_add_spatial_body(parts->mechanism, &bodies[k].def, bodies[k].id);
+  }
+  return status;
+}
+
+GOOD(spatial_particle)
+{
+  static const double position[3] = {0.2, 0.05, 0.15};
+  (void)parts;
+  baum_spatial_particle_def def = baum_spatial_particle_def_default();
+  def.name = "ball";
+  def.mass = 0.05;
+  memcpy(def.position, position, sizeof position);
+  return def;
+}
+
+/* ---- joints ---- */
+
+#define BETWEEN(DEF, NAME, BODY_A, BODY_B) \
+  do {                                     \
+    (DEF).name = (NAME);                   \
+    (DEF).body_a = (BODY_A);               \
+    (DEF).body_b = (BODY_B);               \
+  } while (0)
+
+static void set3(double out[3], double x, double y, double z)
+{
+  out[0] = x;
+  out[1] = y;
+  out[2] = z;
+}
+
+GOOD(spatial_revolute)
+{
+  baum_spatial_revolute_def def = baum_spatial_revolute_def_default();
+  BETWEEN(def, "bearing", BAUM_GROUND, parts->shaft);
+  set3(def.point, 0.2, 0.3, 0.1);
+  set3(def.axis, 0.1, 1.0, 0.0);
+  return def;
+}
+
+GOOD(spatial_universal)
+{
+  baum_spatial_universal_def def = baum_spatial_universal_def_default();
+  BETWEEN(def, "cross", parts->shaft, parts->yoke);
+  set3(def.point, 0.2, 0.25, 0.1);
+  set3(def.axis, 1.0, 0.0, 0.0);
+  set3(def.axis_b, 0.0, 0.0, 1.0);
+  return def;
+}
+
+GOOD(spatial_point_on_plane)
+{
+  baum_spatial_point_on_plane_def def = baum_spatial_point_on_plane_def_default();
+  BETWEEN(def, "shoe", BAUM_GROUND, parts->yoke);
+  set3(def.point, 0.2, 0.0, 0.1);
+  set3(def.axis, 1.0, 0.0, 0.2);
+  return def;
+}
+
+GOOD(spatial_prismatic)
+{
+  baum_spatial_prismatic_def def = baum_spatial_prismatic_def_default();
+  BETWEEN(def, "slide", BAUM_GROUND, parts->ram);
+  set3(def.point, 0.4, 0.35, 0.15);
+  set3(def.axis, 1.0, 0.1, 0.0);
+  set3(def.axis_b, 2.0, 0.2, 0.0);
+  return def;
+}
+
+GOOD(spatial_spherical)
+{
+  baum_spatial_spherical_def def = baum_spatial_spherical_def_default();
+  BETWEEN(def, "socket", parts->shaft, parts->top);
+  set3(def.point, 0.2, 0.3, 0.2);
+  return def;
+}
+
+GOOD(spatial_planar)
+{
+  baum_spatial_planar_def def = baum_spatial_planar_def_default();
+  BETWEEN(def, "table", parts->ram, parts->top);
+  set3(def.point, 0.3, 0.35, 0.15);
+  set3(def.axis, 0.9, 0.1, 0.3);
+  return def;
+}
+
+GOOD(spatial_cylindrical)
+{
+  baum_spatial_cylindrical_def def = baum_spatial_cylindrical_def_default();
+  BETWEEN(def, "sleeve", BAUM_GROUND, parts->tube);
+  set3(def.point, -0.2, 0.4, 0.05);
+  set3(def.axis, 0.1, 0.1, 1.0);
+  return def;
+}
+
+GOOD(spatial_fixed)
+{
+  baum_spatial_fixed_def def = baum_spatial_fixed_def_default();
+  BETWEEN(def, "clamp", parts->tube, parts->cap);
+  set3(def.point, -0.2, 0.35, 0.05);
+  return def;
+}
+
+GOOD(spatial_point_on_line)
+{
+  baum_spatial_point_on_line_def def = baum_spatial_point_on_line_def_default();
+  BETWEEN(def, "wire", parts->yoke, parts->ball);
+  set3(def.point, 0.2, 0.05, 0.15);
+  set3(def.axis, 0.1, 1.0, 0.0);
+  return def;
+}
+
+GOOD(spatial_distance)
+{
+  baum_spatial_distance_def def = baum_spatial_distance_def_default();
+  BETWEEN(def, "strut", parts->cap, parts->ball);
+  set3(def.point_a, 0.02, 0.0, 0.01);
+  set3(def.point_b, 0.0, 0.0, 0.0);
+  return def;
+}
+
+/* ---- forces ---- */
+
+GOOD(spatial_spring)
+{
+  baum_spatial_spring_def def = baum_spatial_spring_def_default();
+  BETWEEN(def, "coil", BAUM_GROUND, parts->ball);
+  set3(def.point_a, 0.25, 0.45, 0.1);
+  set3(def.point_b, 0.0, 0.0, 0.0);
+  def.stiffness = 2.0;
+  def.damping = 0.01;
+  def.free_length = 0.3;
+  return def;
+}
+
+GOOD(spatial_load)
+{
+  baum_spatial_load_def def = baum_spatial_load_def_default();
+  def.name = "push";
+  def.body = parts->cap;
+  set3(def.point, 0.01, 0.0, 0.02);
+  set3(def.force, 0.0, 0.2, 0.1);
+  set3(def.moment, 0.01, 0.0, 0.02);
+  def.follows_body = true;
+  def.input = parts->throttle;
+  return def;
+}
