@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Heap memory. The only file that calls malloc and its kin. */
+/* Heap memory. Only this file calls malloc and related functions. */
 #include "base/alloc.h"
 
 #include <stdbool.h>
@@ -27,7 +27,8 @@ void *baum_i_grow(void *old, size_t count, size_t size)
 
 void *baum_i_grow_by_one(void *old, size_t count, size_t size)
 {
-  bool is_full = count <= 2 || ((count - 1) & (count - 2)) == 0; /* a power of two and one more */
+  /* the count is a power of two plus one */
+  bool is_full = count <= 2 || ((count - 1) & (count - 2)) == 0;
   return old && !is_full ? old : baum_i_grow(old, count, size);
 }
 

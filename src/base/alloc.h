@@ -9,8 +9,8 @@
  * memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
-/* Grow an array to hold count elements; its room is rounded up to a power of two. On failure the
- * function returns NULL and the old array stays valid. */
+/* Grow an array to hold count elements. Its capacity is rounded up to a power of two. On failure
+ * the function returns NULL and the old array stays valid. */
 void *baum_i_grow(void *old, size_t count, size_t size);
 
 /* Grow an array by one element to count elements. It must come from this function or from
@@ -27,7 +27,7 @@ char *baum_i_copy_text(const char *text);
 /* Free memory; NULL is fine. The owner may free memory that it holds as const. */
 void baum_i_free(const void *memory);
 
-/* Drop const. For the few members of constant objects that change all the same. */
+/* Remove const, for the few members of constant objects that do change. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

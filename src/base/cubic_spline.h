@@ -15,8 +15,8 @@ typedef struct baum_i_cubic_spline {
   double *bends;        /* (count) half the second derivative at each */
 } baum_i_cubic_spline;
 
-/* Find the bends: zero at both ends, or periodic. Returns BAUM_OK or BAUM_ERR_MEMORY and sets no
- * message. */
+/* Find the second derivatives: zero at both ends, or periodic. Returns BAUM_OK or BAUM_ERR_MEMORY
+ * and sets no message. */
 baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool periodic);
 
 /* Evaluate s, s', s'' at a time between the first and the last. */

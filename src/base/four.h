@@ -70,7 +70,8 @@ BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
   return product;
 }
 
-/* (x_0 - y_0, x_1 + y_1) in either half: with y exchanged, x plus y turned by a right angle. */
+/* (x_0 - y_0, x_1 + y_1) in either half: x plus y rotated by a right angle, if the numbers of y are
+ * exchanged. */
 BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
 {
   return _mm256_addsub_pd(x, y);

@@ -21,10 +21,10 @@ typedef struct place {
 
 typedef struct search {
   double ends[2];   /* the minimum is between */
-  place least[3];   /* from the least on; places may be the same */
+  place least[3];   /* the three lowest points, the lowest first; some may coincide */
   double tolerance; /* of t */
   double step;      /* the last one */
-  double before;    /* the one before it */
+  double before;    /* the step before the last one */
 } search;
 
 /* Step from the least point to the vertex. It is NaN or infinite where the points are collinear. */
@@ -37,7 +37,7 @@ static double to_vertex(const place p[3])
   return -0.5 * (w * q - u * r) / (q - r);
 }
 
-/* A point next to an end tells nothing new. */
+/* A point next to an end gives no new information. */
 static bool is_inside(const search *s, double t)
 {
   return t - s->ends[0] >= 2.0 * s->tolerance && s->ends[1] - t >= 2.0 * s->tolerance;

@@ -27,8 +27,8 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
     }                                        \
   } while (0)
 
-/* The message of a user function: call the first before the function and the second after it. The
- * second returns NULL if the function set none. */
+/* For messages of user functions: call the first function before the user function and the second
+ * after it. The second returns NULL if the user function set no message. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
 

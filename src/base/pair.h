@@ -36,7 +36,7 @@ static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
   return (baum_i_pair){p[1], p[0]};
 }
 
-/* The sum stays in vectors, which avoids extracting numbers. */
+/* The sum stays in a vector register, because extracting single numbers is slow. */
 static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
 {
   baum_i_pair product = x * y;

@@ -59,7 +59,8 @@ static inline double baum_i_cosine_kernel(double r, double y)
 static inline void baum_i_sincos(double x, double *sine, double *cosine)
 {
   static const double two_over_pi = 0x1.45f306dc9c883p-1;
-  static const double to_integer = 0x1.8p52; /* added, it leaves an integer in the last bits */
+  /* adding it leaves the rounded integer in the last bits */
+  static const double to_integer = 0x1.8p52;
   static const double part1 = 1.57079632673412561417e+00;
   static const double part2 = 6.07710050630396597660e-11;
   static const double part3 = 2.02226624871116645580e-21;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structs that begin with `size_t struct_size`. A caller built with older headers knows fewer
- * fields. It receives these, and struct_size tells it how many bytes they are. */
+ * fields. It receives only these, and struct_size tells it their size in bytes. */
 #ifndef BAUM_I_BASE_SIZED_H
 #define BAUM_I_BASE_SIZED_H
 
@@ -10,10 +10,10 @@
 
 #include <baum/status.h>
 
-/* Whether the caller's struct has room for struct_size at least. */
+/* Whether the caller's struct is large enough for at least struct_size. */
 bool baum_i_takes_sized(const void *out, size_t caller_size);
 
-/* Fail with BAUM_ERR_ARGUMENT where it has not; the message names the call. */
+/* Fail with BAUM_ERR_ARGUMENT if it is not; the message names the call. */
 baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call);
 
 /* Fail with BAUM_ERR_ARGUMENT unless k is an entry from `first`, the oldest that is kept, to

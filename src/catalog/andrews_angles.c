@@ -100,7 +100,8 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The point F where bodies 2, 3, 4 and 6 meet: by body 2 minus by each of the others. */
+/* The point F where bodies 2, 3, 4 and 6 meet: its position from body 2 minus its position from
+ * each of the others. */
 static int phi(double t, const double *q, double *out, void *user)
 {
   (void)t;

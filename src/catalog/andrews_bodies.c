@@ -22,8 +22,8 @@
 
 enum { BETA, MOMENT, STIFFNESS, FREE_LENGTH, COUNT };
 
-/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); CENTRE is the
- * centre of mass. */
+/* Points below are in the axes of the body and measured from its pivot (E, G, H for K2, K4, K6).
+ * CENTRE is the centre of mass. */
 static const double CENTRE[7][2] = {
   {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
   {ANDREWS_SB, -ANDREWS_SA}, {0, -(ANDREWS_E - ANDREWS_EA)},

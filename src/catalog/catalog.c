@@ -171,8 +171,8 @@ baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
   }
   if (choice->setting_count < 0 || (choice->setting_count > 0 && !choice->settings)) {
     return baum_i_catalog_fail(
-      BAUM_ERR_ARGUMENT, "catalogue: \"%s\": settings %s, their number is %d", (*out)->name,
-      choice->settings ? "are given" : "is NULL", (int)choice->setting_count);
+      BAUM_ERR_ARGUMENT, "catalogue: \"%s\": settings %s, but setting_count is %d", (*out)->name,
+      choice->settings ? "are given" : "are NULL", (int)choice->setting_count);
   }
   for (int k = 0; k < (*out)->parameter_count; k++) {
     p[k] = (*out)->defaults[k];

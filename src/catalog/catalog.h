@@ -40,15 +40,15 @@ typedef struct baum_i_catalog_mechanism {
   double end;
   double digits_q;
   double digits_v;
-  bool branches; /* passes bifurcations, where its motion may branch */
+  bool branches;                                       /* its motion passes bifurcations */
   void (*build)(baum_i_parts *parts, const double *p); /* adds all elements */
 
   const char *units; /* coordinates of a body: m length, r angle, u the user's */
-  int bodies;        /* 0: count() returns it */
+  int bodies;        /* 0: the number is that of count() */
   int (*count)(const double *p);
 
-  /* The reference: `samples` of some columns, stored or, where t is NULL, by solution() at equal
-   * intervals. */
+  /* The reference: `samples` rows of some columns. They are stored or, where t is NULL, computed by
+   * solution() at equal intervals. */
   int samples;
   const double *t; /* (samples) */
   int columns;
@@ -85,7 +85,7 @@ typedef struct baum_i_catalog_mechanism {
 #define BAUM_I_CATALOG_DECLARE(name) extern const baum_i_catalog_mechanism baum_i_##name;
 BAUM_I_CATALOG_LIST(BAUM_I_CATALOG_DECLARE)
 
-/* Returns the status of a call that is not BAUM_OK. */
+/* Returns from the function if a call fails. */
 #define BAUM_I_CATALOG_TRY(call) \
   do {                           \
     baum_status tried_ = (call); \

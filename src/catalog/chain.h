@@ -17,8 +17,8 @@ typedef struct baum_i_chain {
   int links;
   const double *mass;   /* (links) [kg] */
   const double *length; /* (links) [m] */
-  const double *angle;  /* (links) [rad] at start */
-  const double *rate;   /* (links) [rad/s] at start */
+  const double *angle;  /* (links) [rad] angles at the start */
+  const double *rate;   /* (links) [rad/s] angular velocities at the start */
   baum_i_link all;
 } baum_i_chain;
 

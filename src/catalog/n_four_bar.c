@@ -5,8 +5,8 @@
  *
  *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
  *
- * the pendulum equation for th + pi / 2. Where they lie flat each window may go over into crossed
- * cranks: J loses N rows.
+ * This is the pendulum equation for th + pi / 2. Where the cranks lie flat, each window may change
+ * to crossed cranks, and J loses rank N.
  */
 #include "catalog/catalog.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Calls unless a call failed before. */
+/* Makes a call unless an earlier call has failed. */
 #define UNLESS_FAILED(parts, call) \
   ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point on a circle: a particle on a massless rod, and in the test problem of the MEBDF codes a
- * particle and the function (x^2 + y^2 - 1) / 2, whose multiplier is theirs. For the angle a from
- * below
+/* A point on a circle. It is a particle on a massless rod; the test problem of the MEBDF codes has
+ * a particle and the constraint (x^2 + y^2 - 1) / 2, so that the multipliers agree with theirs.
+ * With the angle a from the downward vertical,
  *
  *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
  */
@@ -11,7 +11,7 @@
 
 #include "catalog/swing.h"
 
-#define LEVEL 1.5707963267948966 /* a quarter of a turn */
+#define LEVEL 1.5707963267948966 /* a quarter of a revolution */
 
 enum { GRAVITY, ANGLE, SPEED, MASS, COUNT_ON_CIRCLE, LENGTH = COUNT_ON_CIRCLE, COUNT };
 

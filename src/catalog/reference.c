@@ -65,7 +65,8 @@ static baum_status resolve(const baum_catalog_choice *choice, sample *at)
   return check_parameters(at);
 }
 
-/* Formulas are rounded, too: a large bound of their error makes them no reference. */
+/* Formulas have rounding errors, too. If their bound is large, the formulas cannot serve as a
+ * reference. */
 static baum_status evaluate_formula(sample *at, double t)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -120,7 +121,7 @@ static void state_of(const sample *at, int body, double *q, double *v)
   memcpy(v, at->v + body * count, (size_t)count * sizeof *v);
 }
 
-/* Formulas may have no value, as where the rod of a driven crank is too short. */
+/* Formulas may have no value, for example if the rod of a driven crank is too short. */
 static baum_status check_finite(const sample *at, double t)
 {
   double q[BAUM_I_CATALOG_WIDTH];
@@ -175,8 +176,8 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* Largest values over the coordinates of a state: scaled differences and sizes, and the size of the
- * last trusted digits. */
+/* Largest values over the coordinates of a state: scaled differences, scaled sizes, and the
+ * uncertainty that the trusted digits mean. */
 typedef struct measure {
   double q;
   double v;

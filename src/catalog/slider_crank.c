@@ -3,8 +3,8 @@
  *
  *   l1 sin a1 + l2 sin a2 = e,  x3 = l1 cos a1 + l2 cos a2
  *
- * The rod points to the right, cos a2 > 0, and the crank turns all round while l2 > l1 + abs(e).
- * With the crank driven, a1 = a1(0) + w t gives everything.
+ * The rod points to the right, cos a2 > 0, and the crank makes full revolutions if l2 > l1 +
+ * abs(e). If the crank is driven, a1 = a1(0) + w t determines the motion.
  */
 #include "catalog/slider_crank.h"
 
@@ -42,7 +42,7 @@ const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {
 static const double CENTRIC[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.153, 0.306, 0.0, 0.038, 0.038, 0.076, 7.4e-5, 5.9e-4, 2.7e-6, 9.81, 0.0, 150.0};
 
-/* Inertias moved to the centres of mass. The slider's is ours. */
+/* Inertias are converted to the centres of mass. The slider's was chosen here. */
 static const double SIMEON[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.15, 0.3, 0.0, 0.36, 0.151104, 0.075552, 7.02e-4, 1.1340859e-3, 2.7e-6, 0.0, 0.0, 150.0};
 

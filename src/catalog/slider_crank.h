@@ -29,11 +29,12 @@ typedef struct baum_i_slider_crank_bodies {
 /* Data of the source, with an eccentricity. */
 extern const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT];
 
-/* Position and velocity of body 0 to 2 from the angle q[0] of the crank and its rate v[0]. */
+/* Computes position and velocity of body 0 to 2 from the angle q[0] and the angular velocity v[0]
+ * of the crank. */
 void baum_i_slider_crank_state(const double *p, const double *q, const double *v, int body,
                                double *body_q, double *body_v);
 
-/* Bodies at the start; of velocities only the crank's speed is given. */
+/* Adds the bodies at the start; the only velocity given is the crank's. */
 baum_i_slider_crank_bodies baum_i_slider_crank_add_bodies(baum_i_parts *parts, const double *p);
 
 /* Pins A on the frame, B, C, the guide, and the motor if driven. */

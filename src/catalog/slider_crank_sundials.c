@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), read as rigid
- * bodies: a crank about the origin with a pin at its end; a rod whose centre runs on the x axis
- * while it turns, from the pin at (-1, 0) to (1, 0) in its axes, where a force (1, 0) acts; a
- * spring and damper from the middle of the crank to the middle of pin and centre of the rod. No
- * gravity.
+/* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), interpreted as
+ * rigid bodies. A crank rotates about the origin and has a pin at its end. The centre of the rod
+ * moves along the x axis; in the axes of the rod the pin is at (-1, 0), and a force (1, 0) acts at
+ * (1, 0). A spring and a damper connect the middle of the crank to the point halfway between pin
+ * and centre of the rod. There is no gravity.
  */
 #include "catalog/catalog.h"
 

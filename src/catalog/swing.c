@@ -5,10 +5,10 @@
  *   (n + 1) C_{n+1} = -sum_i (i + 1) x_{i+1} S_{n-i}
  *   (n + 1) (n + 2) x_{n+2} = -k S_n
  *
- * The nearest singularities in complex time are at least (pi / 2) / sqrt(k), or 2 / |x'| where it
- * turns fast, away: with w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is
- * below (1/8)^24 = 2e-22 of the first. What is added in each step is small against the angle, so
- * that sums with compensation keep the rounding of many steps below that of the result.
+ * The nearest singularities in complex time are at least (pi / 2) / sqrt(k) away, or 2 / |x'| in
+ * fast rotation: with w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is
+ * below (1/8)^24 = 2e-22 of the first. The increments of the steps are small compared with the
+ * angle, so compensated sums keep the rounding of many steps below the rounding of the result.
  */
 #include "catalog/swing.h"
 
@@ -16,9 +16,9 @@
 
 enum { TERMS = 25, MOST_STEPS = 100000 };
 
-/* Relative rounding of each step; steps add up like a random walk. Against 80-bit numbers, motions
- * over the top are off by 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30, 100 s, where the bound is
- * 8e-13, 8e-12, 1.4e-11. */
+/* Relative rounding of each step; the errors of steps add up like a random walk. Compared with
+ * 80-bit arithmetic, motions over the top have errors of 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30,
+ * 100 s; the bounds are 8e-13, 8e-12, 1.4e-11. */
 static const double ROUNDING = 5e-16;
 
 /* A sum and its rounding error. */
@@ -72,7 +72,7 @@ static void integrate(double k, double h, long steps, double *angle, double *rat
 
 double baum_i_swing(double k, double t, double *angle, double *rate)
 {
-  /* The distance of a neighbouring motion at the end tells how rounding grows. */
+  /* The distance to a neighbouring motion at the end shows how rounding errors grow. */
   const double beside = 1e-9;
   double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
   double steps = ceil(4.0 * fabs(t) * fast) + 1.0;

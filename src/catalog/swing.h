@@ -3,9 +3,10 @@
 #define BAUM_I_CATALOG_SWING_H
 
 /* Integrates angle'' = -k sin angle with k in 1/s^2 over a time t of either sign. Replaces the
- * angle [rad] from below and its angular velocity [rad/s]. Returns a bound of the effect of
- * rounding on the angle [rad]: large for long times and for motions that nearly come to rest above;
- * infinity, and NaN for both, where too many steps would be needed. */
+ * angle [rad] from the downward vertical and its angular velocity [rad/s]. Returns a bound of the
+ * effect of rounding on the angle [rad]. It is large for long times and for motions that nearly
+ * come to rest at the top. If too many steps would be needed, it is infinite, and both results are
+ * NaN. */
 double baum_i_swing(double k, double t, double *angle, double *rate);
 
 #endif

@@ -7,15 +7,16 @@
  * Flores et al. 2008 (7); (5) with alpha = beta = 0. Projections solve the same matrix with other
  * right sides.
  *
- * Rows that permanently depend on others are omitted. Their multipliers are then zero, which is
- * one of many solutions; what is reported to users is the one of least norm (least_multipliers.c).
+ * Rows that permanently depend on others are omitted. Their multipliers are then zero, which is one
+ * of many solutions. Users receive the solution of least norm (least_multipliers.c).
  */
 #include <string.h>
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Without a solution only the largest right side can name a joint. It is a hint, no proof. */
+/* Without a solution, only the largest right side can point to a joint. It is a hint, not a
+ * proof. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
@@ -86,7 +87,8 @@ baum_status baum_i_report_constraints(const baum_workspace *w, baum_status statu
 {
   switch ((int)status) {
   case BAUM_ERR_SINGULAR:
-    return baum_i_fail(status, "t = %.9g s: the constraints are singular here", w->point.t);
+    return baum_i_fail(status, "t = %.9g s: the constraints are singular in this configuration",
+                       w->point.t);
   case BAUM_ERR_NOT_FINITE: return baum_i_fail_not_finite(w);
   default: return status;
   }
@@ -120,7 +122,7 @@ static baum_status accelerate_whole(baum_workspace *w, const baum_i_right_side *
   return status == BAUM_ERR_SINGULAR ? fail_singular(w) : status;
 }
 
-/* Solve by a path; where it is NULL or gives up, by the solver of the whole system. */
+/* Solve by a block path. If it is NULL or gives up, use the solver of the whole system. */
 static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
                                  const double *q, const double *v, double alpha, double beta)
 {

@@ -6,10 +6,10 @@
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
  *
  * For held coordinates the columns of J and the coupling in M are cleared, so they do not move. The
- * small S (Levenberg, Marquardt) permits redundant rows. With it, contradicting rows become a
- * least-squares problem, whose remaining violation lies only in the conflicting rows and so names
- * them. Steps are limited, and halved until the violation decreases. Violations are compared as
- * displacements |Phi_i| / d_i, with d_i the norm of row i of J times the scales.
+ * small S (Levenberg, Marquardt) permits redundant rows. With S, contradicting rows become a
+ * least-squares problem. Its remaining violation lies only in the conflicting rows, which
+ * identifies them. Steps are limited, and halved until the violation decreases. Violations are
+ * compared as displacements |Phi_i| / d_i, with d_i the norm of row i of J times the scales.
  */
 #include <math.h>
 #include <string.h>
@@ -37,7 +37,7 @@ typedef struct assembly {
   double *q;        /* (nq) present configuration */
   double *trial;    /* (nq) */
   double *distance; /* (nc) d_i */
-  bool fits;        /* the last violation at q was rounding */
+  bool fits;        /* the last violation at q was only rounding */
 } assembly;
 
 static bool is_held(const bool *held, int i)
@@ -107,7 +107,7 @@ static baum_status factor(const assembly *s)
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
-/* Find the least change, into w->a, that changes the rows by rhs. */
+/* Set w->a to the least change that changes the rows by rhs. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -168,7 +168,7 @@ static double merit(const assembly *s, const double *phi)
   return sum;
 }
 
-/* Limit the step in w->a; returns its scaled size before. */
+/* Limit the step in w->a. Returns its scaled size before the limit. */
 static double limit_step(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
@@ -280,8 +280,8 @@ static baum_status correct_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* Complete velocities: given ones are held, free ones start at zero. The matrix is that of the
- * configuration throughout. */
+/* Complete velocities: given ones are held, free ones start at zero. The matrix is evaluated once,
+ * at the assembled configuration. */
 static baum_status assemble_velocities(const assembly *s, double *v)
 {
   double last = (double)INFINITY;
@@ -323,7 +323,7 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   return BAUM_OK;
 }
 
-/* ---- the whole ---- */
+/* ---- assembly ---- */
 
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held)

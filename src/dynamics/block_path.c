@@ -9,11 +9,13 @@
 #include "base/hot.h"
 #include "base/message.h"
 
-/* Along chains rounding grows even without small pivots, at worst in proportion to the nodes. Up to
- * this number it stays below 5e-13; above it every evaluation checks the residual. */
+/* Along chains rounding errors grow even without small pivots, at worst in proportion to the number
+ * of nodes. Up to this number it stays below 5e-13; above it every evaluation checks the
+ * residual. */
 enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
 
-/* Changes of the multipliers by a refinement: converged; still acceptable. */
+/* Largest relative changes of the multipliers by a refinement: if converged, and if still
+ * acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
@@ -30,7 +32,7 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* What the solver needs to know about bodies, joints and rows. */
+/* Structure of bodies, joints and rows for the solver. */
 typedef struct traits {
   baum_i_block_pin *pins;
   unsigned char *diagonal;
@@ -105,7 +107,7 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
   return BAUM_OK;
 }
 
-/* Make the groups of the mechanism without joints that are done. */
+/* Copy the groups of the mechanism without the joints that are marked as done. */
 static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_done,
                                baum_i_block_path *path)
 {
@@ -208,7 +210,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Smallest positive and largest number so far. */
+/* Smallest positive number and largest number so far. */
 typedef struct range {
   double least;
   double most;
@@ -321,7 +323,7 @@ void baum_i_paths_destroy(const baum_i_paths *paths)
 
 /* ---- solve ---- */
 
-/* Without bending gamma is set to zero, because old values may be infinite. */
+/* If `bending` is 0, gamma is set to zero, because old values may be infinite. */
 static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path, bool bending)
 {
   const baum_i_rows rows = {
@@ -382,7 +384,7 @@ static void add_row_gain(const baum_workspace *w, baum_i_block *block,
   block->nodes[node].lambda[slot] += more; /* J a0 - r */
 }
 
-/* Change nodes that were set with the same gains for all rows. */
+/* Correct nodes that were set with equal gains for all rows. */
 static void add_row_gains(const baum_workspace *w, baum_i_block *block,
                           const baum_i_right_side *right)
 {
@@ -462,7 +464,7 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* last: no later solution corrects this one, so its residual is checked. */
+/* last: no later solution corrects this one, so the residual must be checked. */
 static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 {
   const baum_i_block_kernel *kernel = path->kernel;
@@ -488,7 +490,7 @@ static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, d
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
-  w->jacobian_ready = false; /* a failing function leaves it half overwritten */
+  w->jacobian_ready = false; /* a failing function leaves it partly overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
   BAUM_I_TRY(evaluate_masses(w, path));
   BAUM_I_TRY(evaluate_forces(w, path, right->force));
@@ -515,7 +517,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 {
   w->solved_by = path;
   BAUM_I_TRY(set_state(w, path, t, q, v, right));
-  /* Projection of positions repeats the solution, that of velocities does not. */
+  /* Projection of positions repeats the solution; projection of velocities does not. */
   BAUM_I_TRY(solve(w, path, v && !right->force));
   bool finite = path->kernel->read_motion(path->block, w->a);
   for (int i = 0; i < path->omitted_count; i++) {

@@ -32,24 +32,24 @@ struct baum_i_block_path {
   int omitted_count;
   baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) of the bodies with a constant force */
-  bool force_is_constant;      /* there are no other forces */
+  bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* many nodes: the residual is always checked */
-  bool uneven;       /* uneven masses: the residual is checked where a is small against a0 */
+  bool always_check; /* many nodes, so the residual is always checked */
+  bool uneven;       /* uneven masses: the residual is checked if a is small compared with a0 */
   int fixed_count;   /* fixed bodies that are not solved for */
   int64_t factorizations;
   int64_t refinements;
 };
 
-/* Create a path for the rows that are omitted now. for_motion: leave out fixed bodies and the rows
- * between them. Returns BAUM_OK also where blocks do not suit; then *out is NULL and *verdict tells
- * why. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+/* Create a path for the rows that are omitted now. for_motion: exclude fixed bodies and the rows
+ * between them. If blocks do not suit the mechanism, returns BAUM_OK with *out = NULL and the
+ * reason in *verdict. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
 
 /* The paths of a workspace: for all bodies, and for the motion, which is the same path where no
- * body is fixed. *verdict is that of the first. */
+ * body is fixed. *verdict belongs to the first. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -66,7 +66,8 @@ typedef struct baum_i_right_side {
   double damping;
   double stiffness;
   bool force;
-  const double *row_gains; /* (nc) f: damping f Phi' and stiffness f^2 Phi; NULL: 1 */
+  /* (nc) factors f on gains: damping f Phi' and stiffness f^2 Phi; NULL: 1 */
+  const double *row_gains;
 } baum_i_right_side;
 
 /* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints that are not pins. v may be
@@ -76,7 +77,8 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const baum_i_right_side *right);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
- * motion or else by the solver of the whole system. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * motion or, if that fails, by the solver of the whole system. Also BAUM_ERR_SINGULAR,
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 

@@ -4,7 +4,7 @@
  *   [ M   J^T ] [ dq     ]   [  0      ]
  *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M and J of another configuration than q
  *
- * and the half step of velocities that ends on J v = nu:
+ * and the half step of velocities that ends with J v = nu:
  *
  *   [ M   J^T ] [ a      ]   [ g         ]
  *   [ J   0   ] [ lambda ] = [ -rate Phi' ]

@@ -9,19 +9,20 @@
 
 /* Factors of M and J of one configuration. Any other solution with the workspace ends them. */
 typedef struct baum_i_chord {
-  baum_i_block_path *path; /* that holds them; NULL: kkt */
+  baum_i_block_path *path; /* block path that has the factors; NULL: kkt */
 } baum_i_chord;
 
 /* Factor at a configuration. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_chord_begin(baum_workspace *workspace, double t, const double *q,
                                baum_i_chord *out);
 
-/* Set workspace->a to the change dq = -M^-1 J^T lambda with J dq = -Phi(t, q), with the
- * factored M and J. Likewise. */
+/* Set workspace->a to the change dq = -M^-1 J^T lambda with J dq = -Phi(t, q), for the factored M
+ * and J. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *chord, double t,
                                 const double *q);
 
-/* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). Likewise. */
+/* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). Also
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_hold_velocities(baum_workspace *workspace, double t, const double *q,
                                    const double *v, double rate);
 

@@ -233,10 +233,11 @@ static void walk(const factors *f, sink *s)
 /* Count the entries of a walk. */
 static size_t count_entries(const baum_mechanism *m, baum_residual index)
 {
-  size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1;      /* of multipliers */
-  size_t columns = index == BAUM_RESIDUAL_INDEX3 ? 1 : 2; /* q, and v, in the row of lambda */
-  size_t jacobians = kinds + columns + (kinds - 1);       /* J^T, and what rows have of J */
-  size_t blocks = m->flat ? 2 : 3;                        /* of bodies */
+  size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1; /* of multipliers */
+  /* columns of q and of v in the rows of lambda */
+  size_t columns = index == BAUM_RESIDUAL_INDEX3 ? 1 : 2;
+  size_t jacobians = kinds + columns + (kinds - 1); /* J^T, and J in the rows of constraints */
+  size_t blocks = m->flat ? 2 : 3;                  /* of bodies */
   return 2 * ((size_t)m->nv + (size_t)m->force_square_size) + blocks * (size_t)m->mass_size +
          jacobians * (size_t)m->jacobian_size +
          kinds * ((size_t)m->joint_square_size + (size_t)m->nc);

@@ -19,13 +19,13 @@
  * matter. */
 static const double STEP = 1e-5;
 
-/* One matrix in the making. */
+/* The matrix while it is computed. */
 typedef struct widening {
   baum_workspace *w;
   const double *q;
   const double *u; /* (nv) */
   double c;
-  int widest;            /* nq of a body, at most */
+  int widest;            /* largest nq of a body */
   double *memory;        /* of all arrays below */
   double *rate;          /* (nv x widest) N: row j is column j of its body's */
   double *inverse;       /* (nv x widest) N^+: row j is row j of its body's */

@@ -14,8 +14,8 @@
  *   Phi'
  *   Phi
  *
- * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. Where rows have gains of their
- * own, alpha and beta are those of row i.
+ * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. If rows have different gains,
+ * alpha and beta are the gains of row i.
  */
 #include <string.h>
 

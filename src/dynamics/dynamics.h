@@ -47,7 +47,7 @@ typedef enum baum_i_blocks {
 
 typedef struct baum_i_block_verdict {
   baum_i_blocks blocks;
-  int body; /* that the verdict is about, from 1; 0: none */
+  int body; /* body of the verdict, from 1; 0: none */
 } baum_i_block_verdict;
 
 struct baum_workspace {
@@ -56,12 +56,13 @@ struct baum_workspace {
   baum_i_kkt_structure structure;
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
-  baum_i_block_path *path;          /* NULL: kkt solves */
-  baum_i_block_path *motion;        /* for all but fixed bodies; the same where there are none */
-  baum_i_block_verdict verdict;     /* of baum_i_use_blocks() */
-  bool blocks_only;                 /* other solvers are not allowed */
-  baum_i_block_path *solved_by;     /* of the last solution; NULL: kkt */
-  baum_i_block_path *eliminated_by; /* whose pivots are current, whoever solved; NULL: none */
+  baum_i_block_path *path;      /* NULL: kkt solves */
+  baum_i_block_path *motion;    /* for all bodies but fixed ones; the same path if there are none */
+  baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
+  bool blocks_only;             /* other solvers are not allowed */
+  baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
+  /* path whose pivots are current, even if another solver gave the solution; NULL: none */
+  baum_i_block_path *eliminated_by;
   baum_i_row_set rows;
   baum_i_sharing sharing;
   bool mass_ready;      /* a constant M has been evaluated */
@@ -82,7 +83,7 @@ struct baum_workspace {
   double *work_c;          /* (2 nc) */
   double *shift;           /* (nc) regularization of assembly */
   double *inputs;          /* (input_count) present values */
-  const double *row_gains; /* (nc) factors on the gains of rows, of the run; NULL: 1 */
+  const double *row_gains; /* (nc) the run's factors on the gains of rows; NULL: 1 */
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) for rates of q */
@@ -91,12 +92,12 @@ struct baum_workspace {
   double *body_force_q;
   double *body_force_v;
   double *jw_q; /* (jacobian_size) */
-  double *jv_q; /* likewise with v, where rows have gains of their own */
+  double *jv_q; /* the same with v, if rows have different gains */
   double *gamma_q;
   double *gamma_v;
   double *nu_q;
   double *jtl_q;   /* (joint_square_size) */
-  double *jtm_q;   /* (joint_square_size) likewise with mu */
+  double *jtm_q;   /* (joint_square_size) the same with mu */
   double *force_q; /* (force_square_size) */
   double *force_v;
 
@@ -109,13 +110,13 @@ struct baum_workspace {
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
                                     baum_workspace **out);
 
-/* Use blocks for accelerations from now on, if they suit. Call it once the redundancy is known.
- * Also BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if they do not suit but no other solver is
- * allowed. */
+/* Use blocks for accelerations from now on, if they suit the mechanism. Call this after the
+ * redundant rows are known. Also BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if they do not suit but
+ * no other solver is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
-/* Describe the solver and the reason for it; describe why blocks are not used. Without a full
- * stop. */
+/* Describe the solver and the reason for its choice; describe why blocks are not used. Both texts
+ * end without a full stop. */
 enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
@@ -171,25 +172,27 @@ baum_status baum_i_violation(baum_workspace *workspace, double t, const double *
  * (the message names a joint), BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* Likewise a alone. It is 0 for fixed bodies, which must be where baum_i_place_fixed_bodies() puts
- * them. Their lambda, J and rows may not be set. */
+/* The same for a alone. It is 0 for fixed bodies, which must have the poses that
+ * baum_i_place_fixed_bodies() gives them. Their lambda, J and rows may not be set. */
 baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
                           double alpha, double beta);
 /* Evaluate the blocks of J at the last point, if that evaluation skipped them. */
 baum_status baum_i_need_jacobian(baum_workspace *workspace);
-/* As reported to users: (5), with multipliers of least norm where they are not unique. Sets J. */
+/* Solve (5) as it is reported to users, with multipliers of least norm if they are not unique. Sets
+ * J. */
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
 /* ---- pivot.c ---- */
 
-/* Below this share of the usual pivot a configuration is nearly singular: at a seventh of the usual
- * distance from singular configurations. */
+/* Below this fraction of the usual pivot a configuration is nearly singular. It corresponds to a
+ * seventh of the usual distance from singular configurations. */
 #define BAUM_I_NEAR_PIVOT 0.02
 
-/* How far from singular the last solution was: 1 without rows, 0 if singular. It falls with the
- * square of the distance. Its size depends on mechanism and solver, so it must be compared with its
- * own usual value. *joint, unless NULL, is the joint of the smallest pivot, or -1. */
+/* Distance of the last solution from a singular configuration, as a pivot: 1 without rows, 0 if
+ * singular. It falls with the square of the distance. Its size depends on mechanism and solver, so
+ * it must be compared with its own usual value. *joint, unless NULL, is the joint of the smallest
+ * pivot, or -1. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 /* Whether the last elimination by blocks gives the pivot. */
 bool baum_i_blocks_tell(const baum_workspace *workspace);
@@ -228,8 +231,8 @@ baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, doub
 const double *baum_i_corrected_velocities(baum_workspace *workspace, const double *v,
                                           const double *mu);
 
-/* The Jacobian with fixed sparsity: compressed columns, sorted rows. It is created once and filled
- * without allocation. */
+/* The Jacobian with a fixed pattern, in compressed columns with sorted rows. It is created once and
+ * filled without allocation. */
 typedef struct baum_i_residual_matrix baum_i_residual_matrix;
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
                                           baum_i_residual_matrix **out);
@@ -258,7 +261,7 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Likewise if one of (nv) overflows when divided by its scale. */
+/* Likewise if one of these numbers (nv) overflows when it is divided by its scale. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
 /* Fail with BAUM_ERR_NOT_FINITE, naming the joint or body of the number in J, force or rhs. */
@@ -280,11 +283,11 @@ baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, con
                                         const double *v);
 
 /* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT. Runs
- * have a check of their own. speed: scaled size of the velocities before. */
+ * check them separately. speed: scaled size of the velocities before the projection. */
 baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
                                   const double *v, double speed);
 
-/* normal_part.c: set out (nv) to the part P x of x (nv) that the constraints remove. P is that of
+/* normal_part.c: set out (nv) to the part P x of x (nv) that the constraints remove. P belongs to
  * the last acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR,
  * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);

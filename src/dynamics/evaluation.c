@@ -51,7 +51,7 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
   return check_finite(call, "v", v, w->mechanism->nv);
 }
 
-/* Copy to where the caller wants it, unless that is NULL. */
+/* Copy to the caller's array unless it is NULL. */
 static void give(const double *values, double *out, int count)
 {
   if (out) {
@@ -235,7 +235,8 @@ static baum_status check_gains(const char *call, double alpha, double beta)
   return baum_i_check_finite(call, "beta", "1/s", beta);
 }
 
-/* Choose other rows after a solution if the present ones are poor; true: repeat the solution. */
+/* Choose other independent rows after a solution if the present ones are poorly conditioned. True:
+ * repeat the solution. */
 static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
 {
   bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;

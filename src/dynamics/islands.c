@@ -27,7 +27,7 @@ static void unite(int *parent, int a, int b)
   }
 }
 
-/* First body of a joint that is not fixed, or -1. */
+/* The first moving body of a joint, or -1. */
 static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
 {
   for (int i = 0; i < joint->span.body_count; i++) {

@@ -16,8 +16,8 @@
  * |S (lambda + N z)| (CGLS of A. Bjorck, preconditioned by S_d). The forces stay balanced wherever
  * the iteration ends.
  *
- * Where the constraints are violated, omitted rows need not depend on the others. Then only a share
- * of N z is added that keeps the balance: mostly all of it, or almost none.
+ * Where the constraints are violated, omitted rows need not depend on the others. Then only the
+ * fraction of N z is added that keeps the balance: mostly all of it, or almost none.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@
 
 enum { MOST_ITERATIONS = 100 };
 
-/* The iteration ends when the gradient falls to this share of the first one. */
+/* The iteration ends when the gradient falls to this fraction of the first one. */
 static const double FOUND = 1e-12;
 /* Tolerances of M a + J^T lambda = g, relative to the terms of the row, of the largest row of the
  * body and of the largest row of all. The last one allows for rounding. */
@@ -41,7 +41,7 @@ static const double OF_ALL = 1e-14;
 static const double OF_ALL_SHARED = 1e-24;
 /* Imbalance that counts as zero, relative to the terms of the row. */
 static const double ROUNDING = 1e-11;
-/* Share of these tolerances that N z may use. */
+/* Fraction of these tolerances that N z may use. */
 static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
@@ -146,7 +146,7 @@ static baum_status minimize_along(baum_workspace *w, const search *s, double siz
   return BAUM_OK;
 }
 
-/* Remove the rounding of large forces from rows with small ones. */
+/* Remove the rounding errors of large forces from rows with small forces. */
 static baum_status refine_part(baum_workspace *w)
 {
   double *refined = search_memory(w).image;
@@ -212,7 +212,7 @@ static balance compute_balance(const baum_workspace *w, const double *force, con
   return out;
 }
 
-/* Largest scaled term of some velocities. */
+/* Largest scaled term over a range of velocities. */
 static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
@@ -287,7 +287,7 @@ static baum_status check_balance(const baum_workspace *w)
                      w->point.t, label, imbalance * OF_ROW, OF_ROW);
 }
 
-/* The share of part that keeps the forces within the tolerances. */
+/* The fraction of part that keeps the forces within the tolerances. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
@@ -296,8 +296,7 @@ static double find_share(const baum_workspace *w)
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
-/* N z may remove large forces from light bodies; refinement removes the rounding that they
- * leave. */
+/* N z may remove large forces from light bodies; refinement then removes their rounding errors. */
 static baum_status refine_multipliers(baum_workspace *w)
 {
   int nv = w->mechanism->nv;
@@ -309,7 +308,7 @@ static baum_status refine_multipliers(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Add the share of part that keeps the balance, or nothing where rounding prevents that. */
+/* Add the fraction of part that keeps the balance, or nothing if rounding prevents it. */
 static void add_share(baum_workspace *w)
 {
   double *before = search_memory(w).direction;
@@ -345,8 +344,8 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 
 /* ---- which multipliers are not unique ---- */
 
-/* Component of a null vector above which a multiplier is not unique. Those of omitted rows are
- * about 1; rounding is far smaller. */
+/* A multiplier is not unique if its component of a null vector is larger than this. Components of
+ * omitted rows are about 1; rounding is far smaller. */
 static const double SHARED = 1e-6;
 
 /* Relative shift that makes every matrix regular. Refinement removes its error. */

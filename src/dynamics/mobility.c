@@ -10,7 +10,7 @@
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
-/* Append to the report's text; what does not fit is cut. */
+/* Append to the report's text, truncated to its size. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static baum_status report_free_bodies(const baum_mechanism *m, baum_mobility *report)

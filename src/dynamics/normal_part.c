@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The part of a velocity-like x that the constraints remove, by the factors of the last solution
+/* The part of a vector x of velocity size that the constraints remove, from the factors of the last
+ * solution,
  *
  *   P x = M^-1 J^T (J M^-1 J^T)^-1 J x:   [ M  J^T ] [ P x    ]   [ 0   ]
  *                                         [ J   0  ] [ lambda ] = [ J x ]

@@ -133,7 +133,7 @@ BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const bau
 
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
-  const baum_i_block to = *block; /* a copy, which stores cannot change, stays in registers */
+  const baum_i_block to = *block; /* stores cannot change a copy, so it stays in registers */
   const baum_i_pins at = *pins;
   two_pins two = {1, to.pins, at.points, to.pin_weight, to.arm};
   for (int left = to.pin_count; left > 1; left -= 2) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A measure of how close to singular the last solution was.
+/* Measures how close the last solution was to a singular configuration.
  *
  * For blocks it is the smallest ratio of det D of a node to its value before the elimination. That
  * value is det S for a pin, which does not depend on the direction of axes. For other pairs of
@@ -7,8 +7,8 @@
  * other solvers the measure is the reciprocal condition number of the scaled matrix. Both are free
  * of units and fall with the square of the distance from a singular configuration, because the
  * matrix contains S. Their sizes differ, so each must be compared with its own usual value. If a
- * body has a small inertia, blocks give up in some directions of its arms, where it is no closer to
- * singular than in others.
+ * body has a small inertia, blocks give up for some directions of its arms, although the
+ * configuration is no closer to singular than for others.
  */
 #include <math.h>
 
@@ -73,7 +73,7 @@ bool baum_i_blocks_tell(const baum_workspace *w)
   return find_pivot_of_blocks(w, &pivot, &row);
 }
 
-/* For other solvers only the largest multiplier can name a joint. */
+/* For other solvers only the largest multiplier can point to a joint. */
 double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;

@@ -19,8 +19,9 @@ enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves an error of about 1e-20, times the ratio of the characteristic
  * length to the radius of curvature. */
 static const double CONVERGED = 1e-10;
-/* The rounding of all rows may add up, as in a chain of 1e5 links. Changes up to this size for each
- * row that no longer decrease are rounding if the violation is. */
+/* The rounding of all rows may add up, as in a chain of 1e5 links. If the changes stop decreasing
+ * below this size times the number of rows and the violation is rounding, the changes are
+ * rounding. */
 static const double STALLED = 8.0 * DBL_EPSILON;
 /* Violation that counts as rounding, as a displacement relative to the largest coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
@@ -119,8 +120,9 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 
 /* ---- omitted rows ---- */
 
-/* Allowed violations of omitted rows, as displacements and relative to velocities: more than the
- * rounding of rows that depend on the others, less than on another branch. */
+/* Allowed violations of omitted rows, as displacements and relative to velocities. They are larger
+ * than the rounding of rows that depend on the others, and smaller than the violations on another
+ * branch. */
 static const double NEGLIGIBLE = 1e-6;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)

@@ -5,8 +5,9 @@
  * P on body_b, which follows from the entry at the angle, the moment about the centre of mass C:
  * m_P = m_C - (P - C) x F.
  * A joint whose body_b is ground (no columns) reacts on body_a with the opposite:
- * F_b = -F_a, the moment about P likewise. In space the same with vectors; the entries at the
- * rotations are the moment about C in body axes.
+ * F_b = -F_a, the moment about P likewise. In space the same with vectors over all six columns of
+ * body_b, even if it is planar, a particle or ground; the entries at the rotations are the moment
+ * about C in body axes.
  */
 #include <string.h>
 
@@ -57,39 +58,26 @@ static void find_planar_reaction(const baum_workspace *w, const baum_i_joint *jo
   }
 }
 
-/* Force and moment about `at` of one side of a spatial joint. */
-static void move_to_point_in_space(const baum_i_spatial_frame *frame, const double side[6],
-                                   const double at[3], double sign, double out[6])
-{
-  double arm[3];
-  double shift[3];
-  baum_i_turn(frame->axes, side + 3, out + 3);
-  for (int i = 0; i < 3; i++) {
-    arm[i] = at[i] - frame->r[i];
-  }
-  baum_i_cross(arm, side, shift);
-  for (int i = 0; i < 3; i++) {
-    out[i] = sign * side[i];
-    out[3 + i] = sign * (out[3 + i] - shift[i]);
-  }
-}
-
+/* Also what a planar body or a particle bears in directions in which it does not move. */
 static void find_spatial_reaction(const baum_workspace *w, const baum_i_joint *joint,
                                   const double *lambda, double out[6])
 {
-  const int *bodies = joint->span.bodies;
-  int side = bodies[1] != 0 ? 1 : 0;
+  const baum_i_spatial_frame *frame = &w->point.spatial[joint->span.bodies[1]];
+  double six[BAUM_I_SPACE] = {0.0};
   double at[3];
-  double wide[BAUM_I_PAIR_COLUMNS];
-  double local[BAUM_I_PAIR_COLUMNS];
-  find_generalized_force(w, joint, lambda, local);
-  for (int i = 0; i < joint->span.nl; i++) {
-    w->work_v[joint->span.columns[i]] = local[i];
-  }
-  baum_i_columns_gather(&w->point, &joint->span, BAUM_I_SPACE, w->work_v, wide);
+  double arm[3];
+  double shift[3];
+  joint->type->force_on_b(joint, &w->point, lambda + joint->row, six);
   joint->type->place(joint, &w->point, at);
-  move_to_point_in_space(&w->point.spatial[bodies[side]], wide + (ptrdiff_t)BAUM_I_SPACE * side, at,
-                         side == 1 ? 1.0 : -1.0, out);
+  baum_i_turn(frame->axes, six + 3, out + 3);
+  for (int i = 0; i < 3; i++) {
+    arm[i] = at[i] - frame->r[i];
+  }
+  baum_i_cross(arm, six, shift);
+  for (int i = 0; i < 3; i++) {
+    out[i] = six[i];
+    out[3 + i] -= shift[i];
+  }
 }
 
 static int width_of(const baum_mechanism *m, const baum_i_joint *joint)

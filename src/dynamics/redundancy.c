@@ -10,10 +10,10 @@
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
  * later rows to 1e-16 / d, so redundant rows may pass for independent ones. The rank of such a
  * configuration is ambiguous beyond the first nearly dependent row. Then neighbours with a clear
- * rank that is no smaller decide, and the configuration counts as singular. If no neighbour is
- * clear, rows are nearly dependent everywhere, as those of two pins close to each other, and the
- * rank is taken as it is. The same holds around an exactly singular configuration with a clear
- * rank, if long members turn rows only little.
+ * rank decide if that rank is not smaller, and the configuration counts as singular. If no
+ * neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins close
+ * to each other, and the rank is taken as it is. The same holds around an exactly singular
+ * configuration with a clear rank, if long members turn rows only little.
  *
  * A neighbour lies along x, a solution of J x = nu that contains all degrees of freedom, and is
  * assembled there.
@@ -32,8 +32,8 @@ enum { NEIGHBOURS = 4 };
 static const double RANK_TOLERANCE = 1e-10;
 /* Rows above this are clearly independent, and do not amplify rounding to that tolerance. */
 static const double CLEAR = 1e-5;
-/* Rows above this are preferred. The disagreement of dependent rows, 1e-14 as assembled, enters the
- * motion divided by this. */
+/* Rows above this are preferred. Dependent rows disagree by 1e-14 after assembly; this
+ * disagreement, divided by the limit, enters the motion. */
 static const double FIRST = 1e-3;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
 
@@ -67,13 +67,13 @@ static baum_status find_rank(const search *s, double t, const double *q, rank_fo
   return BAUM_OK;
 }
 
-/* The certain rank: rounding is not yet amplified in the first nearly dependent row. */
+/* The certain rank: up to the first nearly dependent row, which rounding does not yet affect. */
 static int least_rank(const rank_found *rank)
 {
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Whether a rank says more about the mechanism than another. */
+/* Whether a rank is more reliable than another. */
 static bool is_better(const rank_found *rank, const rank_found *other)
 {
   int more = least_rank(rank) - least_rank(other);
@@ -177,7 +177,8 @@ static void keep_all(baum_i_row_set *r, int nc)
   memset(r->omitted, 0, (size_t)nc);
 }
 
-/* Assemble the configuration first: off the constraints no row depends on others exactly. */
+/* Assemble the configuration first, because off the constraints no row depends exactly on
+ * others. */
 static baum_status find_rows(search *s, double t, const double *q)
 {
   baum_i_row_set *r = &s->w->rows;

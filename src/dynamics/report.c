@@ -9,7 +9,7 @@
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
-/* Append to the report's text, and cut what does not fit. */
+/* Append to the report's text, truncated to its size. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static const char *plural(int count)

@@ -14,15 +14,17 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Distances of a row from the rows before, relative to its length, from MOST to LEAST by STEP. The
- * largest distance at which there are enough rows for the rank gives a well-separated set. It
- * replaces the kept rows if these do not reach that distance divided by FACTOR. */
+/* Limits on the distance of a row from the span of the rows before, relative to its length: from
+ * MOST to LEAST by factors STEP. The largest limit that enough rows for the rank reach gives a
+ * well-separated set. This set replaces the kept rows if they do not reach the limit divided by
+ * FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double STEP = 0.5;
 static const double FACTOR = 1.25;
 
-/* Below this pivot other rows are searched, again each time it has changed by a factor of RETRY. */
+/* Below this pivot the run searches for other rows, and again each time the pivot has changed by a
+ * factor of RETRY. */
 static const double POOR = 0.2;
 static const double RETRY = 3.0;
 
@@ -77,7 +79,7 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, bo
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Likewise in scales instead of masses. */
+/* The same with scales in place of masses. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {

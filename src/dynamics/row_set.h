@@ -10,11 +10,12 @@
 #include <baum/dynamics.h>
 
 typedef struct baum_i_row_set {
-  int rank;                /* of J at the neighbours */
-  int rank_at_start;       /* at the initial configuration; if less, this is (nearly) singular */
-  int count;               /* omitted rows */
-  unsigned char *omitted;  /* (nc) 1 where a row is omitted; zeros where none is */
-  unsigned char *selected; /* (nc) scratch: 1 where a row is in another set */
+  int rank; /* of J at the neighbours */
+  /* rank at the initial configuration, which is (nearly) singular if this is less */
+  int rank_at_start;
+  int count;                      /* omitted rows */
+  unsigned char *omitted;         /* (nc) 1 where a row is omitted; zeros where none is */
+  unsigned char *selected;        /* (nc) scratch: 1 where a row is in another set */
   double pivot_at_last_selection; /* relative; 0: never */
 } baum_i_row_set;
 
@@ -26,12 +27,12 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
  * The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* Keep as many rows that are well separated in this configuration, if possible. Call it before
- * paths are created. */
+/* If possible, keep a set of the same size whose rows are well separated in this configuration.
+ * Call this before paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Whether this configuration has well-separated rows of the whole rank, whichever are omitted
- * now. */
+/* Whether this configuration has a well-separated set of rows of full rank, whichever rows are
+ * omitted now. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same.

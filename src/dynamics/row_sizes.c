@@ -64,7 +64,7 @@ int baum_i_largest(const double *values, int count, double *largest)
   double most = 0.0;
   for (int i = 0; i < count && !isnan(most); i++) {
     double size = fabs(values[i]);
-    if (where < 0 || !(size <= most)) { /* a NaN is the largest of all */
+    if (where < 0 || !(size <= most)) { /* NaN counts as the largest */
       where = i;
       most = size;
     }

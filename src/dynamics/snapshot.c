@@ -22,7 +22,7 @@ static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
   return baum_i_message_settle(status, &kept);
 }
 
-/* Likewise with a frozen copy. */
+/* The same with a frozen copy of the mechanism. */
 static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *look,
                                 const baum_i_snapshot_out *to)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on a mechanism outside any run, at a configuration that the report finds. If the
- * mechanism is not frozen, a frozen copy is used. */
+/* Reports on a mechanism without a run. The report chooses the configuration. If the mechanism is
+ * not frozen, a frozen copy is used. */
 #ifndef BAUM_I_DYNAMICS_SNAPSHOT_H
 #define BAUM_I_DYNAMICS_SNAPSHOT_H
 

@@ -30,7 +30,7 @@ baum_status baum_i_need_jacobian(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Rows at (t, q), and with v Phi'. */
+/* Evaluate the rows at (t, q), and Phi' if v is given. */
 static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, const double *v,
                                  bool with_gamma)
 {

@@ -41,7 +41,7 @@ static int32_t factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of routes, and list their places. */
+/* Set the factors of all routes, and list their destinations. */
 static void list_places(const baum_i_step_matrix *matrix, int nv, baum_i_places *places)
 {
   const int32_t *columns = baum_i_residual_matrix_columns(matrix->form);

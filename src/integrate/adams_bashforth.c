@@ -13,8 +13,8 @@
  * Without enough history, at the start and after a restart, the classical Runge-Kutta method takes
  * the steps: its local error is O(h^5), so the order k stays for all k <= 4.
  *
- * A step may be a trial that is discarded. It stores v and a of its start in the slot ahead of the
- * history, which joins the history only when the step is accepted. */
+ * A step may be a discarded trial. It therefore stores v and a of its start in the slot ahead of
+ * the history; the slot joins the history only when the step is accepted. */
 #include "integrate/adams_bashforth.h"
 
 #include <string.h>
@@ -22,7 +22,7 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* ---- the past ---- */
+/* ---- history ---- */
 
 /* N v and a of the point j steps back. */
 static double *slot(const baum_i_adams *run, int j)

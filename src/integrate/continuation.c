@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One guarded step along the path q(t) of Phi(q, t) = 0, nc = nv independent rows, J square.
+/* One step along the path q(t) of Phi(q, t) = 0 with nc = nv independent rows, so J is square. A
+ * guard keeps the step on its branch.
  *
  * Newton from a guess:       J dq = -Phi,  q moved by dq
  * then                       J v = nu,  J a = gamma
  *
- * The configuration found must lie on the branch on which the step began. Newton alone cannot tell:
- * where two branches come near each other, a long step lands next to the wrong one and converges
- * there at once. What tells them apart is J: along a path without singular configurations det J
- * keeps its sign, and on the other side of a fold or of a crossing it has the other. With J0 at the
- * beginning and J1 at the end,
+ * The configuration found must lie on the branch on which the step began. Newton's method alone
+ * cannot tell: where two branches pass close to each other, a long step ends next to the wrong
+ * branch and converges to it at once. J distinguishes them: along a path without singular
+ * configurations det J keeps its sign, and beyond a fold or a crossing it has the opposite sign.
+ * With J0 at the beginning and J1 at the end,
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
  *
- * is positive as long as no real eigenvalue of D reaches 1, for which |D| < 1 is enough, at the end
- * and, D growing about as the step, on the way (the lemma of Newton and Kantorovich; P. Deuflhard,
- * Newton Methods for Nonlinear Problems, 2004, chapters 2 and 5). D is probed: with z of one part
- * of every scale in every coordinate,
+ * is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end is sufficient, also
+ * on the way there, because D grows about in proportion to the step (the lemma of Newton and
+ * Kantorovich; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, chapters 2 and 5). The
+ * norm of D is estimated with a probe z that moves every coordinate by a fraction of its scale:
  *
  *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
  *
- * comes near the largest eigenvalue or above it, and one that is near singular is in every z. A
- * probe costs a solution with the factors that v and a need anyway.
+ * is close to the largest eigenvalue or above it, because every z has a part along each critical
+ * direction. A probe costs one solution with the factors that v and a need anyway.
  *
- * All solutions are those of the saddle-point system: with no freedom left its a is J^-1 of the
- * lower right side whatever M is, and with a zero lower right side lambda is J^-T of the upper one.
+ * All solutions come from the saddle-point system. Without degrees of freedom its a is J^-1 times
+ * the lower right side, whatever M is. If the lower right side is zero, lambda is J^-T times the
+ * upper one.
  */
 #include "integrate/continuation.h"
 
@@ -36,22 +38,22 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* Newton's first correction relative to the scales, and the second one relative to it. A guess
- * further off does not belong to this configuration. */
+/* Limits on Newton's first correction relative to the scales, and on the second one relative to the
+ * first. A guess further off may belong to another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
 /* Ratio of later corrections; above it they have stopped falling, perhaps because of rounding. */
 static const double STAGNATION = 0.5;
-/* Limit of |D|; 1 would suffice if |D| were known exactly, and on the whole step. */
+/* Limit of |D|. 1 would suffice if |D| were known exactly and along the whole step. */
 static const double TURNING = 0.7;
-/* Violation as a displacement: for coordinates of the size of the scales, and for larger ones per
- * scale. */
+/* Allowed violation as a displacement: absolute for coordinates up to the size of the scales,
+ * relative for larger ones. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
-/* The same for omitted rows: above it they do not depend on the others here. */
+/* The same for omitted rows. Above it they do not depend on the others in this configuration. */
 static const double NEGLIGIBLE = 1e-6;
-/* A probe ends when it has decayed to this share; weight of the direction in which the last one
- * ended. */
+/* A probe ends when it has decayed to this fraction. The second number is the weight of the
+ * direction in which the last probe ended. */
 static const double DECAYED = 0.01;
 static const double KEPT = 3.0;
 
@@ -91,7 +93,7 @@ static bool refuse(baum_i_verdict *verdict, baum_i_refusal refusal, baum_status 
   return false;
 }
 
-/* Judge an evaluation: may a shorter step help where it failed? */
+/* Judge an evaluation: if it failed, may a shorter step help? */
 static bool accept_evaluation(const baum_workspace *w, baum_status status, baum_i_verdict *verdict)
 {
   bool may_retry = (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) && w->point.retry;
@@ -235,8 +237,8 @@ static baum_status apply_turning(const baum_i_continuation *path, const double *
   return status;
 }
 
-/* Start a probe: some of every scale in every coordinate, and the direction in which the last probe
- * ended, where branches have come close to each other. */
+/* Start a probe: a fraction of its scale in every coordinate, plus the direction in which the last
+ * probe ended, because there branches come close to each other. */
 static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from)
 {
   const baum_mechanism *m = path->workspace->mechanism;
@@ -314,7 +316,8 @@ bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *fro
 
 /* ---- impasse ---- */
 
-/* Normalize u_i d_i <= 1 for a force in the rows that meets hardly any resistance, and its rows. */
+/* Normalize the left singular vector to u_i d_i <= 1. It is a force in the rows that meets hardly
+ * any resistance. */
 static void normalize_left(const baum_i_continuation *path)
 {
   double largest = 0.0;

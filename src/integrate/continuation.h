@@ -6,7 +6,7 @@
 
 #include "dynamics/dynamics.h"
 
-/* A configuration that satisfies the constraints, and what follows from it. */
+/* A configuration that satisfies the constraints, with its velocities and accelerations. */
 typedef struct baum_i_pose {
   double t;
   double *q; /* (nq) */
@@ -20,12 +20,12 @@ typedef struct baum_i_pose {
 /* Why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
-  BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the next hardly smaller */
+  BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the second is hardly smaller */
   BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
   BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
   BAUM_I_REFUSAL_LEFT_OUT, /* a row that was omitted as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
-  BAUM_I_REFUSAL_STOP,       /* what a function that stops the run answered, or BAUM_ERR_MEMORY */
+  BAUM_I_REFUSAL_STOP,       /* a function stops the run, or BAUM_ERR_MEMORY */
 } baum_i_refusal;
 
 /* How a configuration was found, or why it was not. */
@@ -33,8 +33,8 @@ typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* of BAUM_I_REFUSAL_EVALUATION and _STOP */
   int iterations;     /* of Newton */
-  double contraction; /* second correction over the first; 0 where one was enough */
-  double turning;     /* |I - J^-1 J_from| as far as probed */
+  double contraction; /* second correction over the first; 0 if one was enough */
+  double turning;     /* estimate of |I - J^-1 J_from| by a probe */
   int row;            /* of BAUM_I_REFUSAL_LEFT_OUT */
 } baum_i_verdict;
 
@@ -42,7 +42,7 @@ typedef struct baum_i_verdict {
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
-  double *distance; /* (nc) row of J over a displacement */
+  double *distance; /* (nc) norm of each row of J times the scales */
   double *zero;     /* (nv) */
   double *probe;    /* (nv) */
   double *image;    /* (nv) */
@@ -51,12 +51,12 @@ typedef struct baum_i_continuation {
 
 /* What makes a configuration singular. */
 typedef struct baum_i_impasse {
-  double gain;  /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot
+  double gain; /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot
                   be factored */
-  double pull;  /* 0 to 1: share of rows that depend on time in the forces that hardly anything
-                  resists */
-  int driver;   /* their joint with the largest share, or -1 */
-  int resister; /* the joint with the largest share beside those, or -1 */
+  /* 0 to 1: share of time-dependent rows in the forces that meet hardly any resistance */
+  double pull;
+  int driver;   /* time-dependent joint with the largest share, or -1 */
+  int resister; /* other joint with the largest share, or -1 */
 } baum_i_impasse;
 
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
@@ -66,13 +66,13 @@ void baum_i_continuation_close(baum_i_continuation *path);
  * as `from` below. */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
 
-/* Lead the guess pose->q at pose->t to a configuration: Newton, then v and a, guarded against the
- * configuration `from`, of which J and turn are used. true: the configuration is good; else
- * verdict->refusal says why not. */
+/* Find the configuration near the guess pose->q at pose->t by Newton's method, then v and a. J and
+ * turn of the configuration `from` guard against a change of branch. true: the configuration is
+ * good; otherwise verdict->refusal is the reason. */
 bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
                                baum_i_pose *pose, baum_i_verdict *verdict);
 
-/* Analyse a good configuration next to which no other was found. */
+/* Analyse a good configuration if no next one was found near it. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
                                         baum_i_impasse *impasse);
 

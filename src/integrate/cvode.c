@@ -37,7 +37,7 @@ typedef struct cvode_run {
 static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
 {
   cvode_run *run = user;
-  /* SUNDIALS 6.4's fixed-point solver takes every failure for one that a smaller step may cure. */
+  /* SUNDIALS 6.4's fixed-point solver assumes that a smaller step may cure any failure. */
   if (run->sundials.stopped) {
     return -1;
   }
@@ -82,10 +82,10 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
  *
- * The estimate for v stays as it is. Its part across the constraints is not only what the
- * projection removes: the error along them leaves J e_v = -(J v)_q e_q. Without P e_v errors are
- * twice as large at the same tolerance and the same cost (pendulum, slider-crank, four-bar,
- * Andrews, rtol 1e-4 to 1e-10).
+ * The estimate for v stays as it is. Its part across the constraints must stay, because the
+ * projection does not remove all of it: the error of q along the constraints contributes
+ * J e_v = -(J v)_q e_q. An estimate without P e_v gives errors that are twice as large at the same
+ * tolerance and the same cost (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to 1e-10).
  *
  * The history of the method is corrected by the same step, so that the next prediction starts
  * there. Adams' predictor and corrector work with f alone, whose history cannot be moved, so CVODE
@@ -98,7 +98,7 @@ static void subtract(int n, const double *what, double *from)
   }
 }
 
-/* A projection that does not converge may do so closer to the last step. */
+/* If a projection does not converge, it may converge after a smaller step. */
 static int answer_projection(baum_i_sundials *sundials, baum_status status)
 {
   int answered = baum_i_sundials_answer(sundials, status);
@@ -112,7 +112,7 @@ static int answer_projection(baum_i_sundials *sundials, baum_status status)
 static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype tolerance,
                    N_Vector error, void *user)
 {
-  (void)tolerance; /* the projection goes to rounding */
+  (void)tolerance; /* the projection converges to rounding */
   cvode_run *run = user;
   baum_workspace *w = run->sundials.problem->workspace;
   int nq = w->mechanism->nq;
@@ -131,7 +131,7 @@ static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype
   return answer_projection(&run->sundials, status);
 }
 
-/* ---- what the driver asks for ---- */
+/* ---- functions for the driver ---- */
 
 static int size_of(const baum_i_problem *problem)
 {
@@ -167,7 +167,7 @@ static int attach_bdf(baum_i_sundials *sundials)
 {
   const baum_i_cvode_newton *newton = &((cvode_run *)sundials)->newton;
   void *cvode = sundials->memory;
-  /* These two have flags of their own; only memory can be wrong. */
+  /* These two calls have separate flags; they can only run out of memory. */
   bool attached = CVodeSetLinearSolver(cvode, newton->solver, newton->klu.matrix) == CVLS_SUCCESS &&
                   CVodeSetLinSysFn(cvode, build) == CVLS_SUCCESS;
   if (!attached) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi): constraints are
- * springs and dampers of rates alpha and beta, however smooth the motion is. Their part of df/dy is
- * known,
+/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi). The constraints then
+ * act as springs and dampers with rates alpha and beta, which makes the equations stiff however
+ * smooth the motion is. Their part of df/dy is known,
  *
  *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
  *           [ -beta^2 P   -2 alpha P ]
@@ -12,16 +12,16 @@
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2
  *
- * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors of the
- * previous evaluation. Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i
- * gamma)^2 is one of each row, and with Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, likewise
+ * because (I + s P)^-1 = I - s / (1 + s) P. A product with P costs one substitution with the
+ * factors of the previous evaluation. If rows have different gains, each row has its s = 2 alpha_i
+ * gamma + (beta_i gamma)^2. With Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, the solution is
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
- * Where q is no vector r_q in these stands for N^+ r_q, and dq = r_q + gamma N dv.
+ * If q is not a vector, r_q stands for N^+ r_q in these equations, and dq = r_q + gamma N dv.
  *
- * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff
- * ones remain what BDF is for.
+ * Backward in time alpha and gamma change their signs together. Forces are part of the rest, so
+ * stiff forces still require BDF.
  */
 #include "integrate/integrator.h"
 
@@ -133,7 +133,7 @@ int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundial
   if (flag != CV_SUCCESS) {
     return flag;
   }
-  /* This one has flags of its own; only memory can be wrong. */
+  /* This call has separate flags; it can only run out of memory. */
   return CVodeSetLinearSolver(cvode, embedded->solver, NULL) == CVLS_SUCCESS ? CV_SUCCESS
                                                                              : CV_MEM_FAIL;
 }

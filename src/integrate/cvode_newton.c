@@ -7,19 +7,19 @@
  *
  *   F = (q' - N v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
  *
- * whose last two parts vanish for v' = a(t, q, v). Differentiated along that, with da = (da/dq) dq
- * + (da/dv) dv,
+ * whose last two parts vanish for v' = a(t, q, v). Their derivatives along this solution, with da =
+ * (da/dq) dq + (da/dv) dv, are
  *
  *   F_q dq + F_v dv + F_lambda dlambda = - (0, M da, J da) in these parts
  *
- * for the dlambda that goes with da; so that for c = 1 / gamma
+ * with the dlambda that belongs to da. With c = 1 / gamma it follows that
  *
  *   (dF/dy + c dF/dy') (dq, dv, dlambda) = (c dq - dv, M (c dv - da), J (c dv - da)).
  *
- * With the right side c (r_q, M r_v, J r_v) this says dq - gamma dv = r_q and dv - gamma da = r_v,
- * which is what is wanted; dlambda is not. The matrix has the derivatives of all forces and rows,
- * and is as sparse as the mechanism. (Where q is no vector dq stands for a displacement of velocity
- * size, and r_q for N^+ r_q; the rest of r_q, off the manifold, is that of dq.)
+ * With the right side c (r_q, M r_v, J r_v) this gives dq - gamma dv = r_q and dv - gamma da = r_v,
+ * the required equations; dlambda is not needed. The matrix has the derivatives of all forces and
+ * rows, and is as sparse as the mechanism. (If q is not a vector, dq stands for a displacement of
+ * velocity size and r_q for N^+ r_q; the part of r_q off the manifold is added to dq unchanged.)
  */
 #include "integrate/integrator.h"
 
@@ -69,7 +69,7 @@ static int factor(SUNLinearSolver solver, SUNMatrix matrix)
   return baum_i_sundials_klu_factor(&newton->klu);
 }
 
-/* c (r_q, M r_v, J r_v); rows that were omitted when the matrix was made read dlambda = 0. */
+/* c (r_q, M r_v, J r_v). Rows that were omitted when the matrix was computed are dlambda = 0. */
 static void make_right_side(const baum_i_cvode_newton *newton, const double *r, double *right)
 {
   const baum_workspace *w = workspace_of(newton);

@@ -15,16 +15,16 @@
  * constraints: a disturbance of the multipliers falls to a tenth in ten steps. Resolved
  * oscillations are hardly damped.
  *
- * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h. It starts
- * with that value; otherwise the multipliers would be of first order for some steps. For a step of
- * another length the difference is scaled.
+ * a is not the acceleration at t but, to second order, the acceleration at t + (alpha_m - alpha_f)
+ * h. It starts with that value; otherwise the multipliers would be of first order for some steps.
+ * If a step has another length, the difference a - v' is scaled with it.
  *
- * The first step after every start begins at the state projected onto the constraints: a violation
- * would become velocities of its size over h, which no equation removes at once.
+ * The first step after every start begins at the state projected onto the constraints. A violation
+ * would otherwise cause velocities of its size divided by h, which no equation removes at once.
  *
  * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled
- * multipliers: step_matrix.h. (Where q is no vector it is exact but for terms of h times the
- * angular velocity: x is added at q, not at q_1.) */
+ * multipliers: step_matrix.h. (If q is not a vector, it is exact up to terms of h times the angular
+ * velocity, because x is added at q, not at q_1.) */
 #include "integrate/generalized_alpha.h"
 
 #include <float.h>
@@ -43,29 +43,29 @@ static const double BETA = 25.0 / 81.0;
 
 enum { ITERATIONS = 20 };
 
-/* A change of the positions by this share of what the accelerations do in a step is the last one:
- * multipliers and accelerations are then accurate to that share. It need not fall below some
- * roundings of the positions, or of their scale if they are small beside it, as for a body at the
- * origin. */
+/* Newton's iteration ends when a change of the positions is this fraction of the effect of the
+ * accelerations in a step. Multipliers and accelerations are then accurate to that fraction. The
+ * change need not fall below a few roundings of the positions, or of their scale if positions are
+ * small compared with it, as for a body at the origin. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped falling are rounding up to this many of these roundings. */
+/* Changes that have stopped falling count as rounding up to this many of these roundings. */
 static const double STALLED = 64.0;
 /* Changes up to this size that have stopped falling are compared with the effect of rounding on the
- * equations: rounding of a large coordinate is much in the scale of a small one that is tied to
- * it. */
+ * equations: the rounding of a large coordinate may be large on the scale of a small coordinate
+ * coupled to it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* Share of a step over which the acceleration is differentiated: truncation is this share of terms
- * of second order, rounding its inverse of one unit. */
+/* Fraction of a step over which the acceleration is differentiated. The truncation error is this
+ * fraction of terms of second order; the rounding error is one unit divided by it. */
 static const double SHIFT = 1e-3;
 
-/* Steps that differ by less than this share need no other a. */
+/* If steps differ by less than this fraction, a need not be scaled. */
 static const double SAME_STEP = 1e-6;
 
-/* What the next step needs of one. */
+/* Results of a step that the next step needs. */
 typedef struct alpha_past {
   double *rate;   /* (nv) v' */
   double *a;      /* (nv) */
@@ -77,27 +77,27 @@ typedef struct alpha_run {
   int nq;
   int nv;
   int nc;
-  bool known;      /* `now` is that of the present state */
-  bool first;      /* and no step has been made since it was found */
-  double step;     /* [s] with which its a was made */
-  double trial;    /* [s] with which that of `next` was */
+  bool known;      /* `now` belongs to the present state */
+  bool first;      /* no step has been made since the start */
+  double step;     /* [s] step to which now.a belongs */
+  double trial;    /* [s] step to which next.a belongs */
   alpha_past now;  /* at the present state */
   alpha_past next; /* at the end of the last trial */
   int64_t iterations;
   baum_i_step_matrix *matrix;
-  double *memory;   /* all below and above */
+  double *memory;   /* memory of all arrays of this struct */
   double *moved;    /* (nv) displacement from q of the state to that of y */
   double *y;        /* (nq + nv + nc) q, v, lambda */
   double *dy;       /* (nq + nv + nc) zeros, v', unused */
   double *residual; /* (nq + nv + nc) */
   double *x;        /* (nv + nc) */
-  double *nudged;   /* (2 (nq + nv + nc)) y and dy in other last digits */
+  double *nudged;   /* (2 (nq + nv + nc)) y and dy with changed last digits */
 } alpha_run;
 
 /* ---- begin ---- */
 
-/* Find v' and lambda by (5), and a by a difference along the motion, for steps of the grid whatever
- * the first one is. */
+/* Find v' and lambda by (5), and a by a difference along the motion. a belongs to steps of the
+ * grid, whatever the length of the first step. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;
@@ -202,9 +202,9 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   return BAUM_OK;
 }
 
-/* Find the change of the positions that rounding asks for: the change of the equations if all
- * unknowns change in their last digits, with its own sign in each row, because each row is rounded
- * by itself. */
+/* Find the change of the positions that rounding causes: the solution for the change of the
+ * equations when all unknowns change in their last digits. The sign in each row is chosen
+ * independently, because each row is rounded independently. */
 static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
                               const baum_i_step_ratios *ratios, double *noise)
 {
@@ -257,7 +257,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (done) {
       return BAUM_OK;
     }
-    /* The first may be larger than the prediction was wrong. */
+    /* The first change may be larger than the error of the prediction. */
     if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {
       break;
     }
@@ -271,8 +271,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  /* Every trial from a state must start alike, so the first steps project whether they are kept or
-   * not. */
+  /* All trials from a state must start alike, so first steps project even if they are discarded. */
   if (!run->known || run->first) {
     BAUM_I_TRY(baum_i_project(problem->workspace, state->t, state->q, state->v));
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What tests read of a run of generalized-alpha. */
+/* Access for tests to a run of generalized-alpha. */
 #ifndef BAUM_I_INTEGRATE_GENERALIZED_ALPHA_H
 #define BAUM_I_INTEGRATE_GENERALIZED_ALPHA_H
 

@@ -9,16 +9,16 @@
  *   index 3   Phi
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
- * What it takes to make this work, all measured:
+ * This works under the following conditions, all found by measurement:
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
- *   velocities. At index 1 tolerance_lambda includes lambda; elsewhere its estimate does not fall
- *   with the step as it should. Newton's iteration has a test of its own that includes multipliers
- *   (ida_newton.c); otherwise they diverge.
+ *   velocities. At index 1, tolerance_lambda adds lambda to the test; in other forms its error
+ *   estimate does not fall with the step as it should. Newton's iteration has a separate test that
+ *   includes multipliers (ida_newton.c); otherwise they diverge.
  * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the
  *   equations but not small; v' and lambda come from one solution of (5) or (7). IDA's own search
  *   for a consistent start can succeed with wrong accelerations.
  * - The first step is given. IDA's own is too large for index 3.
- * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
+ * - The Jacobian is exact and sparse; without the part of lambda, iterations fail.
  * - KLU keeps its pivots (sundials_klu.h).
  */
 #include "integrate/integrator.h"
@@ -38,7 +38,7 @@
 typedef struct ida_run {
   baum_i_sundials sundials;
   N_Vector dy;            /* at the end of the last step */
-  N_Vector tested;        /* 1 where the error test looks, else 0 */
+  N_Vector tested;        /* 1 for unknowns in the error test, otherwise 0 */
   SUNLinearSolver solver; /* what IDA calls: a front before klu */
   baum_i_sundials_klu klu;
   double linearized; /* [1/s] c of the present matrix */
@@ -136,7 +136,7 @@ static int size_of(const baum_i_problem *problem)
   return baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
 }
 
-/* rtol times the smaller factor of what is tested. */
+/* rtol times the smallest factor among the tested unknowns. */
 static double tightest(const ida_run *run, const baum_i_problem *problem)
 {
   bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
@@ -154,9 +154,9 @@ static double violation_of(const ida_run *run, const baum_i_problem *problem)
   return fmax(phi, rate / problem->rate);
 }
 
-/* Make the start consistent. A violation of Phi = 0 or Phi' = 0, where these are among the
- * equations, would jump in the first step, and its error estimate with it, whatever the length of
- * the step. So it is removed here; Phi of index 2 stays. */
+/* Make the start consistent. If Phi = 0 or Phi' = 0 is among the equations, a violation would
+ * vanish abruptly in the first step and spoil the error estimate, however short the step. It is
+ * therefore removed here. Index 2 does not contain Phi = 0, so its violation of Phi stays. */
 static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
                                    double *v)
 {
@@ -198,9 +198,9 @@ static baum_status complete_start(baum_i_sundials *sundials, double t)
 }
 
 /* Set the first step. It is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale.
- * All forms but index 3 test velocities too, whose derivatives are larger: a fifth of that h
- * passes. At index 3 a smaller step would drown the velocities, differences of q over h, in
- * rounding. */
+ * All forms but index 3 also test velocities, whose derivatives are larger: a fifth of that h is
+ * accepted. At index 3 velocities are differences of q over h, so rounding would dominate them at a
+ * smaller step. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;
@@ -220,7 +220,7 @@ static int restart(baum_i_sundials *sundials)
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-/* ---- what else the driver asks for ---- */
+/* ---- other functions for the driver ---- */
 
 static baum_status open_run(baum_i_sundials *sundials)
 {
@@ -271,8 +271,8 @@ static int attach_newton(ida_run *run)
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-/* The calls with linear solvers have flags of their own; only memory can be wrong. Scaling is ours.
- * */
+/* The calls with linear solvers have separate flags; they can only run out of memory. This file
+ * scales solutions itself. */
 static int attach_klu(baum_i_sundials *sundials)
 {
   ida_run *run = (ida_run *)sundials;

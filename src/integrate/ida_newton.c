@@ -17,30 +17,30 @@
  *
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
- * with the energy that inertia has at 1/T, so that multipliers may vanish; row i may err by that
- * over n_i. If that is tighter than the tolerances of q and v, the iteration of q and v is
- * tightened too: what it leaves of them is noise in lambda, which no shorter step reduces (40 times
- * the steps without).
+ * with the energy of the inertia at rate 1/T, so that multipliers may vanish; row i may err by this
+ * tolerance over n_i. If it is tighter than the tolerances of q and v, the iteration of q and v is
+ * tightened, too: the error that it leaves in them is noise in lambda, which no shorter step
+ * reduces (without this, runs took 40 times the steps).
  *
  * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
  * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
  * or with a later one after which the rate of this step promises an error below it.
  *
- * IDA's own test does not work here. No fixed tolerance suits multipliers, which may vanish and
- * whose rounding grows with c. Without any test, as in the error test, they diverge: order 5
- * extrapolates an error 63-fold, and an iteration with an older matrix leaves up to a quarter. In
- * measurements forces became 1e14 times too large; their rounding then moved q and v, and no step
- * converged any more. IDA also trusts a rate from an earlier step while the matrix ages, which
+ * IDA's own test does not work here. No fixed tolerance suits multipliers, because they may vanish
+ * and their rounding grows with c. Without any test they diverge: order 5 extrapolates an error
+ * 63-fold, and an iteration with an older matrix leaves up to a quarter. In measurements forces
+ * became 1e14 times too large; their rounding then moved q and v, and no step converged any more.
+ * IDA also relies on a convergence rate from an earlier step although the matrix ages, which
  * shortens steps by a third.
  *
- * Older matrices. With r = c / c0, a matrix made for c0 solves the present system but for terms
+ * Older matrices. With r = c / c0, a matrix computed for c0 solves the present system up to terms
  * that are smaller by h:
  *
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
  * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a
- * compromise for stiff equations; of the multipliers it leaves (1 - r) / (1 + r) in each
- * iteration. */
+ * compromise for stiff equations; in each iteration it leaves (1 - r) / (1 + r) of the error of the
+ * multipliers. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -53,12 +53,13 @@
 #include <ida/ida.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-/* Errors of multipliers do not accumulate; they must only not diverge. From 1e-1 to 1e-4 the number
+/* Errors of multipliers do not accumulate; they only must not diverge. From 1e-1 to 1e-4 the number
  * of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
-/* 50 times rounding at rtol 1e-13; errors are as with 0.01, and steps fewer than with 1. */
+/* 50 times rounding at rtol 1e-13. Errors are those with 0.01, and there are fewer steps than with
+ * 1. */
 static const double INDEX3_VELOCITY_TOLERANCE = 0.1;
-/* As in IDA: above it IDA takes another matrix or a smaller step. */
+/* As in IDA: above it IDA computes a new matrix or takes a smaller step. */
 static const double WORST_RATE = 0.9;
 
 static const baum_workspace *workspace_of(const baum_i_ida_newton *newton)
@@ -82,7 +83,7 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton)
   }
 }
 
-/* Largest |x_i| n_i of multipliers; NaN if there is one. */
+/* Largest |x_i| n_i of multipliers; NaN if one of them is NaN. */
 static double largest_of(const baum_i_ida_newton *newton, const double *x)
 {
   const double *displacement = N_VGetArrayPointer(newton->displacement);
@@ -116,7 +117,7 @@ static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
   }
 }
 
-/* Of the displacement j, as the weights of positions have it. */
+/* Tolerance of displacement j, from the weights of positions. */
 static double position_tolerance(const baum_i_ida_newton *newton, int j)
 {
   const baum_i_problem *problem = newton->sundials->problem;
@@ -220,7 +221,7 @@ int baum_i_ida_newton_attach(baum_i_ida_newton *newton)
   newton->solver = SUNNonlinSol_Newton(newton->sundials->y, newton->sundials->context);
   int flag = newton->solver ? IDASetNonlinearSolver(ida, newton->solver) : IDA_MEM_FAIL;
   if (flag == IDA_SUCCESS) {
-    /* After the above, which sets IDA's own. */
+    /* Must come after the call above, which sets IDA's own test. */
     flag = (int)SUNNonlinSolSetConvTestFn(newton->solver, test, newton);
   }
   return flag;

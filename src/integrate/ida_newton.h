@@ -18,7 +18,7 @@ typedef struct baum_i_ida_newton {
   double momentum_q;     /* [J s^2] largest M_jj s_j tolerance_q_j */
   double momentum_v;     /* [J s] largest M_jj s_j tolerance_v_j */
   double tested;         /* [J] tolerance of |lambda_i| n_i in the error test, else infinite */
-  double share;          /* of the tolerances of q and v that corrections may take, <= 1 */
+  double share;          /* fraction of the tolerances of q and v that corrections may use, <= 1 */
   double action;         /* [J s] largest |mu_i| n_i at the start of the step */
   double action_q;       /* [J s^2] largest W_jj s_j tolerance_q_j */
   double first;          /* size of the first correction of the step */

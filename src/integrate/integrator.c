@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What all integrators share: facts about one, its memory, and the accelerations and tolerances it
- * works with. Names no integrator, so that a program links only those it calls.
+/* Common functions of all integrators: properties, memory, accelerations and tolerances. This file
+ * names no integrator, so a program links only those that it calls.
  *
  * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate
  * w = 1/T and present size |v|:
@@ -8,20 +8,21 @@
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
  *
- * so that neither the number of revolutions of a crank nor the choice of units matters.
+ * Neither the number of revolutions of a crank nor the choice of units therefore matters.
  *
- * Error tests of BDF get a portion of rtol and atol, so that runs at one rtol have about the same
- * error whatever the method:
+ * Error tests of BDF use a fraction of rtol and atol, so that runs at the same rtol have about the
+ * same error whatever the method:
  *
  * - A step of order q from an exact history is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), with
- *   alpha_0 = 1 + 1/2 + ... + 1/q. It adds alpha_0 times that to the error of the motion, because
- *   the history is off too (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential
- *   Equations I, 1993, III.2: the error constant). CVODE tests the former, IDA the latter; at order
- *   5, where they are nearly always, alpha_0 is 137/60.
+ * alpha_0 = 1 + 1/2 + ... + 1/q. It adds alpha_0 times this error to the error of the motion,
+ * because the history has errors, too (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
+ * Differential
+ * Equations I, 1993, III.2: the error constant). CVODE tests the former, IDA the latter. At order
+ * 5, which they nearly always use, alpha_0 is 137/60.
  * - Orders end at 5, and BDF takes up to three times the steps of Adams methods, which adds error.
- *   With a third of the tolerance both have about the error of Adams methods at the same rtol, or
- *   less, in energies, times of events and positions, where it was up to six times as much. IDA
- *   takes 1.2 times the steps for it, CVODE 1.33 times (docs/theory/energy.md).
+ * With a third of the tolerance, both have at most about the error of Adams methods at the same
+ * rtol, in energies, times of events and positions; before, it was up to six times as large. This
+ * costs IDA 1.2 times the steps and CVODE 1.33 times (docs/theory/energy.md).
  *
  * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
  * steps. */
@@ -34,8 +35,8 @@
 #include "base/alloc.h"
 #include "base/text.h"
 
-/* Steps that differ by less than this share are equal: shifting a node by it changes 1e-6 of one
- * step's error, and it is far above the rounding of times. */
+/* Steps that differ by less than this fraction are equal. Shifting a node by it changes the error
+ * of a step by 1e-6, and it is far above the rounding of times. */
 static const double SAME_STEP = 1e-6;
 
 static const double BDF_PORTION = 1.0 / 3.0;
@@ -119,7 +120,7 @@ void baum_i_integrator_destroy(const baum_integrator *integrator, void *self)
   }
 }
 
-/* ---- what integrators work with ---- */
+/* ---- accelerations and tolerances ---- */
 
 void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *beta)
 {
@@ -157,7 +158,7 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
   return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
 }
 
-/* With fixed steps only methods with `accept` have a history. */
+/* At fixed steps only methods with `accept` have a history. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem)
 {
   return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));

@@ -14,10 +14,10 @@
 #include "dynamics/dynamics.h"
 #include "stabilization/amplification.h"
 
-/* What is integrated, and how accurately. Constant except for direction and stop. */
+/* The equations to integrate, and the accuracy. Constant except for direction and stop. */
 typedef struct baum_i_problem {
-  /* Saved with a run, up to `workspace`, because these may differ in the last digits on another
-   * processor. */
+  /* The members up to `workspace` are saved with a run, because they may differ in the last digits
+   * on another processor. */
   double alpha;     /* [1/s] >= 0 */
   double beta;      /* [1/s] >= 0 */
   double direction; /* +1 forward, -1 backward in time: alpha carries it */
@@ -26,15 +26,16 @@ typedef struct baum_i_problem {
 
   baum_workspace *workspace;
   baum_formulation formulation;
-  double step;               /* [s] > 0, or NaN: variable */
-  double rtol;               /* NaN for fixed step */
-  double atol;               /* >= 0 */
-  double tolerance_q;        /* [-] > 0, factors on rtol and atol */
-  double tolerance_v;        /* [-] > 0 */
-  double tolerance_lambda;   /* [-] > 0, INFINITY: multipliers are outside of the error test */
-  bool distrusts_projection; /* explicit variable step: refuse steps whose end it moves far */
-  bool stops;                /* variable step: no step passes `stop`, and one ends there */
-  double stop;               /* [s] ahead in direction, by more than the rounding of times */
+  double step;             /* [s] > 0, or NaN: variable */
+  double rtol;             /* NaN for fixed step */
+  double atol;             /* >= 0 */
+  double tolerance_q;      /* [-] > 0, factors on rtol and atol */
+  double tolerance_v;      /* [-] > 0 */
+  double tolerance_lambda; /* [-] > 0, INFINITY: multipliers are outside of the error test */
+  /* explicit variable step: refuse steps whose end the projection moves far */
+  bool distrusts_projection;
+  bool stops;  /* variable step: no step passes `stop`, and one ends there */
+  double stop; /* [s] ahead in direction, by more than the rounding of times */
 } baum_i_problem;
 
 /* Time, positions, velocities. */
@@ -61,11 +62,12 @@ struct baum_integrator {
   baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
   baum_i_method method;             /* amplification */
   baum_i_method_family family;      /* of methods without one */
-  double seen; /* BDF: share of what a step adds to the error of a motion, that is tested */
+  double seen;             /* BDF: tested fraction of the error that a step adds to the motion */
   bool predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h
                               |gamma| */
-  bool solves_residuals;   /* of the whole system; else it uses accelerations or configurations */
-  bool without_freedom;    /* for mechanisms without freedom alone; takes no formulation, step or
+  /* integrates the whole system; otherwise it uses accelerations or configurations */
+  bool solves_residuals;
+  bool without_freedom; /* for mechanisms without freedom alone; takes no formulation, step or
                            rtol */
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
   bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
@@ -80,14 +82,14 @@ struct baum_integrator {
 
   /* Fixed step: move state from t by h (signed). a is the acceleration at the start of the step
    * (nv), which the caller has evaluated through baum_i_problem_motion(); the caller also sets
-   * state->t. NULL for methods with variable steps only. A method that has this and `advance` uses
-   * the one that problem->step asks for; one that has neither needs SUNDIALS, which the build does
-   * not have. */
+   * state->t. NULL for methods with variable steps only. A method with both this and `advance` uses
+   * the one that problem->step selects. A method with neither needs SUNDIALS, which the build
+   * lacks. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Fixed step, methods with a history: the last step is kept, which until now may have been a
-   * trial. NULL for one-step methods. */
+  /* Fixed step, methods with a history: accept the last step, which may have been a trial until
+   * now. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL for methods with fixed steps only. */
@@ -100,8 +102,8 @@ struct baum_integrator {
   /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods without
    * history; not called if baum_i_integrator_remembers() is false. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
-  /* Restart at the next step, from the state that it is given and with new pivots, so that nothing
-   * depends on the steps before. Neither evaluates nor allocates. Comes with `restart`. */
+  /* Restart at the next step, from its given state and with new pivots, so that nothing depends on
+   * earlier steps. Neither evaluates nor allocates. Required if `restart` is given. */
   void (*forget)(void *self);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
@@ -121,7 +123,7 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
 /* Is h from t a step of the fixed grid, up to the rounding of times? The history of multistep
- * methods is valid for these. */
+ * methods is only valid for such steps. */
 bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
 
 /* Tolerances of all coordinates for variable-step methods: positions rtol scale + atol, velocities
@@ -134,18 +136,18 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
  * the workspace, where J is; the largest of them, and its row or -1. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
-/* Portion of rtol and atol that the error test of a method gets, <= 1. */
+/* Fraction of rtol and atol that the error test of a method uses, <= 1. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
 /* Does a run have a history, so that it needs restarts? */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
-/* Complete the message of an evaluation that failed with the step from t in which it did; h: 0 if
- * none had begun. */
+/* Add the step of length h from t to the message of an evaluation that failed in it. h is 0 if no
+ * step had begun. */
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 
-/* Fail with BAUM_ERR_CONVERGENCE in a step from t: what does not converge, and the size of its last
+/* Fail with BAUM_ERR_CONVERGENCE in a step from t. `what` does not converge; size is its last
  * change relative to the scale. */
 baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The one file that names all integrators; who links it links every backend. */
+/* The only file that names all integrators. Linking it links every backend. */
 #include "integrate/integrator.h"
 
 typedef const baum_integrator *integrator_fn(void);

@@ -7,12 +7,12 @@
  *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements
  *                         from one of them
  *
- * The step follows what the last one has shown: the contraction of Newton's iteration grows with
- * the error of the guess, as h^3, the turning of J as h. Nothing is integrated and no error
- * accumulates: a requested configuration is solved to rounding, whatever the steps. Steps only keep
- * the branch: one that may have passed a singular configuration is refused and shortened. If no
- * step is short enough, the run ends, at a lock-up (a fold of the path, with no configuration
- * beyond) or where branches cross. */
+ * The step length follows from the last step: the contraction of Newton's iteration grows with the
+ * error of the guess, like h^3, and the turning of J like h. Nothing is integrated and no error
+ * accumulates: a requested configuration is solved to rounding, whatever the steps. Steps only
+ * serve to keep the branch: a step that may have passed a singular configuration is refused and
+ * shortened. If no step is short enough, the run ends, at a lock-up (a fold of the path, with no
+ * configuration beyond) or where branches cross. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -22,13 +22,13 @@
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
-/* Values that the next step aims at, below what would be refused. */
+/* Values that the next step aims at; they are below the limits of refusal. */
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
 static const double SHRINKAGE = 0.5; /* at least, after a refusal */
 static const double COLLAPSE = 0.1;  /* at most */
-/* [rad] A first step turns nothing by much more than this. */
+/* [rad] Largest rotation in a first step, approximately. */
 static const double FIRST_TURN = 0.1;
 /* The shortest step, relative to 1/rate of the motion, and in roundings of the time. */
 static const double SHORTEST = 1e-10;
@@ -38,11 +38,11 @@ static const double LONGEST = 1e6;
 /* |J^-1| above which a configuration counts as singular; at a fold it is about 1e5 when steps
  * end. */
 static const double SINGULAR_GAIN = 1e3;
-/* Share of drivers in the critical forces above which it is a fold; where branches cross it is
- * about 1 / gain. */
+/* If the share of drivers in the critical forces is above this, the configuration is a fold; where
+ * branches cross the share is about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
-enum { POSES = 4, MOST_PIECES = 10000 /* of a step that is walked through */ };
+enum { POSES = 4, MOST_PIECES = 10000 /* largest number of short steps inside a step */ };
 
 typedef struct kinematics_run {
   baum_i_continuation path;
@@ -53,7 +53,7 @@ typedef struct kinematics_run {
   baum_i_pose *trial;
   baum_i_pose *spare;
   bool forgotten; /* the next step restarts */
-  double h;       /* [s] > 0, what the next step tries */
+  double h;       /* [s] > 0, length that the next step tries */
   baum_i_statistics statistics;
   baum_i_kept_message evaluation; /* of the last refused evaluation */
 } kinematics_run;
@@ -167,7 +167,7 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
-      "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than the other "
+      "t = %.9g s: kinematics: the mechanism locks up here: %s demands more than the other "
       "constraints allow, above all %s; beyond this time no configuration satisfies them all",
       t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
   }
@@ -178,8 +178,8 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
     t, label_of(m, at->resister, resister));
 }
 
-/* Fail for a cause outside of the configuration: a callback, an evaluation, memory. Otherwise
- * BAUM_OK, and *at analyses the configuration. */
+/* Fail if the cause is a callback, an evaluation or memory. Otherwise return BAUM_OK, with the
+ * analysis of the configuration in *at. */
 static baum_status fail_for_cause(kinematics_run *run, const baum_i_pose *pose,
                                   const baum_i_verdict *verdict, const char *when,
                                   baum_i_impasse *at)
@@ -224,7 +224,7 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
 }
 
 /* Take one step from *from towards t_end, shortened as often as it is refused, into *to. *h is the
- * length to try, and then the one that the next step may try. */
+ * length to try on entry, and the length for the next step on return. */
 static baum_status step(kinematics_run *run, const baum_i_problem *problem, const baum_i_pose *from,
                         baum_i_pose *to, double t_end, double *h)
 {
@@ -256,7 +256,7 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
 
 /* ---- inside the last step ---- */
 
-/* Reach t by short steps from the left end, if the guess inside the step was refused. Steps below
+/* If the guess inside the step was refused, reach t by short steps from the left end. Steps below
  * the rounding of the time would not advance. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
@@ -328,7 +328,7 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
                      t);
 }
 
-/* Find the configuration next to a state and on its branch; it becomes both ends of the last
+/* Find the configuration nearest to a state, on its branch. It becomes both ends of the last
  * step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {

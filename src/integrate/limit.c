@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-/* [rad] Distance between states: the truncation of a cubic is of its fourth power, while rounding
- * there is 1e-16 over its square. */
+/* [rad] Distance between states. The truncation error of a cubic is its fourth power; rounding is
+ * 1e-16 over its square. */
 static const double APART = 0.003;
-/* Share of the rate that gravity causes; slower motions have no clear direction. */
+/* Fraction of the rate that gravity causes. Slower motions have no clear direction. */
 static const double SLOW = 0.1;
 
 static baum_status evaluate_behind(const baum_i_problem *problem, const baum_i_state *state,

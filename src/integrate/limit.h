@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations in a singular configuration.
  *
- * There the equations allow the accelerations of all branches, and next to it rounding is divided
- * by the smallest pivot. The motion that continues smoothly has the limit of the accelerations
- * behind the configuration, on any smooth path that begins with this velocity: a cubic through four
- * states, q + dt v projected onto the constraints, is extrapolated back to the configuration. */
+ * In such a configuration the equations allow the accelerations of all branches; next to it,
+ * rounding errors are divided by the smallest pivot. The smooth motion has the limit of the
+ * accelerations beyond the configuration. Any smooth path that begins with its velocity gives this
+ * limit. The path here consists of states q + dt v projected onto the constraints; a cubic through
+ * the accelerations at four of them is extrapolated back to the configuration. */
 #ifndef BAUM_I_INTEGRATE_LIMIT_H
 #define BAUM_I_INTEGRATE_LIMIT_H
 

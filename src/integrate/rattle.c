@@ -11,10 +11,11 @@
  * width O(h^2). With constraints and forces that depend on time this holds in the phase space that
  * includes time and its momentum.
  *
- * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form
- * M^-1 (g - J^T lambda), so that Newton's method begins with v' = v + (h/2) a, and its matrix J(q)
- * M^-1 J(q)^T may be kept: it gives changes dq along M^-1 J(q)^T, and of v' by dq / h. The end
- * is moved by h v' from q each time, so that the rounding of q is not divided by h into v.
+ * Only the sum of all changes of lambda matters. The acceleration a of the caller has the form M^-1
+ * (g - J^T lambda), so Newton's method begins with v' = v + (h/2) a. Its matrix J(q) M^-1 J(q)^T
+ * may be kept: it gives changes dq along M^-1 J(q)^T, which change v' by dq / h. Each iteration
+ * moves q by h v' from the start of the step, so that the rounding of q does not enter v divided by
+ * h.
  */
 #include <float.h>
 #include <math.h>
@@ -27,10 +28,10 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes below this many roundings of the coordinates are rounding; of their scale if they are
- * small beside it, as for a body at the origin. */
+/* Changes below this many roundings of the coordinates count as rounding. The scale replaces
+ * coordinates that are smaller, as for a body at the origin. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that have stopped falling are rounding up to this many of them. */
+/* Changes that have stopped falling count as rounding up to this many roundings. */
 static const double STALLED = 256.0;
 
 /* Memory of a run. */
@@ -44,8 +45,8 @@ typedef struct rattle_run {
 
 /* ---- positions ---- */
 
-/* Would another change only be rounding? Changes fall in proportion. The first has none before
- * it. */
+/* Would another change only be rounding? Changes fall by a constant factor, which the first change
+ * cannot show yet. */
 static bool is_last(double size, double before, double rounding)
 {
   if (size <= rounding || isinf(before)) {
@@ -140,7 +141,7 @@ static baum_status check_body(const baum_i_body *body)
   return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
-/* Refuse masses that vary and forces that depend on velocities. */
+/* Refuse variable masses and forces that depend on velocities. */
 static baum_status check_mechanism(const baum_mechanism *m)
 {
   for (int i = 1; i <= m->body_count; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Pairs, which
- * choose their step, are in rk_adaptive.h. */
+/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Embedded
+ * pairs, which choose their step, are in rk_adaptive.h. */
 #ifndef BAUM_I_INTEGRATE_RK_H
 #define BAUM_I_INTEGRATE_RK_H
 
@@ -50,10 +50,10 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
   .step = baum_i_rk_step
 /* clang-format on */
 
-/* ---- for methods that have more to remember ---- */
+/* ---- for methods with more memory ---- */
 
 /* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over
- * (q, v). All of it is one allocation, rk->rates. */
+ * (q, v). All arrays are one allocation, rk->rates. */
 baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more);

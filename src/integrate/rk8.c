@@ -3,13 +3,13 @@
  * 5 and 3 and an interpolant of order 7 by E. Hairer and G. Wanner: DOP853 (Hairer, Norsett, Wanner
  * 1993, sections II.5, II.6 and II.10).
  *
- * The estimates take no rate at the end of the step. The one of order 3 is b less the weights
- * 0.2440..., 0.7338... and 0.0220... of rates 1, 9 and 12. Three extra rates of the interpolant lie
- * at 0.1, 0.2 and 7/9 of the step. Numbers are those of the authors' program, which gives 30
+ * The estimates use no rate at the end of the step. The estimate of order 3 has the weights b minus
+ * 0.2440..., 0.7338... and 0.0220... for rates 1, 9 and 12. Three extra rates of the interpolant
+ * lie at 0.1, 0.2 and 7/9 of the step. Numbers are those of the authors' program, which gives 30
  * digits, rounded.
  *
- * A violation obeys z = R(mu), R the exponential series up to mu^8 and then the table's own
- * coefficients up to mu^12.
+ * A violation obeys z = R(mu), where R is the exponential series up to mu^8, and has the table's
+ * coefficients from there up to mu^12.
  */
 #include "integrate/rk_adaptive.h"
 

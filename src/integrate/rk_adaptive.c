@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta pairs with steps of their own choice (E. Hairer, S. P. Norsett, G. Wanner:
+/* Embedded explicit Runge-Kutta pairs with variable steps (E. Hairer, S. P. Norsett, G. Wanner:
  * Solving Ordinary Differential Equations I, 2nd ed. 1993, sections II.4 to II.6 and the appendix).
  * In the notation of rk.c, with K_(s+1) the rate at the end of the step:
  *
@@ -11,12 +11,13 @@
  *                 ... = h sum d_i K_i
  *
  * Whatever F_4 ... are, the interpolant has the values and rates of both ends. Norm and tolerances
- * are those of CVODE here, so that one rtol means the same everywhere. Extra rates of the
+ * are the same as for CVODE, so that rtol means the same for all methods. Extra rates of the
  * interpolant are evaluated only for a time inside the step, and never affect the motion.
  *
  * Projection: the end of a step is projected before its rate is taken, so that interpolant and next
- * step begin at the projected state. Where the estimate needs that rate, it is therefore made after
- * the projection, which is of its order or smaller; that saves one evaluation in each step.
+ * step begin at the projected state. If the estimate needs that rate, it is therefore computed
+ * after the projection. The projection is not larger than the estimate, and this saves one
+ * evaluation in each step.
  *
  * The end of a step is t + h as rounded, and h is the rounded difference, so that time and motion
  * agree. */
@@ -26,18 +27,18 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the terms of an error estimate of order 3, squared. */
+/* Weight of the error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
-/* Largest motion by the projection, in units of the tolerance, where it is distrusted. */
+/* Largest displacement by the projection, in units of the tolerance, if large ones are refused. */
 static const double MOST_MOVED = 10.0;
 
 /* Shortest step, relative to the time or to T, whichever is larger: its stages still have different
  * times. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
-/* Tries of one step. Each is at most 0.9 of the one before; half of them lead from T to the
- * shortest step. */
+/* Largest number of tries of one step. Each is at most 0.9 times the one before, so half of them
+ * suffice from T to the shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
@@ -65,8 +66,8 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
          status == BAUM_ERR_CONVERGENCE;
 }
 
-/* Fail because the step is too short. Steps that shrink towards a place where evaluations fail end
- * with one without failure; a failure almost no time ago is still the reason. */
+/* Fail because the step is too short. If steps shrink towards a time where evaluations fail, the
+ * last evaluation may succeed; a failure very close to it is still the reason. */
 static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double h)
 {
@@ -76,7 +77,7 @@ static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_proble
   }
   return baum_i_fail(
     BAUM_ERR_STEP,
-    "t = %.9g s: %s: a step of %.3g s is too short beside the time; the error stays "
+    "t = %.9g s: %s: a step of %.3g s is too short to change the time; the error stays "
     "above the tolerance however small the step: a force may jump here, the configuration "
     "may be near a singular one, the motion may grow without bound, or rtol = %g "
     "is too small",
@@ -130,8 +131,8 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* Assume an error constant of one and local errors of the size of the tolerance; the first step
- * corrects the rest. */
+/* Assume an error constant of one and a local error equal to the tolerance. The first step corrects
+ * the length. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -195,7 +196,7 @@ static baum_status begin(baum_i_rk_adaptive *run, const baum_i_problem *problem,
 
 /* ---- one step ---- */
 
-/* Project the end of a step. *moved: by how much, in units of the tolerance of positions. */
+/* Project the end of a step. *moved is the displacement in units of the tolerance of positions. */
 static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                                double *moved)
 {
@@ -254,8 +255,8 @@ static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *probl
   return BAUM_OK;
 }
 
-/* Accept a step. One that was cut to `length` for a configuration ahead does not reduce the wanted
- * length, which the next step needs to pass it. */
+/* Accept a step. If it was cut to `length` for a singular configuration ahead, the wanted length
+ * stays, because the next step needs it to pass the configuration. */
 static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
@@ -277,7 +278,7 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
-    length = 0.5 * left; /* two of a length, not a last one that is tiny */
+    length = 0.5 * left; /* two equal steps rather than a tiny last one */
   }
   run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
   length = fmin(length, left);
@@ -286,7 +287,7 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   return is_sound ? BAUM_OK : fail_short(run, problem, length);
 }
 
-/* Tries until one is accepted. */
+/* Try until a step is accepted. */
 static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_rk_crossing_look(&run->crossing, &run->rk, problem, run->t);
@@ -313,7 +314,7 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     if (forced || status != BAUM_OK) {
       run->crossing.least = 0.0; /* for another reason, perhaps */
     }
-    /* The error counts where evaluations have not failed. */
+    /* Use the error unless evaluations failed. */
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);

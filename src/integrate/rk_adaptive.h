@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta pairs, which estimate their error and choose their step: one driver, and a
- * table for each pair. baum_i_rk_step() of rk.h takes their fixed steps. */
+/* Embedded Runge-Kutta pairs, which estimate their error and choose their step: one driver, and a
+ * table for each pair. With a fixed step they use baum_i_rk_step() of rk.h. */
 #ifndef BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 #define BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 
@@ -15,7 +15,7 @@ typedef struct baum_i_rk_pair {
   const char *name; /* of the integrator, in messages */
   baum_i_rk_table table;
   int error_order;      /* the estimate grows with h^error_order */
-  int error_count;      /* rates in the estimate: s, or s + 1 with the one at the end */
+  int error_count;      /* number of rates in the estimate: s, or s + 1 with the rate at the end */
   const double *error;  /* (error_count) */
   const double *error3; /* (error_count) of order 3, or NULL */
   int extra;
@@ -42,7 +42,7 @@ typedef struct baum_i_rk_adaptive {
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
-  /* An evaluation that failed in a try, for which a smaller step was taken. */
+  /* An evaluation that failed in a try, after which a smaller step was taken. */
   baum_status failure;         /* BAUM_OK: none */
   double failure_t;            /* start of that try */
   baum_i_kept_message message; /* of that evaluation */

@@ -6,18 +6,21 @@
 
 #include "integrate/limit.h"
 
-/* [rad] Least motion in a step near a singular configuration, and in one over it. */
+/* [rad] Smallest motion in a step near a singular configuration, and in a step over it. */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
-/* Error of such a step, relative to the scales, above which it is refused all the same. */
+/* Error of a step over a singular configuration, relative to the scales, above which it is refused
+ * nevertheless. */
 static const double LARGEST_FORCED = 0.01;
-/* Error of a step over a configuration, relative to the scales, times p at its start: the effect of
- * rounding, and of gains that correct violations. With 40 windows it was up to 2e-10; a refused
- * step would be less accurate from nearer by. */
+/* A step over a singular configuration may have this error, relative to the scales, divided by p at
+ * its start. It is caused by rounding, and by gains that correct violations. With 40 windows the
+ * product was up to 2e-10. Refusing the step would not help, because a step from closer to the
+ * configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
-/* Pivots relative to the usual one. Below the first a singular configuration ahead is searched; a
- * step from above it never ends below the second, where rounding over p is large. */
+/* Pivots relative to the usual one. Below the first, the method searches for a singular
+ * configuration ahead. A step that starts above the first must not end below the second, where
+ * rounding divided by p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
 /* [rad] Distance over which pivots are compared to find the configuration. */
@@ -28,20 +31,20 @@ static const double LOOK = 1e-4;
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a configuration the method is stuck after this many steps in a row that are followed by one
- * of less than this many radians, or tries that are as short. Steps that are free to grow do so
- * sixfold; 1e8 steps of this length would make a radian. */
+/* Near a singular configuration the method is stuck after this many steps in a row that are
+ * followed by a step, or try, of less than this many radians. Unhindered steps grow sixfold; 1e8
+ * steps of this length make one radian. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
-/* [1/s] at which the mechanism moves. */
+/* [1/s] Rate at which the mechanism moves. */
 static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
 {
   double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nq);
   return fmax(rate, problem->rate);
 }
 
-/* Pivot of the last evaluation, relative to the usual one, which it may raise. */
+/* Pivot of the last evaluation, relative to the usual pivot, which is raised if it is smaller. */
 static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
@@ -65,8 +68,8 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
   }
 }
 
-/* A start in a singular configuration can only compare its pivots with those ahead. A configuration
- * that is not exactly on the path serves. */
+/* At a start in a singular configuration, only pivots ahead can serve for comparison. The
+ * configuration for them need not be exactly on the path. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -97,7 +100,7 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double t)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
-  crossing->usual = pivot; /* no step before counts */
+  crossing->usual = pivot; /* forget earlier steps */
   crossing->held = 0;
   if (pivot < PIVOT_OF_START) {
     look_further(crossing, rk, problem, t);
@@ -108,7 +111,7 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* [s] Extrapolate the root of the pivot, which falls in a straight line, to zero. */
+/* [s] Extrapolate the square root of the pivot, which falls linearly, to zero. */
 static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -167,7 +170,7 @@ double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bo
   return fabs(h) > crossing->ahead ? fmin(ROUNDING / crossing->pivot, LARGEST_FORCED) : 0.0;
 }
 
-/* A step that began where no configuration was searched must not end near one. */
+/* A step that started without a search for a configuration ahead must not end near one. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   crossing->pivot_end = see_pivot(crossing, problem);

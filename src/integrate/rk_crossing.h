@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Singular configurations in the way of a Runge-Kutta method that chooses its steps
+/* How a Runge-Kutta method with variable steps passes singular configurations
  * (docs/theory/singular.md).
  *
- * sqrt(p), with p the smallest pivot relative to the usual one, falls in a straight line towards
- * such a configuration. Accelerations next to it are inaccurate, and errors grow there however
- * small a step is. So a step passes the configuration between two stages; if no step of a sensible
+ * sqrt(p), with p the smallest pivot relative to the usual one, falls linearly towards such a
+ * configuration. Accelerations next to it are inaccurate, and errors grow however small the steps
+ * are. Therefore a step passes the configuration between two stages; if no step of a sensible
  * length is accurate enough, a step of fixed length passes over it. */
 #ifndef BAUM_I_INTEGRATE_RK_CROSSING_H
 #define BAUM_I_INTEGRATE_RK_CROSSING_H
@@ -12,12 +12,12 @@
 #include "integrate/rk.h"
 
 typedef struct baum_i_rk_crossing {
-  double gap;       /* middle of the widest gap between stages, of the step */
-  double ahead;     /* [s] from the start of the step to a singular configuration; INFINITY: none is
+  double gap;   /* middle of the widest gap between stages, as a fraction of the step */
+  double ahead; /* [s] from the start of the step to a singular configuration; INFINITY: none is
                    near */
-  double over;      /* [s] a step over a configuration */
-  double least;     /* [s] step shorter than which it is taken; 0 where no pose is near */
-  double pivot;     /* at the start of the step, of the usual one */
+  double over;  /* [s] a step over a configuration */
+  double least; /* [s] shorter steps are replaced by it; 0 if no singular configuration is near */
+  double pivot; /* at the start of the step, relative to the usual pivot */
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
   int held;         /* steps in a row that were held up near a configuration */

@@ -10,7 +10,7 @@
  */
 #include "integrate/integrator.h"
 
-/* Where q is a vector, in one pass. */
+/* If q is a vector, one pass updates v and q. */
 static void add_both(int n, double h, const double *restrict a, double *restrict v,
                      double *restrict q)
 {

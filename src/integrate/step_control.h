@@ -11,7 +11,7 @@ typedef struct baum_i_step_control {
   double step;       /* [s] to try next */
   double last_step;  /* [s] last one accepted; 0: none yet */
   double last_error; /* its error */
-  bool refused;      /* a try from here has been refused */
+  bool refused;      /* a try from the present state has been refused */
 } baum_i_step_control;
 
 /* Start with a first step. */

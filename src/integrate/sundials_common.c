@@ -53,9 +53,9 @@ static int create_context(baum_i_sundials *sundials)
 /* ---- vectors ----
  *
  * SUNDIALS 6.4 clones vectors without checking for memory, and after a failure at the start it
- * frees those it has twice. So all vectors are made beforehand, where a failure is a status:
- * cloning takes the next one, destroying does nothing, closing frees them. The numbers of each are
- * preceded by a pointer to its stock. */
+ * frees some of them twice. All vectors are therefore allocated beforehand, where a failure becomes
+ * a status. Cloning takes the next one, destroying does nothing, and closing frees them. A pointer
+ * to the stock precedes the numbers of each vector. */
 
 enum { PREFIX = 1 };
 
@@ -68,7 +68,7 @@ static N_Vector clone(N_Vector like)
     return vector;
   }
   vector = N_VClone_Serial(like);
-  if (vector) { /* of SUNDIALS' own making */
+  if (vector) { /* vector created by SUNDIALS */
     vector->ops->nvclone = N_VClone_Serial;
     vector->ops->nvdestroy = N_VDestroy_Serial;
   }

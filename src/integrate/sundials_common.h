@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every part of a run of CVODE or IDA uses: its vectors, its equations, the order of its
- * unknowns. Only files of CVODE and IDA include it, and only when the build has SUNDIALS.
+/* Common parts of CVODE and IDA runs: vectors, equations, the order of the unknowns. Only files of
+ * CVODE and IDA include it, and only when the build has SUNDIALS.
  *
  * SUNDIALS never prints: each run has its own context, and its error texts are kept here. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
@@ -20,7 +20,7 @@ enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256, BAUM_I_SUNDIALS_VECTORS = 40 };
 typedef struct baum_i_sundials {
   const struct baum_i_sundials_method *method;
   SUNContext context;
-  N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all that a run needs, made at once */
+  N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all vectors of a run, allocated together */
   int taken;                                 /* of them */
   double *numbers;                           /* their memory */
   void *memory;                              /* of CVODE or IDA */
@@ -31,15 +31,15 @@ typedef struct baum_i_sundials {
   bool unfinished;        /* since begin: a start or step that failed needs a restart */
   bool stops;             /* a stop time is set */
   bool stopped;           /* an evaluation of this call failed for good */
-  baum_status evaluation; /* the last failing one here and now, or BAUM_OK */
+  baum_status evaluation; /* status of the last evaluation that failed, or BAUM_OK */
   double origin;          /* [s] SUNDIALS is told t - origin: a late start costs no digits */
   double t;               /* start of the step under way */
   double evaluated_at;    /* start of the step in which that evaluation failed */
   char message[BAUM_I_MESSAGE_SIZE];              /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
-  bool pivots_forgotten;                          /* KLU must choose them again */
+  bool pivots_forgotten;                          /* KLU must choose pivots again */
   int64_t full_factorizations;                    /* times KLU chose pivots */
-  baum_i_statistics before;                       /* up to the last restart */
+  baum_i_statistics before;                       /* counts up to the last restart */
 } baum_i_sundials;
 
 /* Create a context with a silent error handler and vectors of length n. Close it after everything
@@ -54,7 +54,8 @@ N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 /* Keep an error text of SUNDIALS. */
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
-/* The answer of a callback: 0, +1 if a smaller step may help, else -1. Keeps a failure. */
+/* The return value of a callback: 0, +1 if a smaller step may help, otherwise -1. Stores a
+ * failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
 /* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */
@@ -69,7 +70,8 @@ void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y,
 /* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q
  * near the manifold: dq = N dx + n, with n = 0 where q is a vector. */
 
-/* dx, until workspace->work_q is used again, which also holds n for the next call. */
+/* Returns dx, valid until workspace->work_q is used again. work_q also holds n for the next
+ * call. */
 const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,
                                     const double *dq);
 /* dq = N dx + factor n. */

@@ -2,7 +2,7 @@
 /* The driver of CVODE and IDA: creation, steps, stops, interpolation, restarts, counters and
  * messages of both.
  *
- * SUNDIALS counts time from the last start, so that a late one costs no digits.
+ * SUNDIALS counts time from the last start, so that a late start costs no digits.
  */
 #include "integrate/integrator.h"
 
@@ -30,15 +30,16 @@ static const struct {
   {{CV_ERR_FAILURE, IDA_ERR_FAIL},
    BAUM_ERR_STEP,
    "the error stays above the tolerance however small the step; a force may jump here, the "
-   "position may be near singular, or rtol is too small"},
+   "configuration may be near a singular one, or rtol is too small"},
   {{CV_CONV_FAILURE, 0},
    BAUM_ERR_CONVERGENCE,
-   "the iteration does not converge however small the step; forces may be stiff, which only "
-   "cvode_bdf and ida are for, or the configuration near a singular one, where projection helps"},
+   "the iteration does not converge however small the step; forces may be stiff, which "
+   "requires cvode_bdf or ida, or the configuration may be near a singular one, where projection "
+   "helps"},
   {{0, IDA_CONV_FAIL},
    BAUM_ERR_CONVERGENCE,
-   "the iteration does not converge however small the step; the position may be near singular, "
-   "or rtol is too small, for index 3 above all"},
+   "the iteration does not converge however small the step; the configuration may be near a "
+   "singular one, or rtol is too small, especially for index 3"},
   {{CV_TOO_CLOSE, 0},
    BAUM_ERR_STEP,
    "no first step can be found, because the time scales differ too much"},
@@ -51,7 +52,7 @@ static const struct {
    "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
   {{CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL},
    BAUM_ERR_SINGULAR,
-   "the matrix of Newton's iteration cannot be solved with; take rk8, or a smaller rtol"},
+   "the linear solution in Newton's iteration failed; take rk8, or a smaller rtol"},
   {{CV_NLS_FAIL, IDA_NLS_FAIL},
    BAUM_ERR_CONVERGENCE,
    "the iteration failed; take rk8, or a smaller rtol"},
@@ -159,8 +160,8 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out)
 
 /* ---- one step ---- */
 
-/* Begin a step. Steps that shrink towards a place where evaluations fail end with one without
- * failure; a failure almost no time ago is still the reason. */
+/* Begin a step. If steps shrink towards a time where evaluations fail, the last evaluation may
+ * succeed; a failure very close to it is still the reason. */
 static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
 {
   bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;
@@ -176,7 +177,7 @@ static void give_stop(baum_i_sundials *run)
   if (problem->stops || run->stops) {
     double stop =
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
-    (void)run->method->package->set_stop(run->memory, stop); /* fails only where it is behind */
+    (void)run->method->package->set_stop(run->memory, stop); /* fails only if the stop is behind */
     run->stops = problem->stops;
   }
 }
@@ -184,8 +185,8 @@ static void give_stop(baum_i_sundials *run)
 /* Check a step between two times of SUNDIALS: BAUM_ERR_STEP if it did not advance. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  /* A first step may be smaller than the rounding of a late t as long as that rounding is small
-   * beside the motion. */
+  /* A first step may be smaller than the rounding of a late t, as long as the motion during that
+   * rounding is negligible. */
   double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
   if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;

@@ -43,7 +43,8 @@ typedef struct baum_i_sundials_package {
   int (*restart)(baum_i_sundials *run);
   /* Take one step towards target, into run->y; tau is its end. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
-  /* Free what `open` and `attach` of the method made, or zeroes; run->memory is freed before. */
+  /* Free the allocations of the method's `open` and `attach`; zeroes are fine. run->memory is freed
+   * before. */
   void (*close)(baum_i_sundials *run);
 } baum_i_sundials_package;
 
@@ -53,10 +54,10 @@ typedef struct baum_i_sundials_method {
   const baum_i_sundials_package *package;
   baum_status (*open)(baum_i_sundials *run); /* what a run needs beside SUNDIALS; NULL: nothing */
   int multistep;                             /* of CVODE: CV_ADAMS or CV_BDF */
-  int (*attach)(baum_i_sundials *run);       /* solvers and other settings, after all else */
+  int (*attach)(baum_i_sundials *run);       /* attaches solvers and other settings, called last */
 } baum_i_sundials_method;
 
-/* From version 7 on the handler of the context serves all; before, each package has its own. */
+/* From version 7 on the context has one error handler; before, each package has its own. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 #define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) NULL
 #else

@@ -111,7 +111,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
   if (!numeric || klu->sundials->pivots_forgotten) {
     return choose_pivots(klu);
   }
-  /* KLU's name for the index type depends on its release. */
+  /* The name of KLU's index type depends on its release. */
   void *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
   void *indices = SUNSparseMatrix_IndexValues(klu->matrix);
   int kept = (int)sun_klu_refactor(starts, indices, SUNSparseMatrix_Data(klu->matrix),

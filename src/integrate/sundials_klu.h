@@ -3,8 +3,8 @@
  * of IDA and CVODE BDF solve. Only their files include it, and only when the build has SUNDIALS.
  *
  * KLU keeps its pivots as long as solutions are accurate. SUNDIALS would choose new pivots, and
- * allocate, in every step: its criterion, the condition number, is always bad here because c =
- * O(1/h) and 1 stand side by side. */
+ * allocate, in every step: its criterion, the condition number, is always bad here because entries
+ * of size c = O(1/h) and of size 1 occur together. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_KLU_H
 #define BAUM_I_INTEGRATE_SUNDIALS_KLU_H
 
@@ -27,8 +27,8 @@ typedef struct baum_i_sundials_klu {
   bool fresh;        /* pivots were chosen at the present matrix */
 } baum_i_sundials_klu;
 
-/* Where sundials->problem is set. BAUM_OK or BAUM_ERR_MEMORY. Close it before the run of SUNDIALS
- * is closed, but after what calls it, in any case; closing accepts zeroes. */
+/* Call this after sundials->problem is set. BAUM_OK or BAUM_ERR_MEMORY. In any case, close it after
+ * everything that calls it, and before the run of SUNDIALS; closing accepts zeroes. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
@@ -37,8 +37,8 @@ void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
 baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy);
 
-/* Answers of a linear solver: 0, > 0 where another matrix may help, < 0. x and b are two vectors.
- * */
+/* Return values of a linear solver: 0, > 0 if another matrix may help, < 0. x and b are two
+ * vectors. */
 int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu);
 int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
 /* Likewise with dq in x and q' - N v in b, for the c of the matrix. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The interface of a solver of the saddle-point system. To add one: write a file with a const
- * struct of these functions, declare it below, and give it a place in kkt.c. The front (kkt.c)
- * forms residuals, refines, counts, judges and falls back; a backend only factors and solves. None
- * of these functions sets a message. */
+ * struct of these functions, declare it below, and give it a place in kkt.c. The front end (kkt.c)
+ * computes residuals, refines, counts, judges the accuracy and falls back; a backend only factors
+ * and solves. None of these functions sets a message. */
 #ifndef BAUM_I_LINEAR_BACKEND_H
 #define BAUM_I_LINEAR_BACKEND_H
 

@@ -9,16 +9,16 @@
 #include "base/alloc.h"
 #include "linear/block_builder.h"
 
-/* Result is refined where det D falls below this share of the product of the diagonal that S had.
- * The multipliers lose about the unit rounding over this share, and several small pivots multiply.
- * In long ladders the pivots fall with the number of nodes although they are healthy, so the limit
- * falls with it. */
+/* The result is refined if det D falls below this fraction of the product of the original diagonal
+ * of S. The relative error of the multipliers is about the unit rounding divided by this fraction,
+ * and several small pivots multiply it. In long ladders the pivots fall with the number of nodes
+ * although the system is well-conditioned, so the limit falls with it. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
 /* ---- memory ---- */
 
-/* An array and how many doubles it has. */
+/* An array and its number of doubles. */
 typedef struct array {
   void *place; /* pointer to the pointer */
   size_t count;
@@ -177,7 +177,7 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
   return positive;
 }
 
-/* L of M = L L^T (A.-L. Cholesky), row by row. */
+/* Computes L of M = L L^T (A.-L. Cholesky), row by row. */
 static bool factor_one(const double *m, int n, double *l)
 {
   bool positive = true;
@@ -188,7 +188,7 @@ static bool factor_one(const double *m, int n, double *l)
         sum -= l[i * n + k] * l[j * n + k];
       }
       if (i == j) {
-        /* After much cancellation the rest of the diagonal is noise. */
+        /* After strong cancellation the remaining diagonal entry is rounding. */
         positive = positive && sum > 1e-14 * m[i * n + i];
         l[i * n + i] = sqrt(sum);
       } else {

@@ -7,9 +7,9 @@
  * pivot. Columns are grouped into *body blocks*. A planar body is one body block with diagonal W.
  * User coordinates with M = L L^T take as many as they need, in terms of y = L^T a, where W is the
  * identity. Body block 0 is the ground: W = 0. The numbers of body blocks are stored in the order
- * of v, then ground, then y. The third number of a particle is its neighbour's; it is left
- * unchanged, because its W is 0. A body block that a node touches is a *side*, a 2 x 3 block of J.
- * The sides of a pin are
+ * of v, then ground, then y. The third number of a particle's body block belongs to its neighbour;
+ * it does not change, because its W is 0. A body block that a node touches is a *side*, a 2 x 3
+ * block of J. The sides of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -23,8 +23,8 @@
 #include "linear/elimination.h"
 #include "linear/kkt.h"
 
-/* Whether two rows, beginning with this one, are those of a pin: a point of one body coincides with
- * a point of another. */
+/* Whether this row and the next are the rows of a pin: a point of one body coincides with a point
+ * of another. */
 typedef struct baum_i_block_pin {
   bool is_pin;
   int body_a; /* mass block, -1: ground */
@@ -37,8 +37,8 @@ typedef struct baum_i_block_layout {
   const baum_i_block_pin *pins;  /* (row_block_count) */
   const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant there */
   const unsigned char *omitted;  /* (nc) or NULL, see baum_i_kkt_values */
-  const unsigned char *fixed;    /* (mass_block_count) or NULL: a = 0 there whatever acts, as of
-                                    ground; diagonal ones only */
+  /* (mass_block_count) or NULL; non-zero: a fixed body with diagonal M, a = 0 */
+  const unsigned char *fixed;
 } baum_i_block_layout;
 
 /* A node with the two sides of a pin. Pins are processed two at a time: where their number is odd,
@@ -124,11 +124,12 @@ typedef struct baum_i_block {
   int off_count;
   int dense_count;
   int dense_side_count;
-  int factor_size;   /* numbers in factor[] */
-  int motion_size;   /* v, ground, and y of dense bodies */
-  double weak_pivot; /* det D over the product of the diagonal that S had: refined below */
-  bool leaves_v;     /* some body block has numbers outside of v: dense bodies, particles */
-  int hub;           /* mass block with too many rows for blocks; -1: none */
+  int factor_size; /* numbers in factor[] */
+  int motion_size; /* v, ground, and y of dense bodies */
+  /* limit of det D over the product of the original diagonal of S; refined below it */
+  double weak_pivot;
+  bool leaves_v; /* some body block has numbers outside v: dense bodies, particles */
+  int hub;       /* mass block with too many rows for blocks; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) W = 0 */
 
@@ -175,8 +176,8 @@ typedef struct baum_i_block {
 } baum_i_block;
 
 /* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver is better: a body with too
- * many joints, or too much fill for blocks to be fast. *hub receives that body as a mass block, or
- * -1; hub may be NULL. */
+ * many joints, or too much fill for blocks to be fast. *hub receives the mass block of that body,
+ * or -1; hub may be NULL. */
 baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out);
 void baum_i_block_destroy(baum_i_block *block); /* NULL is fine */
 
@@ -185,14 +186,14 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
 /* Factors the dense bodies, whose M may change. Returns false where M is not positive. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
-/* Selects the right-hand sides (f, r), as at first, or (0, r). */
+/* Selects the right-hand side: (f, r), which is initially selected, or (0, r). */
 void baum_i_block_use_force(baum_i_block *block, bool use);
 
 /* Computes pull[] and rest[] in twice the working precision. */
 void baum_i_block_find_residual(baum_i_block *block);
 
-/* Prepares a correction with the present factors (block_pull.c): motion, pull and multipliers
- * become 0, rest becomes r (nc), so that the correction gives a motion with J a = r. */
+/* Prepares a solution with the present factors (block_pull.c): sets motion, pull and multipliers to
+ * 0 and rest to r (nc), so that the next correction gives a motion with J a = r. */
 void baum_i_block_set_rest(baum_i_block *block, const double *r);
 
 /* Quality of the pivots of a factorization. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What block_structure.c and block_couplings.c share while they find a structure. */
+/* State that block_structure.c and block_couplings.c share while they build a structure. */
 #ifndef BAUM_I_LINEAR_BLOCK_BUILDER_H
 #define BAUM_I_LINEAR_BLOCK_BUILDER_H
 

@@ -7,8 +7,9 @@
  * is a product with U times 1 / det D, so the division runs in parallel with the products. The
  * right-hand side is eliminated along with the matrix.
  *
- * Refinement corrects both equations, with a as an unknown of its own (J. Demmel, 1997, 2.5), which
- * restores what squaring lost. With t = W (f - M a - J^T lambda) and S d = J t - (r - J a):
+ * Refinement corrects both equations, with a as an independent unknown (J. Demmel, 1997, 2.5). This
+ * restores the digits that forming J W J^T loses. With t = W (f - M a - J^T lambda) and S d = J t -
+ * (r - J a):
  *
  *   a += t - W J^T d,   lambda += d */
 #include <math.h>
@@ -17,10 +18,10 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* Below this share (as weak_pivot of block.h) the solver reports bad pivots. */
+/* Below this fraction (defined like weak_pivot of block.h) the solver reports bad pivots. */
 static const double bad_pivot = 1e-10;
 
-/* A residual of this many units of its own size is rounding. */
+/* A residual of up to this many roundings of its terms counts as rounding. */
 static const double rounding = 0x1p-47;
 
 /* ---- what multipliers do to the motion ---- */
@@ -37,7 +38,7 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-/* The same for all general nodes. Also stores their rows of lambda, unless rows is NULL. */
+/* The same for all general nodes. Also stores their rows of lambda unless rows is NULL. */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;
@@ -190,7 +191,7 @@ static inline void eliminate_many(const pivot_step *t, double *x, const int32_t 
   }
 }
 
-/* Returns the smallest det D over the product of the diagonal that S had. */
+/* Returns the smallest ratio of det D to the product of the original diagonal of S. */
 static double weakest(const baum_i_block *b)
 {
   double least = (double)INFINITY;

@@ -5,8 +5,9 @@
 
 #include "linear/block.h"
 
-/* Prepares a correction with the factors of the last solution: pull becomes x (nv), the motion -x,
- * rest and multipliers 0, so that the motion becomes -W J^T S^-1 J x. For fixed bodies x counts as
+/* Prepares a correction with the factors of the last solution: sets pull to x (nv), the motion to
+ * -x, rest and multipliers to 0. The correction then gives the motion -W J^T S^-1 J x. For fixed
+ * bodies x counts as
  * 0. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 

@@ -59,9 +59,9 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* Returns the velocities of all body blocks: v itself, or where places lie outside of v a copy in
- * pull[], which only refinement needs. For a dense body the copy is L^T v, because its sides are
- * whitened. */
+/* Returns the velocities of all body blocks. This is v itself unless some body blocks lie outside
+ * v; then it is a copy in pull[], which only refinement uses otherwise. For a dense body the copy
+ * is L^T v, because its sides are multiplied by L^-T. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -174,7 +174,7 @@ static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
   }
   whiten(b);
   if (b->full_count > 0) {
-    const baum_i_block_rows at = *rows; /* a copy, which stores cannot change, stays in registers */
+    const baum_i_block_rows at = *rows; /* stores cannot change a copy, so it stays in registers */
     const double *velocity = gather_velocities(b, rows->v);
     const baum_i_full_node *last = b->fulls + b->full_count;
     for (const baum_i_full_node *full = b->fulls; full < last; full++) {

@@ -12,8 +12,8 @@
 #include "linear/block_builder.h"
 
 /* A body with more sides than MOST_SIDES makes a clique, and more couplings than MOST_COUPLINGS per
- * node make fill. Sparse elimination of the whole system is then faster, because it may take bodies
- * or joints first. */
+ * node make fill. Sparse elimination of the whole system is then faster, because it may eliminate
+ * bodies or joints first. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */
@@ -238,7 +238,7 @@ static baum_status make_nodes(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Tells whether three entries from here on are a whole side, its columns in the order of J's. */
+/* Tells whether the next three entries are a whole side with its columns in the order of J. */
 static bool is_whole_side(const baum_i_side_entry *entry, int left)
 {
   bool whole = left >= 3 && entry->to % 6 == 0;
@@ -301,7 +301,8 @@ static baum_status sort_sides(baum_i_block_builder *u)
     return BAUM_ERR_MEMORY;
   }
   const baum_i_raw_side *sides = u->sides.items;
-  int32_t *place = u->sorted_start + 1; /* one ahead: filling moves each start to its end */
+  /* shifted by one, because filling moves each start to its end */
+  int32_t *place = u->sorted_start + 1;
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].body_block + 1]++;
   }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent
  * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. Graphs
- * of joints are sparse and stay sparse; where they do not, the caller uses another solver.
+ * of joints are sparse and mostly stay sparse; otherwise the caller uses another solver.
  *
- * A node whose neighbours are all coupled already makes no fill, whatever its degree. Such nodes
- * come first, so that a round takes all ends of a mechanism and not only the thinnest. */
+ * A node whose neighbours are already coupled with each other causes no fill, whatever its degree.
+ * Such nodes come first, so that a round eliminates all ends of a mechanism and not only those of
+ * least degree. */
 #include "linear/elimination.h"
 
 #include <stdbool.h>
@@ -35,8 +36,8 @@ typedef struct search {
 
 /* ---- buckets ---- */
 
-/* Tells whether all neighbours of a node are coupled with each other. False for many neighbours,
- * which are not checked. */
+/* Tells whether all neighbours of a node are coupled with each other. Nodes with many neighbours
+ * are not checked and give false. */
 static bool makes_no_fill(search *s, int32_t node)
 {
   enum { MANY = 8 };

@@ -25,9 +25,9 @@ typedef struct baum_i_elimination {
 } baum_i_elimination;
 
 /* Finds an order by minimum degree in rounds. A round takes all nodes that make no fill, or else
- * all of the smallest degree that are not neighbours. A chain is so eliminated from both ends in
- * turn, and independent nodes are adjacent. Returns BAUM_ERR_SINGULAR where more than `most`
- * couplings would arise. BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
+ * all of the smallest degree that are not neighbours. A chain is thus eliminated from both ends in
+ * turn, and independent nodes are adjacent in the order. Returns BAUM_ERR_SINGULAR where more than
+ * `most` couplings would arise. BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
 void baum_i_elimination_clear(baum_i_elimination *elimination); /* a zeroed one is valid */
 

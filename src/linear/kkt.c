@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Front of the saddle-point solvers: scaling, judging, refinement, new pivots, fallback.
+/* Front end of the saddle-point solvers: scaling, accuracy checks, refinement, new pivots,
+ * fallback.
  *
  * A ladder of efforts leads from cheap to robust factorizations:
  *
@@ -8,8 +9,8 @@
  *   CAREFUL  pivots chosen for accuracy alone
  *   LAST     rank-revealing QR, least squares
  *
- * factor climbs until the reciprocal condition can be trusted. solve climbs on where refinement
- * does not bring the residual down to rounding level. */
+ * Factoring climbs this ladder until the reciprocal condition number can be trusted. Solving climbs
+ * further if refinement does not reduce the residual to rounding. */
 #include "linear/kkt.h"
 
 #include <math.h>
@@ -22,16 +23,17 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* Below this, more effort is made; if that does not help, the matrix is called near singular. */
+/* Below this, the next rung of the ladder is tried. If that does not help, the matrix counts as
+ * near singular. */
 static const double trusted_rcond = 1e-10;
-/* Kept pivots are chosen again where rcond is below the first number and has fallen to the second
- * share of its value when they were chosen. It then tells neither the accuracy nor the distance
- * from a singular configuration. */
+/* New pivots are chosen if rcond is below the first number and has fallen to the second number
+ * times its value when the pivots were chosen. rcond then shows neither the accuracy nor the
+ * distance from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
-/* Below this even careful LU is worthless. */
+/* Below this even LU with pivots chosen for accuracy is useless. */
 static const double least_rcond = 1e-15;
-/* How far dependent rows may contradict each other, relative to the right-hand side. */
+/* Largest contradiction between dependent rows, relative to the right-hand side. */
 static const double contradiction = 1e-8;
 
 typedef enum ladder_rung { RUNG_KEEP, RUNG_CHOOSE, RUNG_CAREFUL, RUNG_LAST } ladder_rung;
@@ -149,7 +151,7 @@ static double present_rcond(const baum_i_kkt *kkt)
   return kkt->present->ops->rcond(kkt->present->self);
 }
 
-/* The first solver follows the rung; the last one knows one effort. */
+/* The effort of the first solver follows the rung; the last solver has only one effort. */
 static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
                                            [RUNG_CHOOSE] = BAUM_I_EFFORT_CHOOSE,
                                            [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
@@ -209,7 +211,8 @@ static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
     status = factor_at(kkt, kkt->present_rung + 1);
   }
   if (status == BAUM_OK && kkt->present->ops->keeps_pivots && present_rcond(kkt) < least_rcond) {
-    status = BAUM_ERR_SINGULAR; /* LU would divide by rounding, and no residual would show it */
+    status =
+      BAUM_ERR_SINGULAR; /* LU would divide by rounding errors, and no residual would show it */
   }
   kkt->quality = judge(kkt, status);
   return status;
@@ -291,9 +294,9 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether the rows that least squares could not meet are nearly met. Nothing else counts
- * there: where rows contradict each other, unknowns may be so large that the rest of the rows is
- * rounding. */
+/* Tells whether the rows that least squares could not meet are nearly met. Nothing else is checked
+ * then: if rows contradict each other, unknowns may be so large that rounding dominates the other
+ * rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);

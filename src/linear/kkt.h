@@ -51,15 +51,16 @@ typedef struct baum_i_kkt_values {
 /* How far the present factorization can be trusted. */
 typedef enum baum_i_kkt_quality {
   BAUM_I_KKT_GOOD,
-  BAUM_I_KKT_NEAR_SINGULAR, /* solved, but close to singular, or by least squares */
-  BAUM_I_KKT_SINGULAR       /* no factorization */
+  /* solved, but the matrix is close to singular, or solved by least squares */
+  BAUM_I_KKT_NEAR_SINGULAR,
+  BAUM_I_KKT_SINGULAR /* no factorization */
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
   int64_t factorizations;      /* refactorizations and full ones */
   int64_t full_factorizations; /* those that chose pivots again and may allocate */
   int64_t refinements;
-  int64_t fallbacks; /* times QR replaced an LU that could not be trusted */
+  int64_t fallbacks; /* number of times that QR replaced an inaccurate LU */
 } baum_i_kkt_counters;
 
 /* Forced choice of backend. */
@@ -75,8 +76,8 @@ void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
 /* Factors at new values, which must stay in place until the last solve with them, because the
  * residual is formed from them. Refactors on the fixed pattern without allocation, and chooses
  * pivots again only where rcond or the residual requires it. BAUM_OK (see quality),
- * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Sets a message for memory only: the
- * caller knows time and names. */
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Sets a message for memory only, because
+ * only the caller knows time and names. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
 /* Solves, and refines the residual of both equations (a and lambda are separate unknowns) to

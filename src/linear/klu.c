@@ -2,13 +2,13 @@
 /* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
  * Kept pivots may become worthless when pivots that were good at an earlier configuration have
- * become small. Here the ratio of the smallest to the largest pivot shows it, in the front the
- * residual.
+ * become small. This file detects it by the ratio of the smallest to the largest pivot, the front
+ * end by the residual.
  *
  * There are two ways to choose pivots. Usually the scaled M has a unit diagonal and the diagonal is
  * preferred: masses are the pivots, and they stay good while the mechanism moves. Constraints then
  * enter as J M^-1 J^T, whose smallest eigenvalue is sigma^2 where the smallest singular value of
- * the scaled J is sigma. With care, M is weighted down,
+ * the scaled J is sigma. If accuracy matters most, M is weighted down,
  *
  *   [ w M   J^T ]
  *   [ J    -S/w ]

@@ -15,7 +15,7 @@ typedef struct baum_i_pattern {
   int32_t *column_start; /* (n + 1) */
   int32_t *row;          /* (column_start[n]) */
 
-  /* Places of the block values in `row`, in the order in which the blocks list them. */
+  /* Places in `row` of the block values, in the order of the blocks. */
   int32_t *slot;             /* memory of the four below */
   const int32_t *mass;       /* M */
   const int32_t *jacobian;   /* J */

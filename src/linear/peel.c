@@ -2,8 +2,8 @@
 /* A velocity that occurs in one block only is free for that block. Where the rows of a block, of
  * unit length, are clearly independent over its free velocities alone, no sum of other rows can
  * cancel them: they are independent, and no dependence of other rows involves them. The block is
- * removed, and its other velocities may then be free for a neighbour. An open chain so vanishes
- * from its tip to its root, motors included, and closed loops remain. */
+ * removed, and its other velocities may then be free for a neighbour. In this way an open chain
+ * vanishes from its tip to its root, including its motors, and closed loops remain. */
 #include "linear/peel.h"
 
 #include <math.h>
@@ -15,19 +15,20 @@
 /* Larger blocks stay: they are few, and repeated checks would be expensive. */
 enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
 
-/* What must remain of a unit row: enough that no tolerance on the rank would judge otherwise. */
+/* Length that must remain of a unit row. It is large enough that every tolerance on the rank gives
+ * the same result. */
 static const double clear = 1e-3;
 
-enum { GONE, LEFT, WAITING }; /* state of a block; a waiting one is left, too */
+enum { GONE, LEFT, WAITING }; /* state of a block; WAITING includes LEFT */
 
 typedef struct peeling {
   const baum_i_kkt_structure *structure;
   const double *jacobian;
   const double *column_scale;
   int *users;  /* (nv) number of blocks that a velocity occurs in */
-  int *user;   /* (nv) their indices, combined by exclusive or: of the only one, its index */
+  int *user;   /* (nv) exclusive or of their indices, which is the index if there is only one */
   int *state;  /* (row_block_count) */
-  int *stack;  /* (row_block_count) blocks to look at */
+  int *stack;  /* (row_block_count) blocks to examine */
   int waiting; /* how many */
 } peeling;
 

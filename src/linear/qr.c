@@ -6,8 +6,8 @@
  *   K_w = [ w M   J^T ]
  *         [ J    -S/w ]
  *
- * with a small w, because the smallest singular value of K_w is about sigma if that of the scaled J
- * is sigma > w; that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count as
+ * with a small w. If the smallest singular value of the scaled J is sigma > w, that of K_w is about
+ * sigma, but that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count as
  * dependent. The solution is the one of least norm among those that minimize the scaled residual.
  * K_w is symmetric, so its range is its row space, and it suffices to project the basic solution
  * onto it. Accelerations are unique where M is positive definite on ker J; multipliers have the
@@ -102,8 +102,8 @@ static void project_part(qr_backend *qr, int from, int to, double *x)
 }
 
 /* x <- K_w^+ x. Because M and S are positive semidefinite, vectors of velocities alone and of
- * multipliers alone span the null space. They are projected separately, which keeps the rounding of
- * the one, which w enlarges, out of the other. */
+ * multipliers alone span the null space. They are projected separately, so that the rounding errors
+ * of one, which w enlarges, do not enter the other. */
 static void solve_scaled(qr_backend *qr, double *x)
 {
   baum_i_sparse_qr_solve(qr->factors, x);
@@ -146,7 +146,7 @@ static double estimate_rcond(qr_backend *qr)
 static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
                           baum_i_kkt_effort effort)
 {
-  (void)effort; /* QR knows one effort */
+  (void)effort; /* QR has only one effort */
   qr_backend *qr = self;
   baum_i_pattern_fill(&qr->pattern, values, scale, weight_root);
   qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->pattern.matrix, dependent, NULL);

@@ -8,11 +8,11 @@
  *
  * Each row is compared with itself, so units and masses of very different size do not matter. A row
  * whose denominator is only the rounding noise of other rows might never pass. After scaling, such
- * rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989): at once if
- * they are noise of noise, as one refinement leaves them, and after refinement also if they are
- * plain noise. A residual also passes at once if it would be negligible beside a row of rounding
- * (eps^2). Rows that only rounding keeps from zero, such as those of a guide along an axis of the
- * ground, cannot be met any better. */
+ * rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989). This is done
+ * at once for rows of size eps^2, which one refinement leaves, and after refinement also for rows
+ * of size eps. A residual also passes at once if it is below eps^2 of the largest row. Rows that
+ * differ from zero only by rounding, such as those of a guide along an axis of the ground, cannot
+ * be met more accurately. */
 #include "linear/residual.h"
 
 #include <float.h>

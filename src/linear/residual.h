@@ -14,8 +14,8 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size);
 
-/* The same, but rows whose scaled size is itself rounding noise of the largest row are compared
- * with that row. */
+/* The same, but rows whose scaled size is only rounding of the largest row are compared with that
+ * row. */
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
                               const double *size);
 

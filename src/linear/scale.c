@@ -41,7 +41,7 @@ static double inverse_root(double x)
   return power_of_two(-(exponent - (exponent & 1)) / 2);
 }
 
-/* Below, a scale of 0 is not known yet. */
+/* In the functions below, a scale of 0 is not yet known. */
 
 static void scale_velocities(const baum_i_kkt_structure *structure, const double *mass, double *d)
 {

@@ -4,7 +4,7 @@
  *   d_j = 1 / sqrt(M_jj)          for velocities,   so that the scaled M has a unit diagonal,
  *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that scaled rows of J have entries up to 1,
  *
- * all to the next power of two below. A change of units multiplies K by a diagonal matrix from both
+ * all rounded down to a power of two. A change of units multiplies K by a diagonal matrix from both
  * sides. D follows it, so D K D does not depend on units, except for the rounding to powers of two.
  * A velocity without mass takes its d_j from its rows. */
 #ifndef BAUM_I_LINEAR_SCALE_H

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sparse LU by KLU of SuiteSparse, 32-bit indices.
  *
- * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK and a worthless result
- * where pivots have become small since they were chosen; klu_rcond, the ratio of the smallest to
- * the largest pivot, shows it. For pivots just chosen the ratio is accepted as it is. */
+ * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK with a useless result
+ * if pivots have become small since they were chosen; klu_rcond, the ratio of the smallest to the
+ * largest pivot, shows it. For pivots just chosen the ratio is accepted as it is. */
 #include "linear/sparse_lu.h"
 
 #include <stdbool.h>
@@ -13,7 +13,8 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* Pivots are chosen again where their ratio has fallen to this share of its value when chosen. */
+/* New pivots are chosen if their ratio has fallen to this fraction of its value when they were
+ * chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {

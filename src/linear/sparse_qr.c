@@ -19,9 +19,10 @@
  *   [     v | v  r  r ]
  *   [       | v  v  r ]   under the staircase of beginnings, v: the reflections 1 - tau v v^T
  *
- * Rank (Heath 1982). A pivot of which at most the tolerance is left gets neither a reflection nor
- * a row of R; its rows are left to later columns. What is left of a column depends only on those
- * below it in the tree, so the outcome is that of one column after the other in the given order.
+ * Rank (Heath 1982). A pivot column whose remaining norm is at most the tolerance gets neither a
+ * reflection nor a row of R; its rows pass to later columns. The remainder of a column depends only
+ * on the columns below it in the tree, so the result is the same as with one column after the other
+ * in the given order.
  *
  * Memory. The other columns are reduced, too, so a front hands on no more rows than it has columns
  * left, whichever pivots are dependent. This bounds all fronts once and for all.
@@ -45,7 +46,8 @@
 
 enum { NONE = -1 };
 
-/* How much wider a front may be than the pattern of a row of R: by a share of it, and by columns.
+/* How much wider a front may be than the pattern of a row of R: as a fraction of it, and in
+ * columns.
  */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
@@ -59,10 +61,11 @@ typedef struct front {
   int32_t pivots; /* the first of the columns */
   int32_t *place; /* (columns) in the order of elimination, ascending */
   int32_t *end;   /* (columns) rows that begin with this column or one before */
-  int32_t *done;  /* (columns) reflections after this column, which is rows of R and r */
-  int32_t *row;   /* (rows) of A whose place in Q^T x each takes */
-  double *tau;    /* (columns) of its reflection */
-  double *value;  /* (rows x columns) by rows */
+  /* (columns) number of reflections after this column, which is the rows of R and r */
+  int32_t *done;
+  int32_t *row;  /* (rows) row of A whose place in Q^T x each row takes */
+  double *tau;   /* (columns) of its reflection */
+  double *value; /* (rows x columns) by rows */
 } front;
 
 struct baum_i_sparse_qr {
@@ -128,10 +131,11 @@ static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
   return qr->place[qr->row_start[row]];
 }
 
-/* Each row of A links its columns, one to the next; mark is the path up so far, shortened. */
+/* Each row of A links its columns, one to the next; mark is the shortened path up the tree so
+ * far. */
 static void find_parents(const baum_i_sparse_qr *qr, plan *p)
 {
-  int32_t *last = qr->next_row; /* scratch: column of each row so far */
+  int32_t *last = qr->next_row; /* scratch: last column of each row so far */
   fill(last, qr->m, NONE);
   for (int32_t k = 0; k < qr->n; k++) {
     p->parent[k] = p->mark[k] = NONE;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is done with definitions: set defaults, check, copy into an element, read back, replace.
+/* Operations on definitions: set defaults, check, copy into an element, read back, replace.
  *
  * Every add and set prepares the new element first. It changes the mechanism only when nothing can
  * fail any more.
@@ -26,8 +26,8 @@ typedef union whole_def {
   unsigned char bytes[256];
 } whole_def;
 
-/* How many bytes of a struct of that size hold fields of its version. The rest is padding, which a
- * later version may use for a field. */
+/* Number of bytes in a struct of that size that hold fields of its version. The rest is padding,
+ * which a later version may use for a field. */
 static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
   const size_t word = sizeof(size_t);
@@ -80,7 +80,7 @@ static void release(baum_i_element *element)
   element->name = NULL;
 }
 
-/* Write the name of an element without one: "joint2". */
+/* Write the default name of an element, such as "joint2". */
 static const char *name_by_number(const char *family, int number, char text[BAUM_I_LABEL_SIZE])
 {
   (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s%d", family, number);

@@ -17,7 +17,7 @@ static inline bool baum_i_is_struct_size(size_t size, size_t present)
   return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
 }
 
-/* Append an element by a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY with its
+/* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY with its
  * message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   const baum_i_definition *definition, const void *def);

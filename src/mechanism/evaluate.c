@@ -152,7 +152,7 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
  * which is exact.
  */
 
-/* whole_power: only of types whose power is that of the whole force. */
+/* whole_power: include only types whose power is that of the whole force. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

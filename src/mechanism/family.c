@@ -6,7 +6,7 @@
 
 /* ---- lists and groups, the same code for three types ---- */
 
-/* LIST begins with FIRST elements that are not counted. */
+/* The first FIRST elements of LIST are not counted. */
 #define LIST_FUNCTIONS(FAMILY, LIST, FIRST)                                                    \
   static baum_i_element *FAMILY##_at(const baum_mechanism *mechanism, int k)                   \
   {                                                                                            \
@@ -26,7 +26,7 @@
   }                                                                                            \
   static baum_status open_##FAMILY##_groups(baum_mechanism *mechanism)                         \
   {                                                                                            \
-    /* One more than needed: an empty group ends the list. */                                  \
+    /* One group more than needed, because an empty group ends the list. */                    \
     size_t count = (size_t)mechanism->FAMILY##_count + 1;                                      \
     mechanism->FAMILY##_groups = baum_i_alloc(count, sizeof *mechanism->FAMILY##_groups);      \
     return mechanism->FAMILY##_groups ? BAUM_OK : baum_i_fail_memory();                        \

@@ -5,7 +5,7 @@
 
 #include "mechanism/model.h"
 
-/* How many columns or rows, and how many values in blocks, a family has so far. */
+/* Numbers of columns or rows, and of values in blocks, that a family has so far. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies, rows of joints */

@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* More rows or coordinates in one element are taken for a mistake. Products of two such numbers fit
- * an int. */
+/* More rows or coordinates in one element are refused as a mistake. Products of two such numbers
+ * fit an int. */
 enum { COUNT_MAX = 10000 };
 
 /* ---- defaults ---- */
@@ -33,7 +33,8 @@ void baum_i_fields_set(const baum_i_definition *definition, void *def)
 
 /* ---- numbers ---- */
 
-/* What each rule allows beside positive finite numbers, and the remedy in its message. */
+/* Numbers that each rule allows in addition to positive finite ones, and the remedy in its
+ * message. */
 static const struct {
   bool nan, negative, zero;
   const char *remedy;
@@ -241,7 +242,7 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
   case BAUM_I_FIELD_FUNCTION: return check_function(f, def, label);
-  default: return BAUM_OK; /* every value is allowed, or the definition checks it */
+  default: return BAUM_OK; /* either every value is allowed, or the definition checks it */
   }
 }
 
@@ -356,7 +357,7 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
 /* A growing list of bodies; ids are checked. */
 typedef struct list {
   int count;
-  int *bodies; /* NULL: count only, and count repeated bodies twice */
+  int *bodies; /* NULL: only count, repeated bodies several times */
 } list;
 
 static void include(list *all, int body)

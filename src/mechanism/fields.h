@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The fields of a definition as a table. Defaults, checks of single fields, copies, digests, the
- * bodies of an element and tests of the headers all work by this table. */
+ * bodies of an element and tests of the headers use this table. */
 #ifndef BAUM_I_MECHANISM_FIELDS_H
 #define BAUM_I_MECHANISM_FIELDS_H
 
@@ -32,7 +32,7 @@ typedef enum baum_i_rule {
 /* The functions of the definition check, copy and release an "own" field. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
-  BAUM_I_FIELD_ARRAY,   /* of doubles, counted by `counter`; or NULL. Only for the start */
+  BAUM_I_FIELD_ARRAY,   /* array of doubles, counted by `counter`, or NULL; only for the start */
   BAUM_I_FIELD_OWN_ARRAY,
   BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* likewise, or 0 */
@@ -87,7 +87,7 @@ typedef struct baum_i_def_field {
   BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, \
                  BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN)
 
-/* INSTEAD counts where COUNTER is 0. */
+/* INSTEAD is the count if COUNTER is 0. */
 #define BAUM_I_ARRAY(DEF, FIELD, KIND, RULE, COUNTER, INSTEAD)                                  \
   {                                                                                             \
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = "", .kind = BAUM_I_FIELD_##KIND,                       \
@@ -95,7 +95,7 @@ typedef struct baum_i_def_field {
                                  .instead = offsetof(DEF, INSTEAD)                              \
   }
 
-/* Every definition struct begins with these two. */
+/* Every definition struct begins with these two fields. */
 typedef struct baum_i_def_head {
   size_t struct_size;
   const char *name;
@@ -108,14 +108,15 @@ typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
   const baum_i_def_field *fields; /* all in their order; a field without a name ends the table */
-  /* Ends of the fields of former versions whose padding a later field uses; 0 ends the list. NULL:
-   * none. */
+  /* Offsets where the fields of former versions ended, if a later field uses their padding; 0 ends
+   * the list. NULL: none. */
   const size_t *former;
   int parameter_count; /* of an element in the parameter array */
   /* Check what the table cannot express, after the table's checks. Messages start with the label,
    * such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
-  /* Copy what own fields point to. BAUM_OK, or BAUM_ERR_MEMORY; then these fields own nothing. */
+  /* Copy the data that "own" fields point to. BAUM_OK, or BAUM_ERR_MEMORY; then these fields own
+   * nothing. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free what own() made */
   /* Compare the derivatives that an element gives with differences; NULL: it gives none. */

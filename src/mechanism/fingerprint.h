@@ -5,11 +5,10 @@
 
 #include "mechanism/identify.h"
 
-/* It covers neither user functions nor names of elements. */
+/* A fingerprint covers neither user functions nor names of elements. */
 typedef struct baum_i_fingerprint {
-  uint64_t structure; /* kinds of elements in their order, on which bodies each acts, names of
-                         inputs */
-  uint64_t numbers;   /* masses, lengths and all others */
+  uint64_t structure; /* kinds of elements in their order, their bodies, names of inputs */
+  uint64_t numbers;   /* masses, lengths and all other parameters */
 } baum_i_fingerprint;
 
 baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *mechanism);

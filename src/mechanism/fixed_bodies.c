@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed bodies: those that a chain of welds connects to ground. The welds determine their poses. */
+/* Fixed bodies: bodies that a chain of welds connects to ground. The welds determine their
+ * poses. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"
 
-/* Fix the other body of a weld that has one fixed body. */
+/* If one body of a weld is fixed, fix the other one. */
 static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
 {
   const baum_i_body *a = m->bodies[joint->span.bodies[0]];

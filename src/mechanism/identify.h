@@ -57,7 +57,7 @@ enum { BAUM_I_LABEL_SIZE = 128 };
 const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE]);
 const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
                                char text[BAUM_I_LABEL_SIZE]);
-/* That of the joint that owns a row; "no joint" for a negative row. */
+/* The label of the joint that owns a row; "no joint" for a negative row. */
 const char *baum_i_row_label(const baum_mechanism *mechanism, int row,
                              char text[BAUM_I_LABEL_SIZE]);
 

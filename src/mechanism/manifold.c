@@ -20,7 +20,7 @@ static void move_body(const baum_i_body *body, double h, const double *v, double
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
-    body->manifold->normalize(body, q); /* rounding of many moves would add up */
+    body->manifold->normalize(body, q); /* without it, rounding errors of many moves would add up */
   } else {
     baum_i_add_scaled(body->nv, h, v, q);
   }

@@ -34,7 +34,7 @@ static inline void baum_i_add_scaled(int n, double h, const double *restrict x, 
   }
 }
 
-/* dq (nq) = N(q) v. q may be as far off the manifold as an integrator's stage. */
+/* dq (nq) = N(q) v. q may be as far off the manifold as the stages of an integrator are. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
 {

@@ -15,7 +15,7 @@
 
 /* ---- life ---- */
 
-/* Make a tag from address and time (Stafford's mix 13). Two mechanisms share one by chance with a
+/* Make a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
  * probability of 2^-32. A counter would be global state. */
 static uint32_t make_tag(const void *address)
 {

@@ -5,10 +5,10 @@
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * of which the potential V takes its part of g. Powers are integrated over each step by Gauss'
- * rule, at states inside of it with lambda of (5) or (7) there, whichever is integrated. (5) also
- * serves the formulations of index 2 and 3: their motion keeps J v = nu, or Phi = 0, whose
- * derivatives are its second line. What the gains do,
+ * where the potential V accounts for its part of g. Powers are integrated over each step by Gauss'
+ * rule. At the nodes inside the step, lambda comes from (5) or (7), whichever is integrated. (5)
+ * also serves the formulations of index 2 and 3, because the second line of (5) is the derivative
+ * of J v = nu or Phi = 0, which their motion keeps. The power of the gains,
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5),
@@ -18,11 +18,11 @@
  * States inside a step come from the method's own interpolant. Fixed steps up to order 4 use
  * Hermite polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5. Fixed
  * steps above order 4 use shorter steps of the method from the same start. So do variable steps
- * whose projection moves far, as from a start off the constraints, because the interpolants of the
- * pairs end at the projected state, which the motion did not.
+ * with a large projection, as from a start off the constraints, because the interpolants of the
+ * pairs end at the projected state, which the motion itself did not reach.
  *
- * IDA starts on the constraints of its formulation, wherever the given start was. That move counts
- * as a projection.
+ * IDA first moves a given start onto the constraints of its formulation. This move counts as a
+ * projection.
  *
  * The account has a workspace of its own, so its evaluations do not touch the run's solver or
  * counters. */
@@ -38,22 +38,22 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* Projections that move further than this many tolerances are not errors of the method. */
+/* Displacements by projections of more than this many tolerances are not errors of the method. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
-  /* Numbers alone, saved up to `workspace`. */
-  double before[BAUM_I_WORKS]; /* up to the last step */
+  /* Plain numbers up to `workspace`, which are saved. */
+  double before[BAUM_I_WORKS]; /* works up to the last step */
   double last[BAUM_I_WORKS];   /* of it */
-  double read[BAUM_I_WORKS];   /* up to the state that was asked for */
+  double read[BAUM_I_WORKS];   /* works up to the requested state */
   int32_t broken;              /* a work could not be evaluated */
 
   baum_workspace *workspace;
-  baum_i_problem problem; /* the run's, with that workspace */
+  baum_i_problem problem; /* the run's problem, with that workspace */
   int nodes;
   bool fresh;        /* no step since the method restarted */
   bool far;          /* the projection of the last step moved far */
-  void *stepper;     /* the method once more, for shorter steps; NULL: none */
+  void *stepper;     /* a second instance of the method, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */
   baum_i_state node;
   double *unprojected; /* (nq + nv) the end of the last step, or a sample, before projection */
@@ -96,7 +96,7 @@ static double product(int n, const double *x, const double *y)
   return sum;
 }
 
-/* Solve for lambda of the integrated equations, in the workspace, and for that of (5) beside it. */
+/* Solve for lambda of the integrated equations, into the workspace, and for lambda of (5). */
 static baum_status solve(baum_i_account *account, const baum_i_state *at)
 {
   baum_workspace *w = account->workspace;
@@ -242,7 +242,7 @@ static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
   return BAUM_OK;
 }
 
-/* Did the projection to a state move it far beyond the tolerated errors? */
+/* Did the projection displace a state by far more than the tolerated errors? */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -306,7 +306,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
     return;
   }
   baum_i_run_share_equations(run, &run->account->problem);
-  /* Only variable steps of residuals begin at another state than they were given. */
+  /* Only IDA begins at another state than it was given. */
   bool moves =
     account->fresh && run->integrator->solves_residuals && !baum_i_run_has_fixed_step(run);
   baum_status status = moves ? move_start(run, account->before) : BAUM_OK;
@@ -321,7 +321,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
   }
 }
 
-/* ---- in the course of a run ---- */
+/* ---- during a run ---- */
 
 static void add_works(const double *what, double *to)
 {
@@ -381,8 +381,8 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* A sample of a fixed-step method is its trial state, whose step does not count. One of a
- * variable-step method may be inside the last step and needs integration up to there. */
+/* With a fixed step, a sample is a trial state, whose step does not count. With variable steps, a
+ * sample may be inside the last step, and powers are integrated up to it. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
@@ -422,7 +422,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
 
 /* ---- life ---- */
 
-/* Nodes that suffice for the order of the method. */
+/* Number of nodes that suffices for the order of the method. */
 static int node_count(const baum_simulation *run)
 {
   int order = run->integrator->order;

@@ -11,7 +11,7 @@ enum {
   BAUM_I_WORK_DRIVERS = BAUM_I_POWERS,
   BAUM_I_WORK_VIOLATION,
   BAUM_I_WORK_PROJECTION,
-  BAUM_I_WORK_GAINS, /* a part of two others, for information */
+  BAUM_I_WORK_GAINS, /* part of two other works, for information */
   BAUM_I_WORKS
 };
 
@@ -25,14 +25,14 @@ void baum_i_account_destroy(const baum_integrator *method, baum_i_account *accou
 
 /* The following functions need run->account. */
 
-/* Restart at the present state: without works, or with those that were read last. */
+/* Restart at the present state: with zero works, or with the works that were read last. */
 void baum_i_account_begin(baum_simulation *run);
 void baum_i_account_go_on(baum_simulation *run);
 
 /* Add the works of the step to the trial state, after its projection. If they cannot be evaluated,
  * the run warns and the account ends. */
 void baum_i_account_step(baum_simulation *run);
-/* Accept that step; fixed step. A variable step always counts, once the next begins. */
+/* Fixed step: accept that step. A variable step counts as soon as the next one begins. */
 void baum_i_account_accept(baum_simulation *run);
 
 /* Read the works up to the present state or a sample, for go_on() or the columns. */

@@ -105,7 +105,7 @@ static baum_status next_fixed(baum_simulation *run, int direction)
   return breaks ? break_step(run, next, t) : whole_step(run, direction);
 }
 
-/* The time that next_fixed() leads to. */
+/* The time at which the step of next_fixed() ends. */
 static double next_time(const baum_simulation *run, int direction)
 {
   double t = grid_time(run, run->grid.k + direction);
@@ -179,7 +179,7 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
-/* Pass a break at the end of the last step, and those that are too close to it for a step in
+/* Pass a break at the end of the last step, and breaks that are too close to it for a step in
  * between. */
 static baum_status pass_breaks(baum_simulation *run)
 {
@@ -225,10 +225,10 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
   return BAUM_OK;
 }
 
-/* ---- what every call begins and ends with ---- */
+/* ---- beginning and end of every call ---- */
 
-/* Point the run towards t. If a multistep method cannot restart from the present state, the
- * direction stays. */
+/* Set the direction of the run towards t. If a multistep method cannot restart from the present
+ * state, the direction stays. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -253,7 +253,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
                                         : advance_variable(run, t, taken);
 }
 
-/* What a call keeps from its beginning. */
+/* Data of a call from its beginning. */
 typedef struct public_call {
   struct timespec start;
   baum_i_kept_message before;

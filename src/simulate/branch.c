@@ -11,38 +11,38 @@
  *          for the least one
  *
  * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
- * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. No
- * configuration in between is then both singular and assembled. So the constraints are evaluated
- * where the motion has its least pivot: a violation that neither the run nor the polynomial
- * explains shows such a gap. Steps that resolve the turn are right. */
+ * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then no
+ * configuration in between is both singular and assembled. The constraints are therefore evaluated
+ * where the motion has its smallest pivot: a violation that neither the run nor the polynomial
+ * explains shows such a gap. Steps that resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 
 #include "base/least.h"
 #include "simulate/crossing.h"
 
-/* Directions of branches differ by the size of the velocity: runs that left their branch had jumps
- * from 0.9 on. Polynomials over the longest steps are off by 0.06. */
+/* The velocities of two branches differ by about the size of the velocity: runs that left their
+ * branch had jumps of at least 0.9. Polynomials over the longest steps have errors of 0.06. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
-/* Smaller jumps come from steps with poor accelerations if they exceed their error this many times;
- * none of 2688 right runs did. */
+/* Smaller jumps that exceed their estimated error this many times come from steps with inaccurate
+ * accelerations. None of 2688 right runs had one. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* Larger jumps count from fewer times their error on, because the next crossing is mostly lost. The
- * error follows the steps, and with them the tolerance; in right runs it is too small by more than
- * ten. */
+/* For larger jumps a smaller multiple suffices, because such runs mostly fail at the next crossing.
+ * The estimated error depends on the steps, and so on the tolerance; in right runs it may be more
+ * than ten times too small. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
-static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
-static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
-/* A violation opens a gap whose least pivot is about five times as large in an example. */
+static const double KNOWN = 0.1;      /* largest error of a jump up to which it is judged */
+static const double SMALL_TURN = 0.4; /* jump of a step that follows a sharp turn */
+/* A violation opens a gap; in an example its smallest pivot was about five times as large. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 static const double GAP =
   1e-5; /* in configurations, as a displacement; that of crossing branches is 0 */
 
-/* ---- least pivot of the motion ---- */
+/* ---- smallest pivot of the motion ---- */
 
 static void follow(const baum_simulation *run, const baum_i_knot *knots, int count, double t,
                    baum_i_knot *out)
@@ -52,7 +52,7 @@ static void follow(const baum_simulation *run, const baum_i_knot *knots, int cou
   baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
 }
 
-/* The motion that is searched, and the joint of its least pivot so far. */
+/* The motion that is searched, and the joint of its smallest pivot so far. */
 typedef struct look {
   baum_simulation *run;
   const baum_i_knot *knots;
@@ -82,7 +82,8 @@ static double pivot_at(void *user, double t)
   return pivot;
 }
 
-/* A time within a millionth of the span gives the pivot within its square. */
+/* If the time is accurate to a millionth of the span, the pivot is accurate to the square of
+ * that. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {

@@ -27,13 +27,13 @@ static bool is_later(const baum_simulation *run, double t, double b)
   return b <= (run->problem.direction > 0.0 ? t : t + 0.5 * gap(run, b));
 }
 
-/* The next of `count` rising times on the way from t, which stand `stride` bytes apart; infinite
- * when there is none. */
+/* The next of `count` rising times after t in the given direction; infinite if there is none. The
+ * times are `stride` bytes apart. */
 BAUM_I_INLINE double find_next(const baum_simulation *run, const void *times, size_t stride,
                                int count, double t)
 {
   const char *at = times;
-  double found = -(double)INFINITY; /* the last that is not later than t */
+  double found = -(double)INFINITY; /* the last one not later than t */
   int first = 0;
   int end = count;
   while (first < end) {

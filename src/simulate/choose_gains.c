@@ -8,10 +8,10 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding errors. Without gravity, which defines
- * what is slow, nothing below it counts as motion. */
+/* [1/s] sqrt(|a| / scale) of accelerations that are rounding errors. Gravity defines which motion
+ * is slow. Without gravity, nothing below this counts as motion. */
 static const double ROUNDING_RATE = 1e-7;
-static const double AT_REST = 1e-3; /* of the rate at which gravity swings it */
+static const double AT_REST = 1e-3; /* fraction of the rate at which gravity swings the mechanism */
 
 /* [1/s] Rate at which gravity swings a free mechanism of this size. */
 static double swing_rate(const baum_mechanism *m)
@@ -39,7 +39,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-/* Measure the rate of the motion; one that is at rest or barely moves has that of gravity. */
+/* Measure the rate of the motion. A mechanism that hardly moves has the rate of gravity. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -59,7 +59,7 @@ static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
   }
 }
 
-/* ---- rows with gains of their own ---- */
+/* ---- factors of rows ---- */
 
 static baum_status check_factor(const baum_simulation *run, int row)
 {
@@ -105,7 +105,7 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
-/* Name the row in a refusal. */
+/* Add the name of the row to a refusal. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   char label[BAUM_I_LABEL_SIZE];
@@ -113,7 +113,7 @@ static baum_status name_row(const baum_simulation *run, int row, baum_status sta
                      baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
 }
 
-/* Judge every factor that differs from that of the row before. */
+/* Check every factor that differs from the factor of the row before. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
   double last = 1.0;

@@ -4,14 +4,15 @@
  * Fixed-step methods have no tolerance and take many short steps where rk8 with projection takes
  * one long step. A companion that uses rk8 therefore costs little. It starts as soon as the error
  * of such a run may matter: when the sum of its local errors could become large in a motion that
- * amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it starts at the
- * first singularity crossing, which amplifies errors. It starts some steps earlier, from a state
- * that was still good. If run and companion stay apart by more than DOUBTFUL, the run warns. Short
- * peaks do not count, for example where a light rod flips a little too late.
+ * amplifies perturbations by 1e4. If a variable-step run has a loose tolerance, the companion
+ * starts at the first singularity crossing, because crossings amplify errors. It starts from a
+ * state some steps earlier, which was still accurate. If run and companion differ by more than
+ * DOUBTFUL for some time, the run warns. Short peaks do not count, for example when a light rod
+ * flips a little too late.
  *
- * With the option error_check the companion starts with the run. Beside a variable step it is then
- * the same method at three hundredths of the tolerance: at a tenth, run and companion had the same
- * wrong motion in one of 2000 mechanisms.
+ * With the option error_check the companion starts with the run. For a variable-step run it is then
+ * the same method with three hundredths of the tolerance. With a tenth, run and companion had the
+ * same wrong motion in one of 2000 mechanisms.
  *
  * The companion has a workspace of its own, so its evaluations do not touch the run's solver or
  * counters. If it fails, or costs more than the run itself, as with stiff forces, it ends and the
@@ -31,25 +32,27 @@
 /* Errors relative to the scales: a right result is within 0.01, a wrong one is off by 0.1. This
  * value lies in between. */
 static const double DOUBTFUL = 0.03;
-/* Share of 1/rate for which the two must stay apart. */
+/* Time for which the two must differ, as a fraction of 1/rate. */
 static const double LASTING = 0.1;
 /* Error that the recommended step aims at; it is small because the error keeps growing after the
  * warning. */
 static const double FINE = 0.002;
-/* Sum of local errors: it stays negligible if it grows by less than 1e3, and does not become a
- * wrong result below a growth of 1e4. */
+/* Limit on the sum of local errors: amplified by less than 1e3 it is negligible, and amplified by
+ * less than 1e4 it does not make the result wrong. */
 static const double NEGLIGIBLE = 1e-5;
-/* (angle of a step)^order above which errors may matter before the first of them can be
+/* If (angle of a step)^order is above this, errors may matter before the first of them can be
  * estimated. */
 static const double COARSE = 1e-3;
-/* Tolerance of rk8: at growth up to 1e3 its own error stays within that of a right result. */
+/* Tolerance of rk8: if errors are amplified by up to 1e3, its own error is still that of a right
+ * result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
 static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
-/* Evaluations of the companion per evaluation of the run: a check that nobody asked for may not
- * slow a run down much. Some are free, because short runs with long steps take few themselves. */
+/* Largest number of evaluations of the companion per evaluation of the run, because a check that
+ * nobody requested must not slow a run down much. A few more are allowed, because short runs with
+ * long steps take few evaluations. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
@@ -62,11 +65,11 @@ enum {
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
-  /* Numbers alone, saved up to `method`. */
+  /* Plain numbers up to `method`, which are saved. */
   int64_t unseen; /* steps whose local errors are not known */
-  int64_t begun;  /* evaluations of the run before it went along */
+  int64_t begun;  /* evaluations of the run before the companion started */
   double sum;     /* of local errors */
-  double apart;   /* [s] since when the two are; NaN: they are not */
+  double apart;   /* [s] time since which the two differ; NaN: they agree */
   int32_t doing;  /* a state_of_companion */
 
   const baum_integrator *method;
@@ -74,9 +77,9 @@ struct baum_i_companion {
   baum_i_problem problem; /* of the companion */
   void *self;
   baum_i_local_error local; /* of the run */
-  baum_i_state state;       /* where its next step begins */
-  baum_i_state at;          /* where the run is */
-  baum_i_state kept[2];     /* of the run, STRIDE steps or more and less ago */
+  baum_i_state state;       /* state at which its next step begins */
+  baum_i_state at;          /* present state of the run */
+  baum_i_state kept[2];     /* states of the run, at least and less than STRIDE steps ago */
 };
 
 /* ---- life ---- */
@@ -181,7 +184,7 @@ static void compare_positions(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-/* At the end of a call the reported state counts, however short the two have been apart. */
+/* At the end of a call the reported state counts, however short the difference has lasted. */
 static void warn_if_apart(baum_simulation *run, double t, bool ends)
 {
   const baum_i_companion *c = run->companion;
@@ -191,9 +194,10 @@ static void warn_if_apart(baum_simulation *run, double t, bool ends)
   }
 }
 
-/* ---- go along ---- */
+/* ---- following the run ---- */
 
-/* Find its state at the time of the run, which lies inside its last step. */
+/* Find the companion's state at the time of the run, which lies inside the companion's last
+ * step. */
 static baum_status interpolate_at(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;

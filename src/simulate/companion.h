@@ -17,14 +17,14 @@ void baum_i_companion_destroy(baum_i_companion *companion);
 /* Start at the present state, which has no error. */
 void baum_i_companion_begin(baum_simulation *run);
 
-/* Follow to `state`, where the last step has ended, and warn if the two differ. */
+/* Follow the run to `state`, the end of its last step, and warn if the two differ. */
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 
 /* Compare at the present state, where a call that advances the run ends. */
 void baum_i_companion_end_call(baum_simulation *run);
 
-/* What acts on the mechanism changes at the present state: settle() follows to there before the
- * change, restart() continues from there after it. */
+/* For changes of inputs, laws and the like at the present state: settle() follows the run to this
+ * state before the change, restart() continues from it after the change. */
 void baum_i_companion_settle(baum_simulation *run);
 void baum_i_companion_restart(baum_simulation *run);
 

@@ -5,7 +5,7 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* The present state of a run, and what acts on it from outside. */
+/* The present state of a run, with its inputs and driver laws. */
 typedef struct standing {
   double *q;          /* (nq) */
   double *v;          /* (nv) */

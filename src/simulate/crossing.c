@@ -3,7 +3,7 @@
  *
  * Each accepted state has a pivot p: the smallest pivot of the equations there, relative to the
  * largest one of the run so far. Near a singular configuration p = (distance)^2 / (unit)^2, so
- * sqrt(p) falls to zero and rises again in straight lines.
+ * sqrt(p) falls to zero and rises again linearly.
  *
  *   p < NEAR            the run is inside an interval; the last state before and the first after
  *                       are its ends
@@ -22,7 +22,8 @@
 #include "base/sized.h"
 #include "mechanism/definition.h"
 
-/* Least pivot of a crossing: distances within a thirtieth of those of ordinary configurations. */
+/* Largest pivot of a crossing: its distance is at most a thirtieth of that of ordinary
+ * configurations. */
 static const double SINGULAR = 1e-3;
 
 /* [rad] Distance between clear states, so that rounding and tolerances are not amplified in
@@ -84,7 +85,7 @@ static void set_knot(const baum_mechanism *m, double t, double pivot, const doub
   memcpy(to->v, v, (size_t)m->nv * sizeof *v);
 }
 
-/* Make place for a new last knot; if the list is full, in place of the first. */
+/* Make room for a new last knot; if the list is full, remove the first. */
 static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 {
   if (*count < most) {
@@ -178,21 +179,21 @@ static void open_crossing(baum_i_crossings *p, double from)
   p->present = (baum_i_crossing){.from = from, .joint = -1};
 }
 
-/* Is a pivot that of a singular configuration, or of one that a violation has opened? */
+/* Does a pivot belong to a singular configuration, or to a gap that a violation has opened? */
 static bool is_singular(baum_simulation *run, double pivot)
 {
   return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
 }
 
-/* Do the rows of J keep their rank where the pivot is small? Omitted rows may hold where the active
- * ones do not. And if a light body moves alone in the direction of a row, the pivot falls to the
- * ratio of masses, but no further. */
+/* Do the rows of J keep their rank where the pivot is small? Omitted rows may keep it where the
+ * active ones do not. Also, if only a light body moves in the direction of a row, the pivot falls
+ * to the ratio of masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
-/* Record a pivot if it is the least of the singular ones so far. */
+/* Record a pivot if it is the smallest singular one so far. */
 static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
@@ -206,7 +207,7 @@ static bool is_lowest(baum_simulation *run, double t, const double *q, double pi
   return true;
 }
 
-/* Search the least pivot between the last three states. */
+/* Search for the smallest pivot between the last three states. */
 static void search_least_pivot(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -220,7 +221,7 @@ static void search_least_pivot(baum_simulation *run)
   }
 }
 
-/* Take the last state, which is near, as a candidate for the least pivot. */
+/* Consider the last state, which is near, for the smallest pivot. */
 static void examine_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -254,7 +255,7 @@ static void record_crossing(baum_simulation *run, double to)
     run,
     entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED : BAUM_WARNING_BRANCH,
     entry.t, p->present.joint,
-    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e of the usual, %s): %s",
+    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e times the usual one, %s): %s",
     entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {
     p->kept[run->counters.near_singular_intervals] = entry;
@@ -266,7 +267,7 @@ static void record_crossing(baum_simulation *run, double to)
   }
 }
 
-/* Close a crossing. Only now is its violation known, which may have opened it. */
+/* End a crossing. Only now is the violation known that may have opened a gap. */
 static void close_crossing(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -304,7 +305,8 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* Keep the last state but one as a clear one if no crossing has begun or been jumped over. */
+/* Store the last state but one as a clear state, unless a crossing has begun or been jumped
+ * over. */
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -331,7 +333,7 @@ static void examine_outside(baum_simulation *run)
   }
 }
 
-/* Most states need no examination. */
+/* Most states need no further examination. */
 void baum_i_crossings_look(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -439,7 +441,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* of a run that has been restored it may have another tag */
+  if (entry.joint.index1 > 0) { /* in a restored run it may have another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

@@ -8,27 +8,28 @@
 #include "simulate/run.h"
 
 enum {
-  BAUM_I_PASSAGES = 64, /* kept; more are counted */
+  BAUM_I_PASSAGES = 64, /* number of stored intervals; further ones are only counted */
   BAUM_I_RECENT = 3     /* states */
 };
 
 /* A crossing that has begun, or has just been found between two steps. */
 typedef struct baum_i_crossing {
   double from;         /* [s] last clear state before it */
-  double largest_turn; /* [-] change of the velocity in a step, of its size */
-  int32_t gap;         /* no singular configuration is on the way, as far as can be seen there */
-  int32_t joint;       /* of the least pivot, -1: none */
+  double largest_turn; /* [-] largest change of the velocity in a step, relative to its size */
+  /* 1: as far as the pivots show, there is a gap and no singular configuration on the way */
+  int32_t gap;
+  int32_t joint; /* joint of the smallest pivot, -1: none */
 } baum_i_crossing;
 
 struct baum_i_crossings {
-  /* Plain numbers, saved up to `recent`. */
+  /* Plain numbers up to `recent`, which are saved. */
   double usual; /* largest pivot so far */
   baum_i_crossing present;
   int32_t recent_count;
   int32_t clear_count;
   int32_t open;
   int32_t unseen;      /* the last recent state has not been examined */
-  int32_t joint_noted; /* of its smallest pivot, where it is near; -1: none */
+  int32_t joint_noted; /* joint of that state's smallest pivot, if it is near; -1: none */
 
   baum_i_knot recent[BAUM_I_RECENT]; /* last states, the last one last */
   baum_i_knot clear
@@ -40,7 +41,7 @@ struct baum_i_crossings {
   baum_near_singular kept[BAUM_I_PASSAGES];
 };
 
-/* The last recent state; there is one. */
+/* The last recent state, which must exist. */
 static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossings)
 {
   return &crossings->recent[crossings->recent_count - 1];
@@ -49,8 +50,8 @@ static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossi
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is fine */
 
-/* The following functions do nothing if crossings are NULL. Forget the states: what comes next is
- * not the same motion. */
+/* The following functions do nothing if crossings are NULL. Forget the states, because another
+ * motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
 /* Note a state of the run, for which the last solution was made. Evaluates nothing. */
@@ -80,13 +81,13 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 /* branch.c: largest difference of two velocities (nv), over the scales. */
 double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, const double *w);
 
-/* branch.c: is there a gap, that is no singular configuration, near the last recent state, or near
- * the motion through the recent ones at t, with the pivot given? */
+/* branch.c: with the given pivot, is there a gap instead of a singular configuration near the last
+ * recent state, or at t near the motion through the recent states? */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 
-/* branch.c: could the violation of the last recent state have made such a least pivot out of a
- * singular configuration? */
+/* branch.c: could the violation of the last recent state have raised the smallest pivot of a
+ * singular configuration to this value? */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot);
 
 #endif

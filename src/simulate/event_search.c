@@ -5,13 +5,14 @@
  *
  * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is first
  * checked cheaply, on the interpolant without projection or on the cubic of the two ends; g is
- * evaluated only if that shows another sign. Each event keeps its side from check to check and from
- * step to step, where interpolants do not meet exactly, so nothing is found twice or lost.
+ * evaluated only if that shows another sign. Each event keeps its side from check to check, and
+ * also from step to step, because interpolants do not meet exactly. Thus no event is found twice or
+ * lost.
  *
  * Between two times with different signs the secant method finds the zero of g, with the weights of
- * Dowell and Jarratt (BIT 11, 1971; "Illinois"), every third time by bisection, and never nearer to
- * an end than half of the tolerance, until the two are a tolerance apart. The event is at the later
- * time, where g has passed zero. */
+ * Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects. New times keep half
+ * the tolerance from both ends, and the search stops when the ends are one tolerance apart. The
+ * event is at the later time, where g has passed zero. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -22,7 +23,8 @@
 
 enum { QUARTERS = 4, MOST_TRIES = 300 };
 
-/* Roundings of a time that count as the same, and share of 1/rate. */
+/* Times that differ by less than this many roundings, or by this fraction of 1/rate, count as
+ * equal. */
 static const double ROUNDINGS = 4.0;
 static const double SAME_TIME = 1e-12;
 
@@ -106,7 +108,7 @@ static bool has_passed(const baum_i_events *events, int k)
   return side != 0 && baum_i_sign(events->list[k].next) != side;
 }
 
-/* In time, whichever way the run goes. */
+/* Direction in time, even if the run goes backward. */
 static int32_t direction_of(const baum_simulation *run, int k)
 {
   return run->events->marks[k].side * run->problem.direction < 0.0 ? 1 : -1;
@@ -139,8 +141,8 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Replace one end by x: a if x is before the event. The other end gets half of its value if it
- * stays repeatedly (Illinois). */
+/* Replace one end by x: a if x is before the event. If the other end stays repeatedly, halve its
+ * value (Illinois). */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -164,7 +166,7 @@ static bracket bracket_of(const baum_simulation *run, int k, double t)
                    .fb = run->events->list[k].next};
 }
 
-/* Event k between events->t and t, where it has passed. Changes next of all. */
+/* Locate event k, which has passed between events->t and t. Changes `next` of all events. */
 static baum_status locate(baum_simulation *run, int k, double t)
 {
   baum_i_event *event = &run->events->list[k];
@@ -183,7 +185,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
   return BAUM_OK;
 }
 
-/* ---- what has been found ---- */
+/* ---- records ---- */
 
 static void record_event(baum_simulation *run, int k, double t)
 {
@@ -285,7 +287,7 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Has any event another side than known? Leaving zero counts for a glance. */
+/* Has any event changed its side? For the cheap check, leaving zero counts as well. */
 static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
   bool any = false;
@@ -296,8 +298,8 @@ static bool any_has_passed(const baum_i_events *events, bool leaving)
   return any;
 }
 
-/* Locate every event that has passed at t, where the values are known; afterwards they are those at
- * t again. */
+/* Locate every event that has passed at t, where the values are known. Afterwards the values are
+ * again those at t. */
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
@@ -310,7 +312,7 @@ static baum_status locate_all(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Keep the values at t. */
+/* Store the values at t. */
 static void keep_values(baum_i_events *events, double t)
 {
   events->t = t;

@@ -34,7 +34,7 @@ static baum_status check_source(const baum_mechanism *m, const baum_event_def *d
 {
   bool of_joint = def->joint.index1 != 0;
   if (of_joint == (def->function != NULL)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s, one of them must be", label,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s; give one of them", label,
                        of_joint ? "function() and joint are both given"
                                 : "neither function() nor joint is given");
   }
@@ -119,7 +119,8 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
   label_of(number, def->name, label);
   if (answer != 0) {
     return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t, label,
-                       answer, answer > 0 ? "retry, which an event cannot do" : "stop");
+                       answer,
+                       answer > 0 ? "retry, but events cannot ask for a smaller step" : "stop");
   }
   return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
 }
@@ -154,7 +155,7 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
   return BAUM_OK;
 }
 
-/* ---- where they begin ---- */
+/* ---- start of the search ---- */
 
 /* Share of 1/rate, for methods that start exactly from the state they are given. */
 static const double NO_TIME = 1e-10;
@@ -234,7 +235,8 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
 {
   BAUM_I_TRY(check_add(simulation, def));
   baum_event_def given = baum_event_def_default();
-  memcpy(&given, def, def->struct_size); /* what an older version lacks has its default */
+  /* fields that an older version lacks have their defaults */
+  memcpy(&given, def, def->struct_size);
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
@@ -247,7 +249,7 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK && number == 0) { /* a run without events has none of this */
+  if (status != BAUM_OK && number == 0) { /* a run without events allocates none of this */
     baum_i_events_destroy(simulation->events);
     simulation->events = NULL;
   }

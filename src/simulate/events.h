@@ -10,27 +10,27 @@
 
 enum { BAUM_I_EVENT_RECORDS = 1024 };
 
-/* What is known of an event at the time up to which it has been searched. */
+/* State of an event at the time up to which the run has been searched. */
 typedef struct baum_i_event_mark {
   double value;
   double last;   /* [s] time of its last record, NaN: none */
-  int32_t side;  /* of zero: -1, 1, or 0 where nothing but zero was seen */
-  int32_t fresh; /* 1: has not passed zero since the start, and may still leave it */
+  int32_t side;  /* side of zero: -1, 1, or 0 if the value has always been zero */
+  int32_t fresh; /* 1: has not passed zero since the start, so leaving zero is no event yet */
 } baum_i_event_mark;
 
 typedef struct baum_i_event {
   baum_event_def def; /* with a copy of its name */
   int joint;          /* of its coordinate, or -1 */
   double next;        /* value at the state evaluated last */
-  double found;       /* time at which it passes zero in the stretch under way; NaN: does not */
+  double found;       /* time at which it passes zero in the present interval; NaN: it does not */
 } baum_i_event;
 
 struct baum_i_events {
-  /* Numbers alone, saved up to `list`. */
+  /* Plain numbers up to `list`, which are saved. */
   int64_t recorded;
   double t;     /* searched up to here */
-  double begin; /* where fresh ones began */
-  double from;  /* variable step: start of the last one */
+  double begin; /* time at which new events began */
+  double from;  /* variable step: start of the last step */
 
   baum_i_event *list;       /* (count) */
   baum_i_event_mark *marks; /* (count) */
@@ -42,7 +42,7 @@ struct baum_i_events {
 
 void baum_i_events_destroy(baum_i_events *events);
 
-/* What follows is called where run->events is not NULL. */
+/* Call the following functions only if run->events is not NULL. */
 
 /* Evaluate all events at a state, into next. BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
@@ -58,7 +58,7 @@ void baum_i_events_go_on(baum_simulation *run);
  * the trial state is at the event; or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
-/* [s] Times closer than this are one time: those of leaving zero and of the start. */
+/* [s] Closer times count as equal, when an event leaves zero and at the start. */
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
 
 static inline int32_t baum_i_sign(double x)

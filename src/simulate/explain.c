@@ -80,7 +80,7 @@ static void explain_solver(baum_simulation *run)
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
   } else if (run->integrator->solves_residuals) {
-    /* (5) is solved for the start and for what is given out. */
+    /* (5) is solved at the start and for outputs. */
     say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n", text);
   } else {
     say(run, "solver        %s\n", text);

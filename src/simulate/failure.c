@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Completes the message of a failed step: where the run stands, which joint and body to look at
- * first, and what may help. The message already has time and step, from whoever failed.
+ * first, and what may help. The message already has time and step, from the function that failed.
  *
  * At the last good step, one solution of (5) gives
  *
@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "simulate/run.h"
 
-/* Violation, as a displacement, that is worth mentioning. */
+/* Smallest violation, as a displacement, that the message mentions. */
 static const double VIOLATED = 1e-3;
 
 static const char *advice_for(baum_status status)
@@ -79,7 +79,7 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Add what is known without a solution. */
+/* Add the data that need no solution. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With l_k the Lagrange polynomials of the times, l_k(t_i) = 1 for i = k and 0 else, and s_k =
+/* With the Lagrange polynomials l_k of the times, l_k(t_i) = 1 for i = k and otherwise 0, and s_k =
  * l_k'(t_k):
  *
  *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 q'_k,  q'_k = N(q_k) v_k
  *
  * and v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The
- * factors are the same for all coordinates. Those of the q_k have the sum 1, their rates the sum 0:
- * q_k - q_0 stands for q_k, so that angles after many turns lose nothing.
+ * factors are the same for all coordinates. The factors of the q_k have the sum 1 and their rates
+ * the sum 0, so q_k - q_0 may replace q_k. Angles after many revolutions then lose no digits.
  */
 #include "simulate/hermite.h"
 

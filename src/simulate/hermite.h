@@ -10,14 +10,14 @@ enum { BAUM_I_HERMITE_MOST = 4 };
 /* q and v at a time of a motion. */
 typedef struct baum_i_knot {
   double t;     /* [s] */
-  double pivot; /* [-] of the equations there, of the largest so far */
+  double pivot; /* [-] smallest pivot there, relative to the largest so far */
   double *q;    /* (nq) */
   double *v;    /* (nv) */
 } baum_i_knot;
 
 /* q and v at t of the polynomials of degree 2 count - 1 through positions and rates of `count`
- * knots, from 1 to BAUM_I_HERMITE_MOST, at times of their own; q and v are none of theirs. work (4
- * nq). */
+ * knots, from 1 to BAUM_I_HERMITE_MOST, at different times; q and v must not be arrays of knots.
+ * work (4 nq). */
 void baum_i_hermite(const baum_mechanism *mechanism, const baum_i_knot *knots, int count, double t,
                     double *q, double *v, double *work);
 

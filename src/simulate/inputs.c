@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run from outside: inputs and their schedules, and drivers whose law the run sets.
- * Both change the right side of the equations abruptly (restart.c). */
+/* External changes during a run: inputs and their schedules, and driver laws that are set. Both
+ * change the right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

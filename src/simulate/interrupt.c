@@ -3,10 +3,10 @@
  * make no progress.
  *
  * A method that chooses its steps may get stuck, like BDF next to a singular configuration or an
- * explicit method with a stiff force. A run stops if it has taken 1e4 steps in a call and at this
- * pace would need more than 1e9, the default of max_steps, for the time 1/rate of the motion: it
- * would never end. High gains and stiff forces need far longer steps: those of 1e-6 of that time
- * already cost 1e6 steps. */
+ * explicit method with a stiff force. A run stops if it has taken 1e4 steps in a call and, at this
+ * pace, would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the
+ * motion, so that it would never end. High gains and stiff forces need far longer steps: those of
+ * 1e-6 of that time already cost 1e6 steps. */
 #include <math.h>
 
 #include "simulate/run.h"
@@ -63,7 +63,8 @@ static bool progress_cancels(baum_simulation *run)
   return answer != 0;
 }
 
-/* Judge the last steps of this call, once every PACE_STEPS. A fixed step is the user's choice. */
+/* Judge the last steps of this call, once every PACE_STEPS. Fixed steps are not checked, because
+ * the user chose them. */
 static bool creeps(baum_simulation *run, int64_t taken)
 {
   if (baum_i_run_has_fixed_step(run) || taken % PACE_STEPS != 0) {
@@ -81,9 +82,8 @@ static baum_status fail_creeping(baum_simulation *run)
   const baum_i_state *now = &run->ahead;
   baum_status status = baum_i_fail(
     BAUM_ERR_STEP,
-    "t = %.9g s: %s creeps: each of the last %d steps has advanced by less than 1e-9 of the time "
-    "of "
-    "the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
+    "t = %.9g s: %s hardly advances: each of the last %d steps was shorter than 1e-9 of the time "
+    "scale of the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
     "configuration singular, which rk8 can pass",
     now->t, run->integrator->name, (int)PACE_STEPS);
   return baum_i_run_explain_failure(run, status, now);

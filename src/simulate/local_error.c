@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Local errors of fixed steps. The step of v is compared with the Adams-Moulton formula of order 5,
- * that of q with the Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential
- * Equations I, 1993, III.1):
+/* Local errors of fixed steps. The change of v in a step is compared with the Adams-Moulton formula
+ * of order 5, the change of q with the Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving
+ * Ordinary Differential Equations I, 1993, III.1):
  *
  *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
  *   dq = q_1 - q_0 - h/2 (q'_0 + q'_1) - h^2/12 (q''_0 - q''_1) + h/2 N dv
  *
  * with q' = v and q'' = a where q is a vector.
- * Both have errors of order h^6 and h^5 of their own: the estimate of a method of high order is far
- * too large. */
+ * The two formulas have errors of order h^6 and h^5 themselves, so the estimate is far too large
+ * for methods of high order. */
 #include "simulate/local_error.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 
 #include "base/hot.h"
 
-static const double SAME_STEP = 1e-6; /* share of a step by which equal ones may differ */
+static const double SAME_STEP = 1e-6; /* fraction by which equal steps may differ */
 
 size_t baum_i_local_error_size(const baum_mechanism *m)
 {
@@ -57,8 +57,8 @@ static const double *find_position_errors(const baum_i_local_error *e, const bau
   return baum_i_tangent(m, now->q, dq, room);
 }
 
-/* Largest error of the step by h relative to the scales, that of velocities over a `period`;
- * turned: NULL where q is a vector. */
+/* Largest error of a step by h relative to the scales; errors of velocities are multiplied by
+ * `period`. turned: NULL if q is a vector. */
 BAUM_I_INLINE double largest_with(const baum_i_local_error *e, const baum_simulation *run, double h,
                                   double period, const double *turned)
 {

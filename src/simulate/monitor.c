@@ -8,7 +8,7 @@
 #include "simulate/account.h"
 #include "simulate/crossing.h"
 
-/* ---- what is observed at every step ---- */
+/* ---- observations at every step ---- */
 
 static void observe_row(const baum_simulation *run, const double *rows, double *largest,
                         baum_joint_id *joint)
@@ -44,7 +44,7 @@ static void observe_singular(baum_simulation *run, double t)
 /* Omitted rows follow from the others only as long as the constraints agree with each other and the
  * motion stays on its branch. At a distance d from a configuration where the active rows alone are
  * singular, the omitted ones may be violated by 1/d of the violation of the active ones, and next
- * to it by its root. More is a contradiction. */
+ * to it by its square root. A larger violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -61,7 +61,7 @@ static void observe_redundant(baum_simulation *run, double t)
   const baum_mechanism *m = w->mechanism;
   if (w->rows.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
       baum_i_need_jacobian(w) != BAUM_OK) {
-    return; /* a function of the user that fails now will soon be reported */
+    return; /* a failing function of the user will soon be reported */
   }
   double kept = 0.0;
   double left_out = 0.0;
@@ -89,8 +89,8 @@ static void observe_redundant(baum_simulation *run, double t)
 /* A constraint that is off by more than this share of the scales is no longer that of the
  * mechanism: the run has drifted far or blows up. */
 static const double LARGE = 0.01;
-/* The motion is off by its violation at least. With a tolerance that must not be much more than the
- * tolerance, neither of what drifts nor, above rounding, of what is kept in every step. */
+/* The error of the motion is at least its violation. If the run has a tolerance, the violation must
+ * not be much larger, whether it drifts or, above rounding, is removed in every step. */
 static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;
@@ -131,7 +131,7 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
-/* Repeated only when the largest violation has doubled, because it costs a pass over J. */
+/* This is repeated only when the largest violation has doubled, because it costs a pass over J. */
 static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
@@ -191,7 +191,8 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-/* Counts of solvers and methods, and the counters that show them with those of other processes. */
+/* Counts of solvers and methods, and the counters that add them to the counts of other
+ * processes. */
 static const size_t COUNTED[BAUM_I_WORK] = {
   offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
   offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),

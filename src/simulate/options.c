@@ -36,10 +36,10 @@ static baum_status refuse(const char *field, const char *unit, double value, con
 
 /* ---- numbers ---- */
 
-/* How a method proceeds with the options given. */
+/* How a method steps with the given options. */
 typedef enum stepping { FIXED_STEP, VARIABLE_STEP, NO_STEP } stepping;
 
-/* Why it refuses a number. */
+/* Why a method refuses a number. */
 static const char *const WHY_NOT[] = {
   [FIXED_STEP] = "has a fixed step; give step alone",
   [VARIABLE_STEP] = "chooses its own steps; give rtol alone",
@@ -53,7 +53,7 @@ typedef struct number {
   const char *unit;
   size_t offset;
   bool takes[3]; /* by stepping */
-  bool required; /* where it is taken */
+  bool required; /* kinds of steps that take it */
   double unset;  /* value that counts as not given */
   double least;
   double most;
@@ -76,8 +76,8 @@ typedef struct number {
     [VARIABLE_STEP] = true, [NO_STEP] = true \
   }
 
-/* Factors last: what is said of them holds where no tolerance is taken. tolerance_lambda is refused
- * by check_multipliers() where it is not taken. */
+/* Factors come last: methods without a tolerance refuse them. check_multipliers() refuses
+ * tolerance_lambda where it does not apply. */
 /* clang-format off */
 static const number NUMBERS[] = {
   {NUMBER(step, "s"), {[FIXED_STEP] = true}, .required = true, .unset = NAN, .most = INFINITY,
@@ -126,7 +126,7 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
   return check_range(n, x);
 }
 
-/* Methods of either kind proceed by what is given. */
+/* Methods with both kinds of steps use the kind that is given. */
 static baum_status check_numbers(const baum_simulation_options *o)
 {
   const baum_integrator *method = o->integrator;
@@ -136,10 +136,9 @@ static baum_status check_numbers(const baum_simulation_options *o)
   } else if (method->step && method->advance) {
     if (isnan(o->step) == isnan(o->rtol)) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "simulation options: %s takes step for steps of one length or rtol for "
-                         "steps of its own choice, %s",
-                         method->name,
-                         isnan(o->step) ? "and neither is given" : "not both of them");
+                         "simulation options: %s takes either step, for fixed steps, or rtol, for "
+                         "variable steps; %s",
+                         method->name, isnan(o->step) ? "neither is given" : "both are given");
     }
     how = isnan(o->step) ? VARIABLE_STEP : FIXED_STEP;
   }
@@ -154,10 +153,10 @@ static baum_status check_numbers(const baum_simulation_options *o)
 static baum_status check_choices(const baum_simulation_options *o)
 {
   if (o->start < BAUM_START_ASSEMBLE || o->start > BAUM_START_AS_GIVEN) {
-    return refuse("start", "", (double)o->start, "is no baum_start");
+    return refuse("start", "", (double)o->start, "must be one of baum_start");
   }
   if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_BLOCK) {
-    return refuse("solver", "", (double)o->solver, "is no baum_solver");
+    return refuse("solver", "", (double)o->solver, "must be one of baum_solver");
   }
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }

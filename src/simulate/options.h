@@ -5,8 +5,8 @@
 
 #include <baum/simulation.h>
 
-/* Every field but struct_size, alone and together. BAUM_OK, BAUM_ERR_ARGUMENT,
- * BAUM_ERR_UNSUPPORTED. On success the default formulation is replaced by the one it stands for. */
+/* Check every field but struct_size, alone and in combination. BAUM_OK, BAUM_ERR_ARGUMENT,
+ * BAUM_ERR_UNSUPPORTED. On success, the default formulation is replaced by the actual one. */
 baum_status baum_i_options_check(baum_simulation_options *options);
 
 #endif

@@ -89,6 +89,15 @@ static int fail_channel(int k, const char *what)
   return -1;
 }
 
+static int fail_point(int k, const double p[3])
+{
+  (void)baum_i_fail(
+    BAUM_ERR_ARGUMENT,
+    "channel %d: point is (%g, %g, %g) m, must be finite, and of a planar body z = 0", k, p[0],
+    p[1], p[2]);
+  return -1;
+}
+
 static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
   int body = baum_i_body_index(m, c->body);
@@ -97,18 +106,13 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
                                      : "body is none or not of this mechanism");
   }
   baum_i_frame_kind kind = m->bodies[body]->type->frame;
-  bool rigid = kind == BAUM_I_FRAME_BODY || kind == BAUM_I_FRAME_SPATIAL_BODY;
   const double *p = c->point;
-  if (!rigid && (p[0] != 0.0 || p[1] != 0.0 || p[2] != 0.0)) {
+  double size = fabs(p[0]) + fabs(p[1]) + fabs(p[2]);
+  if (kind != BAUM_I_FRAME_BODY && kind != BAUM_I_FRAME_SPATIAL_BODY && size != 0.0) {
     return fail_channel(k, "point is given, but the body has no axes");
   }
-  if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]) ||
-      (kind == BAUM_I_FRAME_BODY && p[2] != 0.0)) {
-    (void)baum_i_fail(
-      BAUM_ERR_ARGUMENT,
-      "channel %d: point is (%g, %g, %g) m, must be finite, and of a planar body z = 0", k, p[0],
-      p[1], p[2]);
-    return -1;
+  if (!isfinite(size) || (kind == BAUM_I_FRAME_BODY && p[2] != 0.0)) {
+    return fail_point(k, p);
   }
   return slice_of(m, c).count;
 }

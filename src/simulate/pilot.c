@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pilot run: how fast a mechanism turns, seen over its first radians.
+/* A pilot run, which measures how fast a mechanism moves over its first radians.
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
@@ -9,10 +9,10 @@
  *
  *   d := A_i d + h f(y),   y := y + B_i d
  *
- * So few steps need no stabilization, and a tenth of the rate is exact enough. As steps are of
- * equal angle, a short fast phase or a singular configuration counts for little. A mechanism that
- * starts slowly does not stay in its slow phase: steps are never longer than where gravity swings
- * by that angle.
+ * So few steps need no stabilization, and a rate accurate to a tenth suffices. All steps cover
+ * equal angles, so a short fast phase or a singular configuration has little weight. Steps are
+ * never longer than the time in which gravity swings the mechanism by that angle, so a mechanism
+ * that starts slowly leaves its slow phase.
  */
 #include <math.h>
 #include <string.h>

@@ -56,7 +56,8 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  /* Kinematics have solved for the configuration on the far side, whose velocities may differ. */
+  /* Kinematics has solved for the configuration on the far side of the break, whose velocities may
+   * differ. */
   return run->integrator->without_freedom
            ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,
                                           run->state.v)

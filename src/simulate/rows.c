@@ -7,8 +7,8 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 
-/* Pass the omitted rows on to the account and the companion. Without memory they keep the former
- * ones, which still serve. */
+/* Pass the omitted rows to the account and the companion. If memory runs out, they keep the former
+ * ones, which are still valid. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -20,7 +20,7 @@ static void tell_others(baum_simulation *run)
 
 /* Project the present state before other rows are omitted. The violation of the omitted rows
  * exceeds that of the active ones, the more so the more ill-conditioned these are; without
- * projection it would grow tenfold with each choice. A state that was given stays as it is. */
+ * projection it would grow tenfold with each choice. A given state stays as it is. */
 static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
@@ -35,9 +35,9 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* KLU's pivots scatter, and those of QR, which weighs the constraints, only fall next to a singular
- * configuration. So the rows are checked after every 0.1 rad of motion, which costs little beside
- * the work of these solvers. */
+/* KLU's pivots scatter, and QR's pivots, which weigh the constraints, fall only next to a singular
+ * configuration. The rows are therefore checked after every 0.1 rad of motion, which costs little
+ * beside the work of these solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every part of a run uses: copy a state, make a workspace like the run's, warn (one entry per
+/* Common functions of a run: copy a state, create a workspace like the run's, warn (one entry per
  * kind), fail, finish. */
 #include <math.h>
 #include <stdarg.h>

@@ -44,7 +44,7 @@ typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
-  /* Progress: plain numbers, saved up to `options`. */
+  /* Plain numbers up to `options`, which are saved. */
   baum_i_grid grid;
   double origin; /* [s] where the method restarted; it may count its times from there */
   double start_energy;
@@ -80,9 +80,9 @@ struct baum_simulation {
   baum_i_state spare;       /* of a step near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
-  baum_i_fingerprint fingerprint;   /* of the mechanism */
-  int64_t work_before[BAUM_I_WORK]; /* what other processes have done for the run, less what the
-                                       counts here have had before it */
+  baum_i_fingerprint fingerprint; /* of the mechanism */
+  /* work that other processes have done for the run, minus the counts of this process before it */
+  int64_t work_before[BAUM_I_WORK];
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
@@ -152,18 +152,18 @@ baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
 
 /* ---- start.c ---- */
 
-/* Bring a state onto the constraints as the option `start` says, into the trial state. The present
- * state stays. */
+/* Set the trial state to a state that is moved onto the constraints as the option `start` says. The
+ * present state stays. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
 /* Check the velocities of the trial state once the omitted rows are known: BAUM_ERR_INCONSISTENT,
- * or a warning, if ill-conditioned rows meet velocities that are far from what they ask for. */
+ * or a warning, if ill-conditioned rows would change the velocities much. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
 /* Find the energy of the trial state. Phi and Phi' there stay in the workspace. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, which has just been measured, the present one: grid and energy restart. */
+/* Make the trial state, whose energy is known, the present state. Grid and energy restart. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
 /* ---- choose_gains.c, pilot.c ---- */
@@ -189,8 +189,7 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
  * workspace, which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
-/* Accept the violation of the present state as the user's own: it is no reason to doubt the
- * motion. */
+/* Accept the violation of the present state as given by the user; it does not doubt the motion. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
 /* Relative error of the derivatives that user constraints do not provide; 0: they provide all. */
@@ -208,8 +207,8 @@ void baum_i_run_count_from_here(baum_simulation *run);
 void baum_i_run_end_before_change(baum_simulation *run);
 
 /* Restart after a change of the equations at the present state, which may be before the end of the
- * last step. Methods with a history restart there. If a method fails to, it restarts at its next
- * step, from the same state. */
+ * last step. Methods with a history restart there. If the restart fails, the method restarts at its
+ * next step, from the same state. */
 baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
@@ -277,11 +276,11 @@ typedef struct baum_i_break {
  * is none. */
 baum_i_break baum_i_run_next_break(const baum_simulation *run);
 
-/* Does the last step end at its near side? */
+/* Does the last step end at the near side of the break? */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* restart.c: go from the present state, which is at the near side, to the far one: methods that
- * carry their past along restart, as the grid does. As baum_i_run_restart(). */
+/* restart.c: go from the present state, which is at the near side, to the far one: methods with a
+ * history restart, and so does the grid. Statuses of baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 /* ---- rows.c ---- */
@@ -291,8 +290,7 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
  * baum_i_run_restart(). Does nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
-/* Choose the omitted rows for a state from outside of the motion, with which everything restarts in
- * any case. */
+/* Choose the omitted rows for a given state, after which everything restarts anyway. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
 /* Omit these rows (nc). Statuses of baum_i_omit_rows(); on failure nothing changes. */

@@ -39,7 +39,7 @@ typedef struct header {
   baum_i_fingerprint mechanism;
 } header;
 
-/* ---- what must agree ---- */
+/* ---- data that must agree ---- */
 
 static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "step",
@@ -49,18 +49,18 @@ static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "tolerance_q",
   "tolerance_v",
   "tolerance_lambda",
-  "the rule of the gains",
-  "the first number of the gains",
-  "the second number of the gains",
+  "the gain rule",
+  "the first number of the gain rule",
+  "the second number of the gain rule",
   "row_gain_count",
-  "the sum over row_gains",
+  "the checksum of row_gains",
   "solver",
   "energy_account",
   "error_check",
   "the rank of the constraints",
-  "whether blocks suit",
+  "the use of the block solver",
   "the number of events",
-  "the sum over what the events are",
+  "the checksum of the events",
 };
 
 /* A sum as an exact number: as many of its bits as a double holds. */
@@ -187,7 +187,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 
 /* ---- forget ---- */
 
-/* Forget what no buffer holds. */
+/* Discard the data that no buffer holds. */
 static void forget_unsaved(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
@@ -210,7 +210,8 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* The values here were evaluated before; should one fail now, the known ones stay. */
+    /* These values have been evaluated before. If an evaluation fails now, the known values
+     * stay. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
@@ -284,7 +285,7 @@ static baum_status check_header(reader *r)
 {
   const header *h = &r->head;
   if (r->size < sizeof *h + WORD) {
-    return refuse("has %zu bytes, less than a header; it is cut off, or was not written by "
+    return refuse("has %zu bytes, less than a header; it is truncated, or was not written by "
                   "baum_simulation_save()",
                   r->size);
   }
@@ -302,7 +303,7 @@ static baum_status check_header(reader *r)
                   (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
   }
   if (h->size > r->size) {
-    return refuse("has %zu bytes of %llu; it is cut off", r->size, (unsigned long long)h->size);
+    return refuse("has %zu bytes of %llu; it is truncated", r->size, (unsigned long long)h->size);
   }
   if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
     return refuse("is damaged: it claims to have %llu bytes", (unsigned long long)h->size);
@@ -341,7 +342,8 @@ static baum_status check_text(const char *name, const char *there, const char *h
   if (memcmp(there, here, BAUM_I_SAVED_TEXT) == 0) {
     return BAUM_OK;
   }
-  return refuse(OTHER_OPTIONS "the %s is %.31s there and %s here", name, there, here);
+  return refuse(OTHER_OPTIONS "the %s is %.31s in the buffer and %s in this run", name, there,
+                here);
 }
 
 /* NaN stands for a number that is not given and equals itself. */
@@ -358,13 +360,13 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
     double a = there.facts[k];
     double b = here->facts[k];
     if (a != b && !(isnan(a) && isnan(b))) {
-      return refuse(OTHER_OPTIONS "%s is %.9g there and %.9g here", FACTS[k], a, b);
+      return refuse(OTHER_OPTIONS "%s is %.9g in the buffer and %.9g in this run", FACTS[k], a, b);
     }
   }
   return BAUM_OK;
 }
 
-/* As many rows must be omitted as here, unless all rows are independent here. */
+/* The buffer must omit as many rows as this run, unless all rows of this run are independent. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
@@ -376,7 +378,7 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
   }
   return sound && (count == here->count || here->count == 0)
            ? BAUM_OK
-           : refuse("does not fit: its set of omitted rows is impossible here");
+           : refuse("does not fit: this run cannot omit the rows that it omits");
 }
 
 /* A driver without another law needs its polynomial. */
@@ -466,9 +468,9 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
   return check_parts(r, run, list);
 }
 
-/* ---- put back ---- */
+/* ---- restore ---- */
 
-/* Allocate what the buffer has and the run does not: its own parameters, and scheduled jumps. */
+/* Allocate memory for data that only the buffer has: own parameters, and scheduled jumps. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {

@@ -124,8 +124,8 @@ static void warn_settings(baum_simulation *run)
 
 /* ---- create ---- */
 
-/* Find the rows to omit at the start configuration, and whether the block solver suits the
- * others. */
+/* Find the rows to omit at the initial configuration, and whether the block solver suits the other
+ * rows. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
@@ -190,7 +190,8 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   *out = NULL;
   BAUM_I_TRY(check_create(mechanism, options));
   baum_simulation_options checked = baum_simulation_options_default();
-  memcpy(&checked, options, options->struct_size); /* what an older version lacks has its default */
+  /* fields that an older version lacks have their defaults */
+  memcpy(&checked, options, options->struct_size);
   checked.struct_size = sizeof checked;
   BAUM_I_TRY(baum_i_options_check(&checked));
   baum_simulation *run = baum_i_alloc(1, sizeof *run);
@@ -210,7 +211,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   return BAUM_OK;
 }
 
-/* Is the run calling a function of the user? It may be half-built. */
+/* Is the run calling a user function? The run may still be under construction. */
 static bool is_in_use(const baum_simulation *run)
 {
   bool asks = run->workspace && run->workspace->point.asking;

@@ -7,8 +7,8 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Does the last solution belong to a singular configuration? If the block solver has refused, the
- * pivot is that of another solver, which is larger. */
+/* Does the last solution belong to a singular configuration? If the block solver has given up, the
+ * pivot comes from another solver and is larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -49,7 +49,7 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   return skips ? BAUM_OK : status;
 }
 
-/* The same at the present state, which has mostly just been noted. */
+/* The same at the present state, whose pivot is mostly known already. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

@@ -104,7 +104,7 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
     if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
       char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: the start is not exact: %s has %s = %.3g %s", run->trial.t,
+                         "t = %.9g s: start is exact, but %s has %s = %.3g %s", run->trial.t,
                          baum_i_row_label(w->mechanism, i, label), what, rows[i], unit);
     }
   }
@@ -162,8 +162,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   return BAUM_OK;
 }
 
-/* Find by which share projection would change the velocities; 1 if it fails. In a configuration
- * where the rows have lost rank altogether it changes nothing. */
+/* Find the fraction by which projection would change the velocities; 1 if it fails. If the rows
+ * have lost rank exactly, projection does not change them. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -209,7 +209,7 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-/* Put fixed bodies in their place, whatever was given for them. */
+/* Move fixed bodies to their poses, whatever was given for them. */
 static void place_fixed_bodies(baum_simulation *run)
 {
   baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
@@ -272,7 +272,7 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* Check that q is so close to the manifold that it is meant to be on it. */
+/* Check that q is so close to the manifold that the user means a point on it. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -309,7 +309,7 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
 }
 
 /* Does a state without free velocities violate the constraints no more than this run already has?
- * Then it is taken as it is, so that a run can be put back to where it was. */
+ * Then it is taken as it is, so that a run can return to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;

@@ -29,11 +29,12 @@
 
 #include "stabilization/schur_cohn.h"
 
-/* Values of | |z| - 1 | up to this count as on the circle: about a hundred times the rounding of
- * gains and step. */
+/* Up to this value of | |z| - 1 | a root counts as on the circle: about a hundred times the
+ * rounding of gains and step. */
 static const double MARGIN = 1e-12;
 
-/* Of A^2 - B, relative to A^2: a few roundings of alpha h and beta h, squared. */
+/* A^2 - B counts as zero below this multiple of A^2: a few roundings of alpha h and beta h,
+ * squared. */
 static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
@@ -163,9 +164,9 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
   return w;
 }
 
-/* Finds w of the largest |z|. Newton's method starts where |p| is least on the circle of the
- * largest |z|; of the roots that it reaches, the one on the circle is returned. Others may be near,
- * but inside. */
+/* Finds w of the largest |z|. Newton's method starts at the points of least |p| on the circle of
+ * the largest |z|. Of the roots that it reaches, the one on the circle is returned; others may be
+ * near it, but inside. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);
@@ -215,7 +216,7 @@ static void find_modes(const baum_i_method *method, double A, double B, number m
   characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
 }
 
-/* Computes both w, the one of larger |1 + w| first. */
+/* Computes both w, the one with the larger |1 + w| first. */
 static void increments(const baum_i_method *method, double A, double B, number w[2])
 {
   bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;

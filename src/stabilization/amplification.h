@@ -30,9 +30,9 @@ enum { BAUM_I_METHOD_DEGREE = 12 };
 /* Description of a method, part of its integrator. */
 typedef struct baum_i_method {
   baum_i_method_kind kind;
-  int degree; /* of the polynomial R, or steps k */
+  int degree; /* degree of the polynomial R, or number k of steps */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
-  double best[2]; /* (A, B) of baum_i_stability_best() where the search takes long; else 0 */
+  double best[2]; /* (A, B) of baum_i_stability_best() if its search is slow; otherwise 0 */
 } baum_i_method;
 
 /* Returns a static message on what gains do with a method, whether or not it chooses its steps. */
@@ -70,7 +70,7 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 /* ---- In the plane --------------------------------------------------------- */
 
 /* Finds the point of least spectral radius with alpha h > 0: the dead-beat point where there is
- * one. Of several points it is the one of least gains. */
+ * one. Of several points it is the one with the smallest gains. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* Finds the dead-beat point, where all z are 0. Returns false and stores nothing where there is
@@ -90,8 +90,8 @@ typedef struct baum_i_outline {
   int count;        /* of all points, including those beyond capacity */
 } baum_i_outline;
 
-/* Finds the curves where spectral radius - 1 = growth; growth > -1. There are no points where the
- * radius is nowhere so or the region is unbounded. */
+/* Finds the curves where spectral radius - 1 = growth; growth > -1. There are no points if no point
+ * has this radius or the region is unbounded. */
 void baum_i_stability_outline(const baum_i_method *method, double growth, baum_i_outline *out);
 
 #endif

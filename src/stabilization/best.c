@@ -8,22 +8,24 @@
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
  *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
  * With a pair of different zeros one step removes the whole violation, with a double zero two steps
- * do. RK3's pair is therefore chosen and not its real zero (1.596, 2.547). Of several pairs the one
- * of least |mu| has the least gains. Re mu < 0 is required, or alpha would be negative.
+ * do. RK3's pair is therefore chosen and not its real zero (1.596, 2.547). Of several pairs, the
+ * one with the smallest |mu| has the smallest gains. Re mu < 0 is required, or alpha would be
+ * negative.
  *
- * Adams-Bashforth methods have memory and so no such point. Their least radius over the plane is at
- * complex mu: of two real ones the worse decides, and it does as well as a double root. The point
- * is searched in the chart, on a lattice that closes in on the best point so far, beginning with
- * that of critical damping. The largest of several |z| has valleys with a sharp bottom, in which a
- * descent method would stall; a lattice does not. */
+ * Adams-Bashforth methods have a history, so they have no such point. Their smallest radius over
+ * the plane is at complex mu, because of two real mu the worse decides, and a double root at that
+ * mu would be as good. The point is searched in the chart, on a lattice that closes in on the best
+ * point so far, beginning with that of critical damping. The largest of several |z| has valleys
+ * with a sharp bottom. A descent method would stall there, but a lattice does not. */
 #include <math.h>
 #include <stdbool.h>
 
 #include "stabilization/chart.h"
 
 static const double PI = 3.14159265358979323846;
-static const double ZERO = 1e-10;  /* |R| of a zero, and |Im mu| of a real one */
-static const double EQUAL = 1e-12; /* of radii, where AB2 has a plateau */
+static const double ZERO = 1e-10; /* |R| of a zero, and |Im mu| of a real one */
+/* difference of radii that counts as equal, because AB2 has a plateau */
+static const double EQUAL = 1e-12;
 static const double CLOSE_IN = 0.6;
 static const double FARTHEST = 1e3; /* extent of the lattice for an unbounded region */
 enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 30 };
@@ -126,7 +128,7 @@ static void search_window(search *best, const baum_i_chart_window *w, int cells)
   }
 }
 
-/* Closes in from a window with the best point, LEVELS times. */
+/* Narrows a window around the best point, LEVELS times. */
 static void close_in(search *best, baum_i_chart_window window)
 {
   search_window(best, &window, LATTICE);
@@ -169,7 +171,8 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
-  try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0)); /* often the best of all */
+  /* often the best point of all */
+  try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0));
   close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];
   *beta2_h2 = best.point[1];

@@ -5,7 +5,7 @@
  *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k
  *                    (for k = 1 the root is 1 + mu b_0)
  *
- * so the search for the region goes inwards from it. */
+ * so the search for the region starts from this bound and goes inwards. */
 #include "stabilization/chart.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      return most * (k + 3) / ROWS; /* a top may lie between the columns */
+      return most * (k + 3) / ROWS; /* a maximum may lie between the columns */
     }
   }
   return 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A chart of the plane (A, B) = (alpha h, beta^2 h^2), A >= 0, B >= 0, in which regions have no
- * sharp tips: the larger |mu| = m, and s in [-1, 1], the relation of both mu.
+ * sharp tips: m, the larger |mu|, and s in [-1, 1], which describes the relation of both mu.
  *
  *   s < 0   mu = -m, -m u,  u = 1 + s         A = m (1 + u) / 2,  B = m^2 u        overdamped
  *   s >= 0  mu = -m e^(+-i phi), phi = s pi/2 A = m cos(phi),     B = m^2

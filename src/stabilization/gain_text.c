@@ -3,8 +3,8 @@
  *
  * Near the edge of a region: in (6) the slower mode decays by exp(-p) per step, p = Re of A -
  * sqrt(A^2 - B). A consistent method does the same up to O(p^2), so small gains never cause this
- * warning. A method with a radius above 0.95 that damps less than a quarter of p is at the edge of
- * its region. */
+ * warning. If the radius of a method is above 0.95 and it damps less than a quarter of p, it is at
+ * the edge of its region. */
 #include "stabilization/gain_text.h"
 
 #include <math.h>
@@ -13,13 +13,13 @@
 
 static const double BDF_DAMPING_RATIO = 0.618;
 static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals offer 0.9 */
-static const double EDGE_SHARE = 0.25;   /* of the damping of (6) */
+static const double EDGE_SHARE = 0.25;   /* fraction of the damping of (6) */
 
 enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
 
 /* ---- numbers ---- */
 
-/* Prints a radius so that it is not mistaken for 1. */
+/* Prints a radius with enough digits to differ from 1. */
 static void print_radius(double radius, char text[RADIUS_SIZE])
 {
   double growth = radius - 1.0;
@@ -30,8 +30,8 @@ static void print_radius(double radius, char text[RADIUS_SIZE])
   }
 }
 
-/* Returns alpha h up to which the ray through a point is stable; NaN where it is not a ray of its
- * own. */
+/* Returns alpha h up to which the ray through a point is stable; NaN if the point does not define a
+ * ray. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -92,8 +92,8 @@ baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, doub
                      "beta^2 h^2) = (%.4g, %.4g) with spectral radius %.4g, that is alpha = %.4g "
                      "1/s, beta = %.4g 1/s: take best_damping",
                      context->integrator,
-                     remembers ? "for it remembers violations of earlier steps whatever the gains"
-                               : "for no gains bring both roots to zero",
+                     remembers ? "because its past steps keep violations, whatever the gains"
+                               : "because no gains bring both roots to zero",
                      alpha_h, beta2_h2, radius, alpha_h / h, sqrt(beta2_h2) / h);
 }
 

@@ -11,7 +11,7 @@ enum { BAUM_I_GAIN_NOTE_SIZE = 128 };
 typedef struct baum_i_gain_draft {
   double alpha;
   double beta;
-  double alpha_h; /* NaN without a step, like the next */
+  double alpha_h; /* NaN without a step, as is the next one */
   double beta2_h2;
   char note[BAUM_I_GAIN_NOTE_SIZE];
 } baum_i_gain_draft;

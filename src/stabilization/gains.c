@@ -9,14 +9,14 @@
  *   best       scaled, with the point of least spectral radius
  *   auto       alpha = beta = c x rate, h alpha <= 0.3          keeps cost and order up to there
  *
- * A and B are kept beside alpha and beta, so that a rule of the step is judged exactly at its
- * point.
+ * A and B are stored in addition to alpha and beta, so that a rule relative to the step is judged
+ * exactly at its point.
  *
  * auto: where degrees of freedom remain, stabilization disturbs the motion, most at the rate of the
- * motion itself. Below it, c removes as much of the drift as a run of some tens of radians has time
- * for. It was measured over 12 decades of constant gains: docs/theory/gain_rules.md. Where drivers
- * take all degrees of freedom the violation is the whole error, and c is as large as costs the
- * method nothing.
+ * motion itself. c lies below that rate and removes as much of the drift as a run of some tens of
+ * radians allows. It was measured over 12 decades of constant gains: docs/theory/gain_rules.md. If
+ * drivers prescribe all degrees of freedom, the violation is the whole error, and c is as large as
+ * it can be without a cost.
  *
  * Variable steps: the step of an explicit method is limited where (alpha h, beta^2 h^2) leaves its
  * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
@@ -41,12 +41,12 @@ static const double AUTO_EXPLICIT = 0.1;
 static const double AUTO_DRIVEN_FIXED = 0.6;
 static const double AUTO_DRIVEN_EXPLICIT = 2.0;
 static const double AUTO_DRIVEN_MULTISTEP = 40.0;
-static const double AUTO_CAP = 0.3;      /* alpha h up to which nothing is lost */
-static const double AUTO_AT_REST = 0.01; /* alpha h when nothing moves */
+static const double AUTO_CAP = 0.3; /* alpha h up to which the order and the cost do not suffer */
+static const double AUTO_AT_REST = 0.01; /* alpha h if nothing moves */
 static const double REST = 1e-9;         /* rate h below this is rounding, not motion */
-static const double DEAD = 1e-6;         /* spectral radius of a dead-beat point, at most */
-static const double WITHIN_REGION = 0.9; /* of the largest stable step */
-static const double OVERDAMPED = 1e9;    /* alpha / beta where beta is 0 */
+static const double DEAD = 1e-6;         /* largest spectral radius of a dead-beat point */
+static const double WITHIN_REGION = 0.9; /* fraction of the largest stable step */
+static const double OVERDAMPED = 1e9;    /* alpha / beta if beta is 0 */
 
 typedef void apply_rule(const double value[2], const baum_i_gain_context *context,
                         baum_i_gain_draft *out);
@@ -153,7 +153,7 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
                context->driven ? "; no freedom is left" : "");
 }
 
-/* Half of the limit stays well inside where 0.3 would not. */
+/* Half of the stability limit stays well inside the region if 0.3 does not. */
 static double auto_with_step(const baum_i_gain_context *context, double wanted,
                              baum_i_gain_draft *out)
 {
@@ -213,7 +213,7 @@ static baum_status check_step(const baum_i_gain_context *context)
   return BAUM_OK;
 }
 
-/* Returns NULL and sets a message where there is no such rule. */
+/* Returns NULL and sets a message if there is no such rule. */
 static const rule_type *find_rule(int32_t number)
 {
   if (number > BAUM_GAINS_DEFAULT && number < RULE_COUNT) {
@@ -239,7 +239,7 @@ static baum_status check_numbers(const rule_type *rule, const double value[2])
   return BAUM_OK;
 }
 
-/* Checks that the rule has what it depends on. */
+/* Checks that the context has the data that the rule needs. */
 static baum_status check_needs(const rule_type *rule, const baum_i_gain_context *context)
 {
   if (rule->needs_step && !has_step(context)) {

@@ -7,16 +7,16 @@
 
 #include "stabilization/amplification.h"
 
-/* What a rule may depend on. */
+/* Data that a rule may depend on. */
 typedef struct baum_i_gain_context {
   const baum_i_method *method;
   baum_i_method_family family; /* of a method that chooses its steps */
   const char *integrator;      /* name, for messages */
   double step;                 /* [s] > 0, or NaN for variable step */
   double rate;                 /* [1/s] >= 0 angular rate of the motion */
-  const char *rate_is;         /* what the rate is, for messages */
+  const char *rate_is;         /* description of the rate, for messages */
   bool driven;                 /* drivers leave no degree of freedom */
-  baum_gain_rule rule_default; /* what BAUM_GAINS_DEFAULT means for this integrator */
+  baum_gain_rule rule_default; /* rule that BAUM_GAINS_DEFAULT means for this integrator */
   bool allow_unstable;
 } baum_i_gain_context;
 
@@ -26,10 +26,10 @@ typedef struct baum_i_gain_choice {
   double beta;                      /* [1/s] */
   baum_gain_rule rule;              /* the rule that was applied */
   baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
-  double max_step; /* [s] explicit methods that choose their step: the largest that is stable; else
-                    * infinity */
-  char why[400];   /* one message: rule, numbers, stability */
-  bool doubtful;   /* `why` is a warning: violations may stay or grow */
+  /* [s] largest stable step of an explicit method that chooses its step; otherwise infinite */
+  double max_step;
+  char why[400]; /* one message: rule, numbers, stability */
+  bool doubtful; /* `why` is a warning: violations may stay or grow */
 } baum_i_gain_choice;
 
 /* Applies a rule and checks the stability of its gains. BAUM_OK, BAUM_ERR_ARGUMENT (numbers of the

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nearest good point. The lines of a lattice in the chart, where regions have no tips that a
- * lattice would miss, cross the edge of the good region (spectral radius <= 0.9). Around the
- * crossing nearest in the plane the lattice closes in. The region may have any shape and any number
- * of parts. */
+/* The nearest good point. The lines of a lattice cross the edge of the good region (spectral radius
+ * <= 0.9). Around the crossing that is nearest in the plane, finer lattices follow. The lattice is
+ * in the chart, where regions have no tips that it could miss. The region may have any shape and
+ * any number of parts. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -10,7 +10,7 @@
 
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
 static const double FARTHEST = 1e3;     /* extent of the lattice for an unbounded region */
-static const double AROUND = 2.0;       /* cells that the next lattice reaches */
+static const double AROUND = 2.0;       /* cells that the next lattice extends over */
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
 typedef struct lattice {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The curves on which the spectral radius is a given number, by marching through the squares of a
- * lattice in the chart (Lorensen, Cline 1987, in two dimensions). A curve keeps the region on its
- * left; in the plane, of which the chart is a mirror image, on its right. The border of the chart,
- * A = 0 and B = 0, is an edge of every region.
+ * lattice in the chart (Lorensen, Cline 1987, in two dimensions). A curve has the region on its
+ * left; in the plane, whose mirror image the chart is, on its right. The border of the chart, A = 0
+ * and B = 0, is an edge of every region.
  *
  *   3 --2-- 2     corner k and k + 1 end edge k
  *   |       |     a curve comes in where corner k is inside and k + 1 is not,

@@ -6,8 +6,8 @@
  *
  * On the circle |p| = |p*|. So if |c_0| < |c_n|, the term with p is the larger one there, and Tp
  * has one root less inside than p (Rouche): all n roots of p are inside exactly when |c_0| < |c_n|
- * and all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, hence |c_0| >= |c_n|
- * shows one that is not inside. A circle of radius r is brought to 1 by c_k r^k.
+ * and all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, so |c_0| >= |c_n| shows
+ * that some root is not inside. Coefficients c_k r^k scale a circle of radius r to 1.
  *
  * A bisection of r then gives the largest |z|.
  */

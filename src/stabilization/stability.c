@@ -12,7 +12,7 @@
 
 static const double SCAN_RATIO = 1.01; /* of neighbouring b */
 static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
-static const double OVERDAMPED = 1e9;  /* zeta beyond which nothing changes any more */
+static const double OVERDAMPED = 1e9;  /* zeta beyond which the limits stay the same */
 static const double LEAST = 1e-18; /* b: a ray that is stable only below this counts as unstable */
 static const double EQUAL = 1e-13; /* of radii: rounding */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };

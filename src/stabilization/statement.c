@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What gains do with a method, as a message.
+/* The effect of gains with a method, in words.
  *
  * Explicit methods with variable steps: outside of the region of stability violations grow until
  * the error test reacts (Hairer, Wanner 1996, IV.2), so gains.c limits the step of such a run.

@@ -31,7 +31,7 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
 }
 
 /* Tells whether another entry is at least as good in both and better in one. Of equal entries the
- * first is the better. */
+ * first counts as better. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -55,7 +55,8 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
   if (cost != BAUM_STUDY_WORK && cost != BAUM_STUDY_CPU) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %d is no baum_study_cost", call, (int)cost);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: cost is %d, must be one of baum_study_cost", call,
+                       (int)cost);
   }
   return BAUM_OK;
 }
@@ -103,27 +104,27 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
   return BAUM_OK;
 }
 
-/* ---- a place on the ladder of a method ---- */
+/* ---- interpolated settings ---- */
 
-/* A place between two entries; twice the same entry is a place on it. */
-typedef struct place {
+/* A setting between two entries of a method. Both may be the same entry. */
+typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
   double share;  /* from coarse to fine, in logarithms */
   double margin; /* for other starts and spans; 1: none */
-} place;
+} setting;
 
 static double between(double a, double b, double share)
 {
   return share <= 0.0 ? a : a * pow(b / a, share);
 }
 
-static double place_cost(const place *p, baum_study_cost cost)
+static double setting_cost(const setting *p, baum_study_cost cost)
 {
   return between(cost_of(p->coarse, cost), cost_of(p->fine, cost), p->share);
 }
 
-static double place_error(const place *p)
+static double setting_error(const setting *p)
 {
   return between(p->coarse->out.error, p->fine->out.error, p->share);
 }
@@ -136,8 +137,9 @@ static double share_at(double coarse, double fine, double wanted)
 
 /* ---- cost at an error ---- */
 
-/* Finds the place with this error; the line may be extended by one setting at both ends. */
-static bool find_error(const baum_i_entry *const *entries, int count, double error, place *out)
+/* Finds the setting with this error by linear interpolation of logarithms, up to one entry distance
+ * beyond both ends. */
+static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {
     double e[2] = {entries[k]->out.error, entries[k + 1]->out.error};
@@ -145,20 +147,20 @@ static bool find_error(const baum_i_entry *const *entries, int count, double err
     bool first = k == 0;
     bool last = k + 2 == count;
     if (e[1] < e[0] && share >= (first ? -1.0 : 0.0) && share <= (last ? 2.0 : 1.0)) {
-      *out = (place){entries[k], entries[k + 1], share, 1.0};
+      *out = (setting){entries[k], entries[k + 1], share, 1.0};
       return true;
     }
   }
   return false;
 }
 
-/* A comparison of costs at an error. */
-typedef struct levelled {
+/* A query for the cost at an error. */
+typedef struct cost_query {
   const baum_study *study;
   double error;
   baum_study_cost cost;
   const char *call;
-} levelled;
+} cost_query;
 
 static baum_status check_error(double error, const char *call)
 {
@@ -167,7 +169,7 @@ static baum_status check_error(double error, const char *call)
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", call, error);
 }
 
-static baum_status check_levelled(const levelled *at, const double *out, const char *name)
+static baum_status check_query(const cost_query *at, const double *out, const char *name)
 {
   BAUM_I_TRY(check_cost(at->study, at->cost, at->call));
   if (!out) {
@@ -176,7 +178,7 @@ static baum_status check_levelled(const levelled *at, const double *out, const c
   return check_error(at->error, at->call);
 }
 
-static baum_status find_cost(const levelled *at, int32_t method, double *out)
+static baum_status find_cost(const cost_query *at, int32_t method, double *out)
 {
   const baum_study *study = at->study;
   if (method < 0 || method >= study->method_count) {
@@ -185,7 +187,7 @@ static baum_status find_cost(const levelled *at, int32_t method, double *out)
   }
   const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
   int count = baum_i_study_usable(study, method, entries);
-  place p;
+  setting p;
   if (!find_error(entries, count, at->error, &p)) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -205,17 +207,17 @@ static baum_status find_cost(const levelled *at, int32_t method, double *out)
 baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                baum_study_cost cost, double *out)
 {
-  const levelled at = {study, error, cost, "baum_study_cost_at"};
-  BAUM_I_TRY(check_levelled(&at, out, "out"));
+  const cost_query at = {study, error, cost, "baum_study_cost_at"};
+  BAUM_I_TRY(check_query(&at, out, "out"));
   return find_cost(&at, method, out);
 }
 
 baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                baum_study_cost cost, double *ratio)
 {
-  const levelled at = {study, error, cost, "baum_study_compare"};
+  const cost_query at = {study, error, cost, "baum_study_compare"};
   double costs[2] = {(double)NAN, (double)NAN};
-  BAUM_I_TRY(check_levelled(&at, ratio, "ratio"));
+  BAUM_I_TRY(check_query(&at, ratio, "ratio"));
   BAUM_I_TRY(find_cost(&at, a, &costs[0]));
   BAUM_I_TRY(find_cost(&at, b, &costs[1]));
   *ratio = costs[0] / costs[1];
@@ -224,8 +226,9 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* Returns the largest expected error: for twice the span and nearby starts, or as measured. An
- * entry without validation is assumed to grow as `beside`, of the same method, did. */
+/* Returns the largest expected error: for twice the span and perturbed starts, or as measured. The
+ * growth of an entry without validation is assumed to be that of `beside`, an entry of the same
+ * method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -238,7 +241,8 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns what a little more work buys at an entry: much at high order, little at low order. */
+/* Returns the factor by which a little more work reduces the error at an entry: large at high
+ * order, small at low order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -249,10 +253,11 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* Finds the coarsest place of a method that keeps the error; the next finer entry must keep it too.
+/* Finds the coarsest setting of a method that keeps the error. The next finer entry must keep it,
+ * too.
  */
-static bool find_place(const baum_i_entry *const *entries, int count, double error,
-                       bool with_margin, place *out)
+static bool find_setting(const baum_i_entry *const *entries, int count, double error,
+                         bool with_margin, setting *out)
 {
   for (int k = 0; k < count; k++) {
     double margin = with_margin ? margin_at(entries, count, k) : 1.0;
@@ -262,17 +267,17 @@ static bool find_place(const baum_i_entry *const *entries, int count, double err
     if (here > wanted || !next) {
       continue;
     }
-    *out = (place){entries[k], entries[k], 0.0, margin};
+    *out = (setting){entries[k], entries[k], 0.0, margin};
     double before = k > 0 ? expected(entries[k - 1], entries[k], with_margin) : 0.0;
     if (before > wanted && isfinite(before)) {
-      *out = (place){entries[k - 1], entries[k], share_at(before, here, wanted), margin};
+      *out = (setting){entries[k - 1], entries[k], share_at(before, here, wanted), margin};
     }
     return true;
   }
   return false;
 }
 
-/* The requirements on a place. */
+/* The requirements on a recommended setting. */
 typedef struct question {
   double error;
   baum_study_cost cost;
@@ -280,19 +285,19 @@ typedef struct question {
   const baum_integrator *without; /* this one is excluded; NULL: none */
 } question;
 
-/* Finds the cheapest place of all methods. */
-static bool find_best(const baum_study *study, const question *q, place *best)
+/* Finds the cheapest setting over all methods. */
+static bool find_best(const baum_study *study, const question *q, setting *best)
 {
-  *best = (place){.coarse = NULL};
+  *best = (setting){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
     const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
     int count = baum_i_study_usable(study, m, entries);
-    place p;
+    setting p;
     if (count == 0 || entries[0]->out.unstable || entries[0]->options.integrator == q->without) {
       continue;
     }
-    if (find_place(entries, count, q->error, q->with_margin, &p) &&
-        (!best->fine || place_cost(&p, q->cost) < place_cost(best, q->cost))) {
+    if (find_setting(entries, count, q->error, q->with_margin, &p) &&
+        (!best->fine || setting_cost(&p, q->cost) < setting_cost(best, q->cost))) {
       *best = p;
     }
   }
@@ -310,7 +315,7 @@ static double rounded(const baum_study *study, double setting, bool fixed)
   return unit * floor(setting / unit + 1e-9);
 }
 
-static baum_simulation_options options_of(const baum_study *study, const place *p)
+static baum_simulation_options options_of(const baum_study *study, const setting *p)
 {
   baum_simulation_options o = p->fine->options;
   if (p->share < 1.0 && p->coarse != p->fine) {
@@ -329,13 +334,13 @@ static void name_options(const baum_simulation_options *o, char *text, size_t si
 }
 
 /* Appends the best other integrator for comparison. */
-static void add_rival(const baum_study *study, const place *best, question q, char *why,
+static void add_rival(const baum_study *study, const setting *best, question q, char *why,
                       size_t size)
 {
-  place rival;
+  setting rival;
   q.without = best->fine->options.integrator;
   if (find_best(study, &q, &rival)) {
-    double ratio = place_cost(&rival, q.cost) / place_cost(best, q.cost);
+    double ratio = setting_cost(&rival, q.cost) / setting_cost(best, q.cost);
     const char *name = study->methods[rival.fine->out.method].name;
     baum_i_append(why, size, "; the next best integrator, %s, costs ", name);
     if (ratio >= 1.05) {
@@ -345,13 +350,13 @@ static void add_rival(const baum_study *study, const place *best, question q, ch
   }
 }
 
-static void explain(const place *p, const baum_simulation_options *o, char *why, size_t size)
+static void explain(const setting *p, const baum_simulation_options *o, char *why, size_t size)
 {
   char name[BAUM_I_NAME_SIZE];
   name_options(o, name, sizeof name);
   why[0] = '\0';
-  baum_i_append(why, size, "%s: error %.2g for a work of %.0f and %.3g ms", name, place_error(p),
-                place_cost(p, BAUM_STUDY_WORK), 1e3 * place_cost(p, BAUM_STUDY_CPU));
+  baum_i_append(why, size, "%s: error %.2g for a work of %.0f and %.3g ms", name, setting_error(p),
+                setting_cost(p, BAUM_STUDY_WORK), 1e3 * setting_cost(p, BAUM_STUDY_CPU));
   if (p->coarse == p->fine) {
     baum_i_append(why, size, ", as measured");
     return;
@@ -363,7 +368,7 @@ static void explain(const place *p, const baum_simulation_options *o, char *why,
                 p->coarse->out.error, baum_i_setting(&p->fine->options), unit, p->fine->out.error);
 }
 
-static void add_margin(const baum_study *study, const place *p, const question *q, char *why,
+static void add_margin(const baum_study *study, const setting *p, const question *q, char *why,
                        size_t size)
 {
   if (!q->with_margin) {
@@ -439,7 +444,7 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   BAUM_I_TRY(check_cost(study, cost, call));
   BAUM_I_TRY(check_answerable(study, best, caller_size, call));
   BAUM_I_TRY(check_error(error, call));
-  place p;
+  setting p;
   question q = {.error = error, .cost = cost, .with_margin = true};
   bool found = find_best(study, &q, &p);
   if (!found) {
@@ -458,27 +463,27 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* Tells whether a place is more exact, or as exact and faster. */
-static bool beats(const place *p, const place *other)
+/* Tells whether a setting is more accurate than another, or as accurate and faster. */
+static bool beats(const setting *p, const setting *other)
 {
   if (!other->fine) {
     return true;
   }
-  double e[2] = {place_error(p), place_error(other)};
-  double c[2] = {place_cost(p, BAUM_STUDY_CPU), place_cost(other, BAUM_STUDY_CPU)};
+  double e[2] = {setting_error(p), setting_error(other)};
+  double c[2] = {setting_cost(p, BAUM_STUDY_CPU), setting_cost(other, BAUM_STUDY_CPU)};
   return e[0] < e[1] || (e[0] == e[1] && c[0] < c[1]);
 }
 
-/* Finds the most exact place of a method within the time budget. */
+/* Finds the most accurate setting of a method within the time budget. */
 static void find_affordable(const baum_i_entry *const *entries, int count, double seconds,
-                            place *best)
+                            setting *best)
 {
   for (int k = 0; k < count; k++) {
-    place p = {entries[k], entries[k], 0.0, 1.0};
+    setting p = {entries[k], entries[k], 0.0, 1.0};
     double here = entries[k]->out.cpu;
     double before = k > 0 ? entries[k - 1]->out.cpu : (double)INFINITY;
     if (here > seconds && before <= seconds && entries[k]->out.error < entries[k - 1]->out.error) {
-      p = (place){entries[k - 1], entries[k], share_at(before, here, seconds), 1.0};
+      p = (setting){entries[k - 1], entries[k], share_at(before, here, seconds), 1.0};
     } else if (here > seconds) {
       continue;
     }
@@ -488,11 +493,11 @@ static void find_affordable(const baum_i_entry *const *entries, int count, doubl
   }
 }
 
-/* Does so for all methods; returns the least time of any entry. */
-static double find_most_exact(const baum_study *study, double seconds, place *best)
+/* Does so for all methods. Returns the smallest time of any entry. */
+static double find_most_exact(const baum_study *study, double seconds, setting *best)
 {
   double quickest = (double)INFINITY;
-  *best = (place){.coarse = NULL};
+  *best = (setting){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
     const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
     int count = baum_i_study_usable(study, m, entries);
@@ -514,7 +519,7 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be finite and > 0", call,
                        seconds);
   }
-  place p;
+  setting p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
   if (!isfinite(quickest)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done has followed the motion",

@@ -55,7 +55,7 @@ static baum_status copy_row_gains(baum_i_entry *entry)
   return BAUM_OK;
 }
 
-/* Must come last: from here on the study owns the entry. */
+/* Must come last, because from here on the study owns the entry. */
 static baum_status append_entry(baum_study *study, baum_i_entry *entry)
 {
   size_t wanted = (size_t)study->entry_count + 1;

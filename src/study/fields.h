@@ -29,7 +29,7 @@ typedef struct baum_i_field {
   size_t place;   /* in the struct */
 } baum_i_field;
 
-/* An entry, and what a report adds to it. */
+/* An entry, and the data that a report adds to it. */
 typedef struct baum_i_report_entry {
   baum_study_entry entry; /* first, so that fields of an entry apply */
   const char *gains;      /* rule; NULL: none */

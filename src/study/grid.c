@@ -113,8 +113,8 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
-/* Tolerances cannot be met below the noise of the differences that replace missing derivatives of
- * constraints. */
+/* Tolerances below the error of the differences that replace missing derivatives of constraints
+ * cannot be met. */
 static double finest_of(const grid *g)
 {
   double finest = g->wanted->finest;

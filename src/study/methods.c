@@ -3,8 +3,8 @@
  *
  * Errors of a method fall as a power of its step or rtol, error = C h^p, until they reach the
  * uncertainty of the reference or rounding. Cost rises as a power of it. Lines are fitted to the
- * logarithms of the entries before that: from the coarsest one to the one of least error, those
- * whose error is at least FLOOR times the least, and that one. */
+ * logarithms of the entries before that: from the coarsest entry to the most accurate one, all
+ * whose error is at least FLOOR times the smallest, and the most accurate one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -87,7 +87,7 @@ static double slope_of(const double *x, const double *y, int count)
   return count >= 2 && xx > 0.0 ? xy / xx : (double)NAN;
 }
 
-/* Fits slopes over the entries between coarse and floor. */
+/* Fits slopes to these entries. */
 static void fit(const baum_i_entry *const *entries, int count, baum_study_method *out)
 {
   double setting[BAUM_I_METHOD_ENTRIES];

@@ -87,7 +87,7 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   return rest == BAUM_OK ? status : rest;
 }
 
-/* Kinematics solves configurations at the times asked for, so these are its cost. */
+/* Kinematics solves for configurations at the requested times, so these determine its cost. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
   const baum_i_samples *samples = task->samples;

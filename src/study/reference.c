@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What runs are compared with: given samples, a closed-form solution, or a reference of the study's
- * own.
+/* The reference that runs are compared with: given samples, a closed-form solution, or one that the
+ * study computes.
  *
  * The study's own reference comes from two formulations that share only the equations of motion,
- * one of them with projection. Each runs at a tight tolerance and at half of it. Of these four runs
- * the first formulation's tighter one is the reference; the largest difference of the others from
- * it is the uncertainty. Where runs fail or differ by more than CLOSE, looser tolerances and
- * implicit methods are tried too, and the attempt that agrees best is used. The last attempt, RK4
- * with STEPS and twice as many steps, succeeds past singular configurations, where constraint
- * violations grow strongly. */
+ * one of them with projection. Each runs at a tight tolerance and at half of it. The first
+ * formulation's run at the tighter tolerance is the reference; the largest difference of the other
+ * three runs from it is the uncertainty. Where runs fail or differ by more than CLOSE, looser
+ * tolerances and implicit methods are tried too, and the attempt that agrees best is used. The last
+ * attempt, RK4 with STEPS and twice as many steps, succeeds past singular configurations, where
+ * constraint violations grow strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,10 +19,10 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double CLOSE = 1e-9;     /* with this difference nothing else is tried */
+static const double CLOSE = 1e-9;     /* largest difference at which no other attempt is made */
 static const double TRUSTED = 1e-3;   /* the largest difference of a trusted reference */
-static const double ROUNDING = 1e-15; /* nothing is known better than this */
-static const double PATIENCE = 5.0;   /* entry limits that a run of the reference may take */
+static const double ROUNDING = 1e-15; /* smallest uncertainty */
+static const double PATIENCE = 5.0;   /* limit for a run of the reference, in entry limits */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
@@ -44,7 +44,8 @@ static const attempt ATTEMPTS[] = {
   {{baum_rk8, baum_rk4}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_PROJECTION}, 1e-10},
 };
 
-/* Where drivers leave no degree of freedom: configurations solved to rounding, and integrated. */
+/* If drivers prescribe all degrees of freedom: configurations solved to rounding, and integrated
+ * ones. */
 static const attempt WITHOUT_FREEDOM[] = {
   {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
 };
@@ -167,7 +168,7 @@ static baum_status run_attempt(baum_study *study, const attempt *a, baum_i_deadl
   return status;
 }
 
-/* ---- the study's own ---- */
+/* ---- computed reference ---- */
 
 static bool is_better(const found *a, const found *b)
 {

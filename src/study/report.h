@@ -22,7 +22,7 @@ typedef struct baum_i_advice {
   char why[BAUM_I_MESSAGE_SIZE];   /* or why there is none */
 } baum_i_advice;
 
-/* Where a report was made. */
+/* Environment in which a report was made. */
 typedef struct baum_i_environment {
   const char *baum;     /* version */
   const char *sundials; /* version, or "none" */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a report is made: libraries, compiler, processor, date. */
+/* Environment of a report: libraries, compiler, processor, date. */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -17,7 +17,7 @@
 #define COMPILER "not known"
 #endif
 
-/* Reads the processor's name as Linux gives it. */
+/* Reads the processor's name from Linux. */
 static void read_cpu(char *cpu, size_t size)
 {
   char line[512];

@@ -24,8 +24,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Tells whether the path is all that the file has. Replacing would lose devices, pipes, links,
- * other names and another owner. */
+/* Tells whether the file can be replaced. Replacing would destroy devices, pipes and links, and
+ * would lose further names or another owner of a file. */
 static bool is_replaceable(const struct stat *found)
 {
   return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
@@ -73,7 +73,7 @@ static FILE *create_part(const char *path, size_t folder, mode_t mode, char *par
   return NULL;
 }
 
-/* Brings the new name to the disk with the folder; nothing is lost where that is not possible. */
+/* Writes the folder, and so the new name, to the disk. If that is not possible, nothing is lost. */
 static void sync_folder(const char *folder)
 {
   int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);

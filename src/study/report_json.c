@@ -6,7 +6,7 @@
 
 enum { VERSION = 2 };
 
-/* A member follows others unless the text ends with the brace of its object. */
+/* A member needs a comma before it unless the text ends with the opening brace of its object. */
 static void put_key(baum_i_buffer *out, const char *key)
 {
   bool first = out->used > 0 && out->text[out->used - 1] == '{';

@@ -8,9 +8,10 @@
 #include "base/alloc.h"
 #include "study/study.h"
 
-static const double OFF = 0.1;           /* [-] error of positions that belong to another motion */
-static const double VALIDATED_FOR = 5.0; /* entry limits that a validation may take */
-static const double TIMED_FOR = 0.2;     /* [s] an entry is not repeated beyond this */
+/* [-] error of positions above which they belong to another motion */
+static const double OFF = 0.1;
+static const double VALIDATED_FOR = 5.0; /* limit for a validation, in entry limits */
+static const double TIMED_FOR = 0.2;     /* [s] total time after which an entry is not repeated */
 
 /* Data that the threads share. */
 typedef struct workers {
@@ -26,7 +27,7 @@ typedef struct workers {
   baum_i_kept_message message; /* of the status */
 } workers;
 
-/* ---- what a run says of its entry ---- */
+/* ---- results of a run ---- */
 
 static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
 {
@@ -111,7 +112,7 @@ static void note_failure(workers *c, baum_status status)
   }
 }
 
-/* Deadline of runs that may take this many entry limits. */
+/* Deadline of a run whose limit is this many entry limits. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){
@@ -336,10 +337,10 @@ static baum_status set_order(workers *c)
 
 /* ---- times ---- */
 
-/* What a run costs on any machine: evaluations of right-hand sides or residuals, factorizations,
- * and the linear systems of implicit methods. An explicit step counts 2 a stage, a step of CVODE's
- * Adams method 3 for each iteration. Matrices of IDA and BDF are larger than that of (7), and what
- * SUNDIALS does between evaluations is not counted: CPU time shows it. */
+/* The cost of a run on any machine: evaluations of right-hand sides or residuals, factorizations,
+ * and the linear systems of implicit methods. An explicit step counts 2 per stage, a step of
+ * CVODE's Adams method 3 per iteration. The larger matrices of IDA and BDF, and the work of
+ * SUNDIALS between evaluations, only show in the CPU time. */
 static double work_of(const baum_study_entry *r)
 {
   return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
@@ -405,7 +406,7 @@ static void time_entries(workers *c)
   }
 }
 
-/* ---- all of it ---- */
+/* ---- the whole study ---- */
 
 /* Counts entries without a result or without its time. */
 static int waiting(const baum_study *study)
@@ -418,8 +419,8 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-/* Tells whether entries will be compared with the reference: those to be measured, and those that
- * validation may need once they are timed. */
+/* Tells whether entries will be compared with the reference: entries to be measured, and entries
+ * that may need validation after they are timed. */
 static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
@@ -478,7 +479,7 @@ static baum_status conclude(workers *c)
   int left = waiting(study);
   if (left > 0) {
     bool cancelled = atomic_load(&study->cancelled) != 0;
-    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d entries not done and timed",
+    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s; %d of %d entries are not finished",
                        cancelled ? "cancelled" : "the time budget is spent", left,
                        study->entry_count);
   }

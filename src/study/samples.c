@@ -8,8 +8,8 @@
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit, or as q
  *
- * Numbers that the reference does not know are not compared; a number that a run lacks counts as
- * infinitely far. */
+ * Numbers that the reference lacks are not compared; if a run lacks a number, its error is
+ * infinite. */
 #include <math.h>
 #include <string.h>
 

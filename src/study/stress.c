@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress settings for a user's mechanism. They are decades, because failures lie decades apart. */
+/* Stress settings for a user's mechanism. They are decades apart, because failures are. */
 #include <math.h>
 
 #include "base/text.h"
@@ -51,7 +51,8 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* Adds no gains, and alpha = beta through the decades, each with one moderate step or tolerance. */
+/* Adds settings without gains and with alpha = beta through the decades, each with one moderate
+ * step or tolerance. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

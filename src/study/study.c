@@ -232,7 +232,7 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
       "the default",
       call, given, size);
   }
-  memcpy(to, from, given); /* members that an older version lacks keep their default */
+  memcpy(to, from, given); /* fields that an older version lacks keep their defaults */
   memcpy(to, &size, sizeof size);
   return BAUM_OK;
 }
@@ -283,14 +283,14 @@ baum_status baum_study_settings(const baum_study *study, double *t0, double *t1,
   return BAUM_OK;
 }
 
-/* ---- what error means ---- */
+/* ---- definition of the error ---- */
 
 baum_status baum_study_set_error(baum_study *study, const baum_channel *channels, int32_t count,
                                  double unit)
 {
   const char *call = "baum_study_set_error";
   if (!study || !channels || count < 1) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or channels are NULL, or count is not >= 1",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or channels are NULL, or count is below 1",
                        call);
   }
   if (!(isfinite(unit) && unit > 0.0)) {
@@ -299,7 +299,7 @@ baum_status baum_study_set_error(baum_study *study, const baum_channel *channels
   int width = 0;
   BAUM_I_TRY(baum_i_check_channels(study->mechanism, channels, count, &width));
   if (study->begun) {
-    return refuse_change(call, "what error means");
+    return refuse_change(call, "the definition of the error");
   }
   baum_channel *copy = baum_i_alloc((size_t)count, sizeof *copy);
   if (!copy) {
@@ -337,11 +337,10 @@ static baum_status check_sample_times(const baum_study *study, const double *tim
   double last = study->t0;
   for (int k = 0; k < n; k++) {
     if (!(direction * (times[k] - last) > 0.0) || !(direction * (study->t1 - times[k]) >= 0.0)) {
-      return baum_i_fail(
-        BAUM_ERR_ARGUMENT,
-        "baum_study_set_reference: times[%d] is %.9g s after %.9g s; times must go "
-        "from %g s, which is not one of them, to %g s",
-        k, times[k], last, study->t0, study->t1);
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "baum_study_set_reference: times[%d] is %.9g s after %.9g s; times must "
+                         "be monotonic after t0 = %g s, up to t1 = %g s",
+                         k, times[k], last, study->t0, study->t1);
     }
     last = times[k];
   }
@@ -380,7 +379,7 @@ baum_status baum_study_set_reference(baum_study *study, const double *times, int
 {
   const char *call = "baum_study_set_reference";
   if (!study || !times || !q || n < 1) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study, times or q are NULL, or n is not >= 1", call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study, times or q are NULL, or n is below 1", call);
   }
   BAUM_I_TRY(check_digits(call, digits));
   BAUM_I_TRY(check_sample_times(study, times, n));

@@ -38,9 +38,9 @@ typedef struct baum_i_differences {
   double energy[2];
 } baum_i_differences;
 
-/* How far an entry is. MEASURED: errors and everything that belongs to the motion are known. TIMED:
- * work and time of an entry that is done, too. VALIDATED: error_validated, too, if it could be
- * found. */
+/* Stage of an entry. MEASURED: the errors and all other results of the motion are known. TIMED:
+ * work and time of an entry that is done are also known. VALIDATED: error_validated is also known,
+ * if it could be found. */
 typedef enum baum_i_stage {
   BAUM_I_ADDED,
   BAUM_I_MEASURED,
@@ -49,13 +49,13 @@ typedef enum baum_i_stage {
 } baum_i_stage;
 
 typedef struct baum_i_entry {
-  baum_study_entry out; /* name and message are those below */
+  baum_study_entry out; /* name and message point to the members below */
   baum_simulation_options options;
   double *row_gains; /* own copy of the option */
   char name[BAUM_I_NAME_SIZE];
   char message[BAUM_I_NOTE_SIZE];
   uint64_t key; /* of the options */
-  double limit; /* [s] the entry limit when it was measured */
+  double limit; /* [s] entry limit at which it was measured */
   baum_i_stage stage;
   baum_i_stage filed; /* of the study file when it was opened */
 } baum_i_entry;
@@ -72,7 +72,7 @@ typedef struct baum_i_samples {
 /* A method: entries that differ only in step or rtol. */
 typedef struct baum_i_study_method {
   uint64_t key;
-  int first;                   /* index of the first entry, for what all share */
+  int first;                   /* index of the first entry, which has the common options */
   char name[BAUM_I_NAME_SIZE]; /* name of its entries without step or tolerance */
   double too_fine;             /* step or rtol that reached the entry limit, else 0 */
 } baum_i_study_method;
@@ -82,7 +82,7 @@ typedef struct baum_i_study_reference {
   char text[BAUM_I_TEXT_SIZE];
   baum_i_samples samples;          /* values NULL: not made */
   baum_simulation_options options; /* of its best run; integrator NULL without one */
-  bool known;                      /* uncertainties are known: it was made, now or earlier */
+  bool known; /* uncertainties are known, because it was computed now or earlier */
 
   double *given[3]; /* q, v, lambda as given, or NULL */
   double digits;    /* as given */
@@ -115,8 +115,8 @@ struct baum_study {
   baum_i_study_method *methods; /* (method_count) */
   int method_count;
 
-  bool begun;   /* entries were run: what they depend on is fixed */
-  bool running; /* within baum_study_run(): its progress callback must change nothing */
+  bool begun;   /* entries have been run, so their common settings cannot change */
+  bool running; /* inside baum_study_run(), whose progress callback must not change the study */
   atomic_int cancelled;
 };
 
@@ -138,9 +138,9 @@ baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only
 
 /* ---- grid.c ---- */
 
-/* Finds the rate of the motion [1/s]: that at the start, or the mean |v| / characteristic length of
- * a rough run where that is larger. A rough run that fails counts up to its failure. Returns what
- * baum_simulation_create() returns, and BAUM_STOP_CANCELLED. */
+/* Finds the rate of the motion [1/s]: the rate at the start, or the mean |v| / characteristic
+ * length of a rough run if that is larger. A rough run that fails counts up to its failure. Returns
+ * what baum_simulation_create() returns, and BAUM_STOP_CANCELLED. */
 baum_status baum_i_study_rate(baum_study *study, double *rate);
 
 /* ---- names.c ---- */
@@ -168,7 +168,7 @@ void baum_i_study_clear_samples(baum_i_samples *samples);
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 
 /* Computes the weights of differences from the reference, whose samples must be known. Returns
- * BAUM_ERR_MEMORY and what an evaluation may fail with. */
+ * BAUM_ERR_MEMORY, or the status of a failed evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
 /* Compares samples of a run with a known motion, by the weights of the reference. */
@@ -222,7 +222,7 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 /* ---- reference.c ---- */
 
 /* Makes the reference. BAUM_OK, even where it is not trusted or none can be made; BAUM_ERR_MEMORY,
- * what the solution fails with, and what stops all runs. */
+ * the status of a failed solution, or a status that stops all runs. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
 
 /* Sets the times of the samples, by the options or as given. */
@@ -260,8 +260,8 @@ baum_status baum_i_study_file_close(baum_i_study_file *file);
 /* Finds or adds the method of an entry's options; -1 without memory. */
 int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int entry);
 
-/* Tells whether an entry may be recommended: done, timed, with an error of the motion asked for,
- * and with gains that damp. */
+/* Tells whether an entry may be recommended: it is done and timed, followed the right motion, and
+ * its gains damp violations. */
 bool baum_i_study_is_answer(const baum_i_entry *entry);
 
 /* Lists the entries of a method that are done, timed and not off, from coarse to fine, and returns

@@ -10,7 +10,7 @@
  * entries may be added in any order. SUM is over the line before it and, in all lines but the
  * first, over the first line. A line that is cut off, damaged or of another study is therefore no
  * result, and its entry is run again. An entry has a line for each stage, with everything known by
- * then. Of two lines of one stage the first that has not timed out counts. */
+ * then. Of two lines of one stage, the first one without a timeout counts. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -60,9 +60,9 @@ static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed
   return BAUM_OK;
 }
 
-/* ---- whose file it is ---- */
+/* ---- identity of the study ---- */
 
-/* Something that must be the same, and how it is called. */
+/* A property that must be the same, and its name in messages. */
 typedef struct mark {
   const char *name;
   const char *what;
@@ -114,7 +114,7 @@ static void mark_study(const baum_study *study, mark marks[MARKS])
     {"numbers", "the numbers of the mechanism", print.numbers},
     {"span", "the time span", digest_numbers(span, 2, 0)},
     {"samples", "the samples", digest_numbers(r->samples.times, (size_t)r->samples.n, 0)},
-    {"error", "what error means", digest_error(study)},
+    {"error", "the definition of the error", digest_error(study)},
     {"account", "the option energy_account", study->options.energy_account},
     {"reference", "the reference", digest_reference(study)},
     {"library", "the version of the library", 0},
@@ -285,7 +285,7 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
   *is_new = true;
   *whole = true;
   if (baum_i_is_no_file(file->path)) {
-    return baum_i_fail(BAUM_ERR_FILE, "study: file %s is no regular file", file->path);
+    return baum_i_fail(BAUM_ERR_FILE, "study: file %s is not a regular file", file->path);
   }
   errno = 0;
   file->stream = fopen(file->path, "r");
@@ -310,11 +310,11 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* A line that was cut off becomes a line of its own, which is no result. */
+  /* A truncated line becomes a separate line, which is not a result. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 
-/* Writes what is known but not in the file, whose disk may have been full. */
+/* Writes results that are known but not in the file, because its disk may have been full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   for (int k = 0; k < study->entry_count; k++) {

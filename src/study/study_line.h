@@ -21,7 +21,7 @@ void baum_i_study_write_text(char line[BAUM_I_STUDY_LINE], const char *text);
 /* Appends the sum over the line and `seed`, and ends the line. */
 void baum_i_study_seal(char line[BAUM_I_STUDY_LINE], uint64_t seed);
 
-/* Removes the sum from a line that agrees with it; false for others. */
+/* Removes the sum from a line if it is correct; otherwise returns false. */
 bool baum_i_study_unseal(char *line, uint64_t seed);
 
 #endif

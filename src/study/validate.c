@@ -3,8 +3,8 @@
  * on the method: from one revolution to the next they may grow by a factor of 100. Entries that may
  * be recommended are therefore run again over twice the span, from the design configuration and
  * from two other starts whose velocities differ by NUDGE of their size or, at rest, of the rate of
- * the motion. Each start has a reference, by the setting of the study's own. Entries that cost more
- * than NEAR times another one that is as exact are not validated. */
+ * the motion. Each start has a reference, computed with the setting of the study's reference.
+ * Entries that cost more than NEAR times an equally accurate one are not validated. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is restored is looked at first: buffers that are cut off, damaged or of something else are
+/* What is restored is looked at first: buffers that are truncated, damaged or of something else are
  * refused with a message that says so, and the run is as it was. */
 #include <math.h>
 #include <setjmp.h>
@@ -123,7 +123,7 @@ static void cut_off_at_every_length(void **state)
     unsigned char *part = malloc(size + 1);
     assert_non_null(part);
     memcpy(part + 1, s.other.bytes, size); /* not aligned */
-    check_refused(s.run, part + 1, size, "cut off");
+    check_refused(s.run, part + 1, size, "truncated");
     free(part);
   }
   close_scene(&s);
@@ -373,14 +373,14 @@ static void runs_with_other_options(void **state)
 {
   (void)state;
   static const other_options cases[] = {
-    {"the integrator is rk3 there and rk4 here", use_rk3},
-    {"the formulation is projection there and baumgarte here", use_projection},
-    {"the integrator is rk8 there and rk4 here", use_rtol},
-    {"step is 0.002 there and 0.001 here", use_step},
-    {"the rule of the gains is", use_gains},
-    {"energy_account is 1 there and 0 here", use_account},
-    {"solver is 1 there and 0 here", use_solver},
-    {"row_gain_count is 1 there and 0 here", use_row_gains},
+    {"the integrator is rk3 in the buffer and rk4 in this run", use_rk3},
+    {"the formulation is projection in the buffer and baumgarte in this run", use_projection},
+    {"the integrator is rk8 in the buffer and rk4 in this run", use_rtol},
+    {"step is 0.002 in the buffer and 0.001 in this run", use_step},
+    {"the gain rule is", use_gains},
+    {"energy_account is 1 in the buffer and 0 in this run", use_account},
+    {"solver is 1 in the buffer and 0 in this run", use_solver},
+    {"row_gain_count is 1 in the buffer and 0 in this run", use_row_gains},
   };
   scene s = open_scene();
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -142,10 +142,10 @@ static void choices_that_are_none_are_refused(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation_options o = good_options();
   o.start = (baum_start)3;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "start is 3, is no baum_start");
+  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "start is 3, must be one of baum_start");
   o = good_options();
   o.solver = (baum_solver)9;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "solver is 9, is no baum_solver");
+  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "solver is 9, must be one of baum_solver");
   o = good_options();
   o.max_steps = 0;
   check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_steps is 0, must be > 0");
@@ -287,13 +287,14 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
     char message[128];
     baum_simulation_options o = good_options();
     o.integrator = pairs[k];
-    (void)snprintf(message, sizeof message, "%s takes step|or rtol|and neither is given",
+    (void)snprintf(message, sizeof message, "%s takes either step|or rtol|neither is given",
                    baum_integrator_name(pairs[k]));
     o.step = (double)NAN;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, message);
     o.step = 1e-3;
     o.rtol = 1e-6;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "takes step|or rtol|not both");
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                  "takes either step|or rtol|both are given");
     o.rtol = (double)NAN;
     o.max_step = 0.1;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0.1|give step alone");

@@ -102,7 +102,8 @@ static void orientations_that_are_no_unit_quaternion_are_refused(void **state)
 static void inertias_of_no_body_are_refused(void **state)
 {
   (void)state;
-  static const char positive[] = "inertia has the principal moments | kg m^2, all must be > 0";
+  static const char positive[] =
+    "inertia has the principal moments | kg m^2; two must be > 0, and none < 0";
   static const char triangle[] = "kg m^2; of a body none is above the sum of the other two";
   static const struct {
     double inertia[6]; /* xx, yy, zz, xy, xz, yz */

@@ -93,9 +93,8 @@ static void exact_refuses_a_configuration_that_is_not(void **state)
   (void)state;
   bead_def def = GOOD_BEAD;
   def.length = 1.01;
-  check_bead_refused(
-    &def, BAUM_START_EXACT,
-    "t = 0 s: the start is not exact: joint 1 \"rod\" has Phi = -0.00995 m or rad");
+  check_bead_refused(&def, BAUM_START_EXACT,
+                     "t = 0 s: start is exact, but joint 1 \"rod\" has Phi = -0.00995 m or rad");
 }
 
 static void exact_refuses_velocities_that_are_not(void **state)
@@ -104,9 +103,8 @@ static void exact_refuses_velocities_that_are_not(void **state)
   bead_def def = GOOD_BEAD;
   def.v[0] = 0.5;
   def.v[1] = 2.0;
-  check_bead_refused(
-    &def, BAUM_START_EXACT,
-    "t = 0 s: the start is not exact: joint 1 \"rod\" has Phi' = 0.5 m/s or rad/s");
+  check_bead_refused(&def, BAUM_START_EXACT,
+                     "t = 0 s: start is exact, but joint 1 \"rod\" has Phi' = 0.5 m/s or rad/s");
 }
 
 static void given_velocities_that_conflict_are_named(void **state)

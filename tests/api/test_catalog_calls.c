@@ -202,7 +202,7 @@ static void parameters_out_of_range_are_refused(void **state)
   }
   const baum_catalog_choice lost = {"chain", NULL, 1};
   baum_mechanism *out = NULL;
-  ASSERT_SAYS(baum_catalog_build(&lost, &out), BAUM_ERR_ARGUMENT, "settings is NULL");
+  ASSERT_SAYS(baum_catalog_build(&lost, &out), BAUM_ERR_ARGUMENT, "settings are NULL");
 }
 
 static void a_reference_that_does_not_hold_is_not_given(void **state)

@@ -313,7 +313,8 @@ static void what_entries_depend_on_stays_once_they_are_run(void **state)
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   o.samples++;
   ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STATE, "samples can no longer change");
-  ASSERT_SAYS(baum_study_set_error(study, &q, 1, 1.0), BAUM_ERR_STATE, "what error means");
+  ASSERT_SAYS(baum_study_set_error(study, &q, 1, 1.0), BAUM_ERR_STATE,
+              "the definition of the error");
   const double t = 1.0;
   const double place[2] = {0.0, -1.0};
   ASSERT_SAYS(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_ERR_STATE,

@@ -338,7 +338,7 @@ static void what_is_no_regular_file_is_refused(void **state)
   assert_int_equal(remove(s.path), 0);
   assert_int_equal(mkfifo(s.path, 0600), 0);
   baum_study *study = study_of(&s);
-  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "is no regular file");
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "is not a regular file");
   baum_study_destroy(study);
   end_scene(&s);
 }

@@ -171,13 +171,13 @@ static void what_is_no_unit_no_entry_and_no_cost_is_refused(void **state)
   ASSERT_SAYS(baum_study_entry_at(study, 1, &entry, sizeof entry), BAUM_ERR_ARGUMENT,
               "k is 1, must be 0 to 0");
   ASSERT_SAYS(baum_study_front(study, none, 0, NULL, &count), BAUM_ERR_ARGUMENT,
-              "7 is no baum_study_cost");
+              "cost is 7, must be one of baum_study_cost");
   ASSERT_SAYS(baum_study_front(study, BAUM_STUDY_WORK, 3, NULL, &count), BAUM_ERR_ARGUMENT,
               "entries are NULL");
   ASSERT_SAYS(baum_study_compare(study, 0, 0, 1e-3, BAUM_STUDY_WORK, NULL), BAUM_ERR_ARGUMENT,
               "ratio is NULL");
   ASSERT_SAYS(baum_study_cost_at(study, 0, 1e-3, none, &number), BAUM_ERR_ARGUMENT,
-              "7 is no baum_study_cost");
+              "cost is 7, must be one of baum_study_cost");
   ASSERT_SAYS(baum_study_recommend(study, 0.0, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
               BAUM_ERR_ARGUMENT, "error is 0, must be finite and > 0");
   baum_study_destroy(study);

@@ -121,9 +121,50 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
   assert_int_equal(tally.wrong_unique, 0);
 }
 
+/* A spatial body of 2 kg is welded to a planar one, which the plane bears: the weld bears its
+ * weight across the plane, though the planar body has no velocity there. */
+static void planar_bodies_bear_forces_across_their_plane(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  baum_body_id planar;
+  baum_body_id load;
+  baum_joint_id joint;
+  baum_workspace *w = NULL;
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, -10.0));
+  baum_planar_body_def flat = baum_planar_body_def_default();
+  check(baum_mechanism_add_planar_body(m, &flat, &planar));
+  baum_spatial_body_def body = baum_spatial_body_def_default();
+  body.mass = 2.0;
+  body.position[0] = 0.5;
+  check(baum_mechanism_add_spatial_body(m, &body, &load));
+  baum_spatial_fixed_def weld = baum_spatial_fixed_def_default();
+  weld.body_a = load;
+  weld.body_b = planar;
+  memset(weld.point, 0, sizeof weld.point);
+  check(baum_mechanism_add_spatial_fixed(m, &weld, &joint));
+  check(baum_mechanism_freeze(m));
+  check(baum_workspace_create(m, &w));
+  static const double want[6] = {0.0, 0.0, -20.0, 0.0, 10.0, 0.0};
+  const double v[9] = {0.0};
+  double q[10];
+  double lambda[6];
+  double reaction[6];
+  check(baum_workspace_design(w, q, NULL));
+  check(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda));
+  check(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction));
+  for (int i = 0; i < 6; i++) {
+    assert_true(fabs(reaction[i] - want[i]) <= 1e-13 * 20.0); /* rounding */
+  }
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(planar_bodies_bear_forces_across_their_plane),
     cmocka_unit_test(a_light_bracket_carries_what_hangs_on_it),
     cmocka_unit_test(only_joints_that_share_forces_are_named),
     cmocka_unit_test(a_pin_and_a_weld_share_by_halves_at_any_mass),

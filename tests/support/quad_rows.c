@@ -4,50 +4,35 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "quad.h"
-
-typedef struct system {
-  int nv;
-  int nc;
-  double *mass; /* as read */
-  double *jacobian;
-  double *force;
-  double *gamma;
-  wide *factor; /* (nv x nv) L */
-  wide *w;      /* (nc x nv) columns of W, then of Q: column k from k nv on */
-  wide *r;      /* (nc x nc) R in the order of the pivots */
-  wide *c;      /* (nc) right sides in that order */
-  wide *y;      /* (nv) */
-  wide *work;   /* (nv + nc) */
-} system_of_rows;
-
 /* ---- memory ---- */
 
-static bool begin(system_of_rows *s, int nv, int nc)
+bool quad_equations_create(quad_equations *s, int nv, int nc)
 {
   size_t v = (size_t)nv;
   size_t r = (size_t)nc;
-  *s = (system_of_rows){.nv = nv, .nc = nc};
-  s->mass = calloc(v * v + r * v + v + r + 1, sizeof *s->mass);
-  s->factor = calloc(v * v + r * v + r * r + r + v + v + r + 1, sizeof *s->factor);
-  if (!s->mass || !s->factor) {
+  *s = (quad_equations){.nv = nv, .nc = nc};
+  s->mass = calloc(2 * v * v + 2 * r * v + r * r + 3 * v + 4 * r + 1, sizeof *s->mass);
+  s->order = calloc(r + 1, sizeof *s->order);
+  if (!s->mass || !s->order) {
     return false;
   }
   s->jacobian = s->mass + v * v;
   s->force = s->jacobian + r * v;
   s->gamma = s->force + v;
+  s->factor = s->gamma + r;
   s->w = s->factor + v * v;
   s->r = s->w + r * v;
   s->c = s->r + r * r;
-  s->y = s->c + r;
+  s->length = s->c + r;
+  s->y = s->length + r;
   s->work = s->y + v;
   return true;
 }
 
-static void finish(system_of_rows *s)
+void quad_equations_destroy(quad_equations *s)
 {
   free(s->mass);
-  free(s->factor);
+  free(s->order);
 }
 
 static wide dot(const wide *a, const wide *b, int count)
@@ -61,7 +46,7 @@ static wide dot(const wide *a, const wide *b, int count)
 
 /* ---- M = L L^T ---- */
 
-static bool factor_mass(const system_of_rows *s)
+static bool factor_mass(const quad_equations *s)
 {
   int n = s->nv;
   for (int i = 0; i < n; i++) {
@@ -79,7 +64,7 @@ static bool factor_mass(const system_of_rows *s)
 }
 
 /* x := L^-1 x */
-static void solve_lower(const system_of_rows *s, wide *x)
+static void solve_lower(const quad_equations *s, wide *x)
 {
   for (int i = 0; i < s->nv; i++) {
     const wide *row = s->factor + (size_t)i * (size_t)s->nv;
@@ -88,7 +73,7 @@ static void solve_lower(const system_of_rows *s, wide *x)
 }
 
 /* x := L^-T x */
-static void solve_upper(const system_of_rows *s, wide *x)
+static void solve_upper(const quad_equations *s, wide *x)
 {
   for (int i = s->nv - 1; i >= 0; i--) {
     const wide *row = s->factor + (size_t)i * (size_t)s->nv;
@@ -101,17 +86,17 @@ static void solve_upper(const system_of_rows *s, wide *x)
 
 /* ---- W = Q R ---- */
 
-static wide *column(const system_of_rows *s, int k)
+static wide *column(const quad_equations *s, int k)
 {
   return s->w + (size_t)k * (size_t)s->nv;
 }
 
-static wide *entry(const system_of_rows *s, int i, int k)
+static wide *entry(const quad_equations *s, int i, int k)
 {
   return &s->r[i * s->nc + k];
 }
 
-static void make_columns(const system_of_rows *s)
+static void make_columns(const quad_equations *s)
 {
   for (int k = 0; k < s->nc; k++) {
     wide *w = column(s, k);
@@ -123,7 +108,9 @@ static void make_columns(const system_of_rows *s)
     for (int i = 0; i < s->nv && length > 0; i++) {
       w[i] /= length;
     }
-    s->c[k] = length > 0 ? s->gamma[k] / length : s->gamma[k];
+    s->length[k] = length > 0 ? length : 1;
+    s->c[k] = s->gamma[k] / s->length[k];
+    s->order[k] = k;
   }
 }
 
@@ -134,7 +121,7 @@ static void exchange(wide *a, wide *b)
   *b = kept;
 }
 
-static void bring_up(const system_of_rows *s, int k, int best)
+static void bring_up(const quad_equations *s, int k, int best)
 {
   for (int i = 0; i < s->nv; i++) {
     exchange(&column(s, k)[i], &column(s, best)[i]);
@@ -143,10 +130,13 @@ static void bring_up(const system_of_rows *s, int k, int best)
     exchange(entry(s, i, k), entry(s, i, best));
   }
   exchange(&s->c[k], &s->c[best]);
+  int kept = s->order[k];
+  s->order[k] = s->order[best];
+  s->order[best] = kept;
 }
 
 /* Takes column k, of length 1 now, out of all behind it; twice, so that it is gone. */
-static void take_out(const system_of_rows *s, int k)
+static void take_out(const quad_equations *s, int k)
 {
   const wide *q = column(s, k);
   for (int j = k + 1; j < s->nc; j++) {
@@ -162,7 +152,7 @@ static void take_out(const system_of_rows *s, int k)
 }
 
 /* Returns the length of the column with which it ended, 0 after the last. */
-static wide factor_rows(const system_of_rows *s, int *rank)
+static wide factor_rows(const quad_equations *s, int *rank)
 {
   for (int k = 0; k < s->nc; k++) {
     int best = k;
@@ -191,7 +181,7 @@ static wide factor_rows(const system_of_rows *s, int *rank)
 /* ---- solution ---- */
 
 /* x := R^-T x, of the first `rank` rows and columns. */
-static void solve_transposed(const system_of_rows *s, int rank, wide *x)
+static void solve_transposed(const quad_equations *s, int rank, wide *x)
 {
   for (int k = 0; k < rank; k++) {
     for (int i = 0; i < k; i++) {
@@ -202,7 +192,7 @@ static void solve_transposed(const system_of_rows *s, int rank, wide *x)
 }
 
 /* x := R^-1 x likewise. */
-static void solve_straight(const system_of_rows *s, int rank, wide *x)
+static void solve_straight(const quad_equations *s, int rank, wide *x)
 {
   for (int i = rank - 1; i >= 0; i--) {
     for (int k = i + 1; k < rank; k++) {
@@ -213,7 +203,7 @@ static void solve_straight(const system_of_rows *s, int rank, wide *x)
 }
 
 /* By inverse iteration on R^T R; ten turns have the smallest to a digit or two. */
-static wide smallest_singular_value(const system_of_rows *s, int rank)
+static wide smallest_singular_value(const quad_equations *s, int rank)
 {
   wide *x = s->work;
   wide size = 1;
@@ -233,7 +223,7 @@ static wide smallest_singular_value(const system_of_rows *s, int rank)
 }
 
 /* y from L^-1 g to where the independent rows hold. */
-static void move_onto_rows(const system_of_rows *s, int rank)
+static void move_onto_rows(const quad_equations *s, int rank)
 {
   wide *x = s->work;
   for (int k = 0; k < rank; k++) {
@@ -249,7 +239,7 @@ static void move_onto_rows(const system_of_rows *s, int rank)
 }
 
 /* Of the rows behind the rank: their columns of W are those of R times Q. */
-static double largest_conflict(const system_of_rows *s, int rank, wide size)
+static double largest_conflict(const quad_equations *s, int rank, wide size)
 {
   wide worst = 0;
   wide *along = s->work; /* Q^T y */
@@ -276,13 +266,14 @@ static double largest(const wide *x, int count)
   return most;
 }
 
-static bool solve(const system_of_rows *s, double *a, quad_rows *out)
+bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out)
 {
   if (!factor_mass(s)) {
     return false;
   }
   make_columns(s);
   wide gap = factor_rows(s, &out->rank);
+  s->rank = out->rank;
   for (int i = 0; i < s->nv; i++) {
     s->y[i] = s->force[i];
   }
@@ -298,36 +289,121 @@ static bool solve(const system_of_rows *s, double *a, quad_rows *out)
   out->conflict = largest_conflict(s, out->rank, size);
   out->kept = out->rank > 0 ? (double)smallest_singular_value(s, out->rank) : 1.0;
   out->distance = out->rank < s->nc ? (double)gap : out->kept;
-  solve_upper(s, s->y);
-  out->size = fmax(out->size, largest(s->y, s->nv));
   for (int i = 0; i < s->nv; i++) {
-    a[i] = (double)s->y[i];
+    a[i] = s->y[i];
   }
+  solve_upper(s, a);
+  out->size = fmax(out->size, largest(a, s->nv));
   return true;
+}
+
+/* Multipliers of the rows as they were given, from those of the scaled ones in s->work. */
+static void unscale(const quad_equations *s, wide *lambda)
+{
+  for (int k = 0; k < s->nc; k++) {
+    lambda[s->order[k]] = k < s->rank ? s->work[k] / s->length[s->order[k]] : 0;
+  }
+}
+
+/* W lambda = L^-1 g - y, along Q. */
+void quad_equations_multipliers(const quad_equations *s, wide *lambda)
+{
+  wide *rest = s->work + s->nc;
+  for (int i = 0; i < s->nv; i++) {
+    rest[i] = s->force[i];
+  }
+  solve_lower(s, rest);
+  for (int i = 0; i < s->nv; i++) {
+    rest[i] -= s->y[i];
+  }
+  for (int k = 0; k < s->rank; k++) {
+    s->work[k] = dot(column(s, k), rest, s->nv);
+  }
+  solve_straight(s, s->rank, s->work);
+  unscale(s, lambda);
+}
+
+void quad_equations_null(const quad_equations *s, int k, wide *lambda)
+{
+  int behind = s->rank + k;
+  for (int i = 0; i < s->rank; i++) {
+    s->work[i] = -*entry(s, i, behind);
+  }
+  solve_straight(s, s->rank, s->work);
+  unscale(s, lambda);
+  lambda[s->order[behind]] = 1 / s->length[s->order[behind]];
+}
+
+/* ---- the library's own equations ---- */
+
+typedef struct read_equations {
+  double *mass;
+  double *jacobian;
+  double *force;
+  double *gamma;
+} read_equations;
+
+static bool begin(quad_equations *s, read_equations *read, int nv, int nc)
+{
+  size_t v = (size_t)nv;
+  size_t r = (size_t)nc;
+  read->mass = calloc(v * v + r * v + v + r + 1, sizeof *read->mass);
+  if (!quad_equations_create(s, nv, nc) || !read->mass) {
+    return false;
+  }
+  read->jacobian = read->mass + v * v;
+  read->force = read->jacobian + r * v;
+  read->gamma = read->force + v;
+  return true;
+}
+
+static bool solve(quad_equations *s, const read_equations *read, double *a, quad_rows *out)
+{
+  size_t count = (size_t)(s->nv * s->nv + s->nc * s->nv + s->nv + s->nc);
+  for (size_t i = 0; i < count; i++) { /* both have the same order */
+    s->mass[i] = read->mass[i];
+  }
+  wide *found = calloc((size_t)s->nv + 1, sizeof *found);
+  bool done = found && quad_equations_solve(s, found, out);
+  for (int i = 0; i < s->nv && done; i++) {
+    a[i] = (double)found[i];
+  }
+  free(found);
+  return done;
+}
+
+static void finish(quad_equations *s, read_equations *read)
+{
+  quad_equations_destroy(s);
+  free(read->mass);
 }
 
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out)
 {
-  system_of_rows s;
-  bool done = begin(&s, nv, nc) && baum_workspace_mass(workspace, t, q, s.mass) == BAUM_OK &&
-              baum_workspace_jacobian(workspace, t, q, s.jacobian) == BAUM_OK &&
-              baum_workspace_force(workspace, t, q, v, s.force) == BAUM_OK &&
-              baum_workspace_gamma(workspace, t, q, v, s.gamma) == BAUM_OK && solve(&s, a, out);
-  finish(&s);
+  quad_equations s;
+  read_equations read;
+  bool done =
+    begin(&s, &read, nv, nc) && baum_workspace_mass(workspace, t, q, read.mass) == BAUM_OK &&
+    baum_workspace_jacobian(workspace, t, q, read.jacobian) == BAUM_OK &&
+    baum_workspace_force(workspace, t, q, v, read.force) == BAUM_OK &&
+    baum_workspace_gamma(workspace, t, q, v, read.gamma) == BAUM_OK && solve(&s, &read, a, out);
+  finish(&s, &read);
   return done;
 }
 
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out)
 {
-  system_of_rows s;
-  bool done = begin(&s, nv, nc) && baum_workspace_mass(workspace, t, q, s.mass) == BAUM_OK &&
-              baum_workspace_jacobian(workspace, t, q, s.jacobian) == BAUM_OK;
+  quad_equations s;
+  read_equations read;
+  bool done = begin(&s, &read, nv, nc) &&
+              baum_workspace_mass(workspace, t, q, read.mass) == BAUM_OK &&
+              baum_workspace_jacobian(workspace, t, q, read.jacobian) == BAUM_OK;
   for (int i = 0; i < nv * nv && done; i++) {
-    s.force[i / nv] += s.mass[i] * v[i % nv];
+    read.force[i / nv] += read.mass[i] * v[i % nv];
   }
-  done = done && solve(&s, projected, out);
-  finish(&s);
+  done = done && solve(&s, &read, projected, out);
+  finish(&s, &read);
   return done;
 }

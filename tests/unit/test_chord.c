@@ -92,7 +92,8 @@ static void rods_in_line_are_singular(void **state)
       check(status);
       status = baum_i_chord_change(w, &chord, 0.25, beside);
     }
-    ASSERT_SAYS(status, BAUM_ERR_SINGULAR, "t = 0.25 s: the constraints are singular here");
+    ASSERT_SAYS(status, BAUM_ERR_SINGULAR,
+                "t = 0.25 s: the constraints are singular in this configuration");
     baum_workspace_destroy(w);
   }
 }

@@ -179,7 +179,7 @@ static void deadbeat_is_refused_where_there_is_none_with_the_best_point(void **s
                    c.alpha * H, (c.beta * H) * (c.beta * H), c.amplification.spectral_radius,
                    c.alpha, c.beta);
     refused(baum_gains_deadbeat(), fixed_step(m), BAUM_ERR_UNSUPPORTED,
-            "has no dead-beat point, for it remembers violations of earlier steps", best);
+            "has no dead-beat point, because its past steps keep violations", best);
     has(baum_message(), names[m]);
   }
 }

@@ -62,7 +62,7 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   baum_simulation *run = open_run(mechanism);
   double end = 10.0 / fabs(data->drive.rate);
   ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
-              "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|above "
+              "t = |kinematics: the mechanism locks up here: |\"motor\" demands more than|above "
               "all joint ");
   double t = baum_simulation_time(run);
   double angle = data->drive.angle + data->drive.rate * t;

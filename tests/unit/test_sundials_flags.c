@@ -35,7 +35,7 @@ static const struct {
   {CV_CONV_FAILURE, IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE, "iteration does not converge"},
   {CV_TOO_CLOSE, 0, BAUM_ERR_STEP, "no first step can be found"}, /* IDA has none */
   {CV_LSETUP_FAIL, IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR, "cannot be factored; take"},
-  {CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR, "cannot be solved with; take"},
+  {CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR, "iteration failed; take"},
   {CV_NLS_FAIL, IDA_NLS_FAIL, BAUM_ERR_CONVERGENCE, "iteration failed; take"},
   {CV_ILL_INPUT, IDA_ILL_INPUT, BAUM_ERR_NOT_FINITE, "not finite; the motion grows"},
   {CV_MEM_FAIL, IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same from beta = -0.062, A03 of IFToMM and A Coruna.
- * Columns: beta, Theta, gamma, Phi, delta, Omega, epsilon. */
+/* Andrews' mechanism started at beta = -0.062, problem A03 of IFToMM and A Coruna. Columns: beta,
+ * Theta, gamma, Phi, delta, Omega, epsilon. */
 #ifndef BAUM_I_CATALOG_DATA_ANDREWS_A03_H
 #define BAUM_I_CATALOG_DATA_ANDREWS_A03_H
 

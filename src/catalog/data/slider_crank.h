@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of Flores, Leine, Glocker, free, crank at 150 rad/s at start.
- * Q: angle of the crank. */
+/* Slider-crank of Flores, Leine, Glocker without a driver; the crank starts at 150 rad/s. Q: angle
+ * of the crank. */
 #ifndef BAUM_I_CATALOG_DATA_SLIDER_CRANK_H
 #define BAUM_I_CATALOG_DATA_SLIDER_CRANK_H
 

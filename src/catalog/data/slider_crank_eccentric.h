@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same with an eccentricity of 0.05 m.
- * Q: angle of the crank. */
+/* Slider-crank of Flores, Leine, Glocker with an eccentricity of 0.05 m. Q: angle of the crank. */
 #ifndef BAUM_I_CATALOG_DATA_SLIDER_CRANK_ECCENTRIC_H
 #define BAUM_I_CATALOG_DATA_SLIDER_CRANK_ECCENTRIC_H
 

@@ -13,7 +13,7 @@
  * at rest, the two sides differ by as much at any step. The function has no derivative there, and
  * the check passes.
  *
- * The check evaluates the design configuration and three configurations near it, where nothing is
+ * The check evaluates the design configuration and three configurations near it, where no value is
  * zero or symmetric by chance. Phi is not zero there, so the derivatives must be those of the
  * function and not only hold where the constraint is met. If a function refuses a configuration,
  * the check skips it; if it refuses all of them, the check fails. (A function may refuse the design
@@ -39,13 +39,13 @@ typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value one step before */
   double *value;    /* best */
-  double *error;    /* of the best; < 0 once the given value is found right */
-  double *quality;  /* of the best: error in units of how much the function varied */
+  double *error;    /* error of the best value; < 0 once the given value is found right */
+  double *quality;  /* error of the best value, relative to the variation of the function */
   double *step;     /* of the best */
   double *wrong;    /* number of steps at which the given value looks wrong */
 } trial;
 
-/* The given values of a ray, and the sizes for their rounding. */
+/* The given values along a ray, and the sizes that determine their rounding. */
 typedef struct column {
   const baum_i_claim *claim;
   const baum_i_stencil *stencil;
@@ -85,7 +85,7 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Keep the best step. The first step has an error of NaN and is never the best. */
+/* Keep the results of the best step. The first step has an error of NaN and is never the best. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -168,7 +168,7 @@ static baum_status compare(const column *c, const baum_i_local *at)
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
-      return BAUM_OK; /* so near the edge of the function's domain differences tell nothing */
+      return BAUM_OK; /* differences are useless so near the edge of the function's domain */
     }
     if (status == BAUM_OK && judge_step(c, &t, step)) {
       return BAUM_OK;

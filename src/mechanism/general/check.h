@@ -8,7 +8,7 @@
 /* A given derivative to check. */
 typedef struct baum_i_claim {
   const baum_i_user_function *function; /* "jacobian", with its shape */
-  const char *source;                   /* what was differenced, for the message: "phi" */
+  const char *source;                   /* function that was differenced, for the message: "phi" */
   const double *given;                  /* its values at the place */
 } baum_i_claim;
 

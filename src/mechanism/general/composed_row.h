@@ -15,7 +15,7 @@ enum { BAUM_I_COMPOSED_BODIES = 4, BAUM_I_COMPOSED_COLUMNS = 3 * BAUM_I_COMPOSED
 /* One of the two coordinates. */
 typedef struct baum_i_inner {
   baum_i_coordinate c;
-  baum_i_coordinate_blocks blocks; /* for lambda = 1; only for linearize */
+  baum_i_coordinate_blocks blocks; /* with lambda = 1; only for linearize */
   int at[2];                       /* where the three columns of each of its bodies begin */
 } baum_i_inner;
 
@@ -27,7 +27,7 @@ typedef struct baum_i_outer {
   double third[4];  /* G_000, G_001, G_011, G_111; only for gamma_q */
 } baum_i_outer;
 
-/* The six columns of a coordinate from those of the row. */
+/* Extract the six columns of a coordinate from the columns of the row. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
 
 /* Write the wanted parts of a row at the places of its joint. */

@@ -6,7 +6,7 @@
 #include "mechanism/identify.h"
 
 /* Check that a joint in a definition exists and has a coordinate: BAUM_OK or BAUM_ERR_ARGUMENT. The
- * purpose ends the message: "to drive". */
+ * purpose, such as "to drive", ends the message. */
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     const char *label, const char *field, const char *purpose);
 

@@ -2,7 +2,8 @@
 /* Generalized coordinates of the user: q and v of any size, with functions for the mass M(q, t) and
  * the force g(q, v, t). v = q', or q' = N(q) v with the functions of coordinates_manifold.c.
  *
- * Derivatives of g that are not given come from differences (difference.c). Those of M a always do.
+ * Derivatives of g that are not given come from differences (difference.c). Derivatives of M a
+ * always do.
  */
 #include <math.h>
 #include <string.h>
@@ -251,7 +252,7 @@ static baum_status linearize(const baum_i_body *body, baum_i_point *point, const
   return baum_i_given_force_block(&f, &at, BAUM_I_VARIABLE_V, force_v);
 }
 
-/* ---- checking what is given ---- */
+/* ---- checks of the user's functions ---- */
 
 static baum_status check_symmetry(const baum_i_body *body, const double *block)
 {
@@ -275,7 +276,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
   return BAUM_OK;
 }
 
-/* Only in the design configuration: coordinates near it may lie where M has no meaning. */
+/* Checked in the design configuration only, because M may have no meaning at coordinates near
+ * it. */
 static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, const double *block)
 {
   int n = body->nv;

@@ -164,7 +164,7 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
     if (!(fabs(dx[i] - 0.3 * at->v[i]) <= AGREEMENT * at->scale[i] * baum_i_local_rate(at))) {
       char text[BAUM_I_ENTRY_SIZE];
       baum_i_user_function f = function(body, "difference", body->nv);
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but move went by %.9g",
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but move() was given %.9g",
                          baum_i_user_entry(&f, i, text), dx[i], 0.3 * at->v[i]);
     }
   }

@@ -72,7 +72,7 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return BAUM_OK;
 }
 
-/* Place of a body among the first `count`; count when it is not there. */
+/* Place of a body among the first `count` bodies; count if it is not among them. */
 static int find(const int *bodies, int count, int body)
 {
   int k = 0;
@@ -227,7 +227,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   return BAUM_OK;
 }
 
-/* ---- checking what is given ---- */
+/* ---- checks of the user's law ---- */
 
 static baum_status law_field(const void *joint, const baum_i_local *at, double *out)
 {

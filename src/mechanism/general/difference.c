@@ -6,7 +6,8 @@
  *
  * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant
  * changes the best steps are near 2^-8 and 2^-6. The steps here are a little smaller, so functions
- * that vary three times as fast as announced lose nothing. The errors are about 1e-13 and 1e-11.
+ * that vary three times as fast as announced lose no accuracy. The errors are about 1e-13 and
+ * 1e-11.
  *
  * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two
  * orders agree to 1e-7, the sixth order is good to about 1e-11; first derivatives can require 1e-9.
@@ -17,7 +18,7 @@
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
  *
- * Where q is no vector, a moved q is rounded, and F inherits this rounding, however small F is.
+ * If q is not a vector, moving q rounds it. F inherits this rounding error, however small F is.
  *
  * Central differences use both sides: F is evaluated up to 3 h before and after the present time.
  */
@@ -39,7 +40,7 @@ const baum_i_stencil baum_i_stencil_first = {
   .agreement = 1e-9,
 };
 
-/* For fields with an error of 1e-11, which must not be divided by a small step. */
+/* For fields with an error of 1e-11, because dividing it by a small step would enlarge it. */
 static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
@@ -218,8 +219,9 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* Evaluate F where q alone is moved by half a relevant change. Its size there bounds the effect of
- * the rounding of q, because F may be zero all along a motion. A failure there is ignored. */
+/* Evaluate F where q alone is moved by half a relevant change. The size of F there bounds the
+ * effect of the rounding of q, because F itself may be zero all along a motion. A failure there is
+ * ignored. */
 static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;
@@ -277,7 +279,8 @@ static bool keep_improved(const baum_i_estimate *now, double agreement, double *
       best[i] = -1.0;
       continue;
     }
-    /* Go on while it helps, and while the orders disagree by far more than rounding explains. */
+    /* Continue while this helps, and while the orders disagree by far more than rounding
+     * explains. */
     double apart = now->error[i] / now->variation[i];
     bool helps = apart < 0.5 * best[i];
     bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];

@@ -69,7 +69,7 @@ typedef struct baum_i_stencil {
 extern const baum_i_stencil baum_i_stencil_first;
 extern const baum_i_stencil baum_i_stencil_second;
 
-/* Result of one step size; arrays (size). */
+/* Results of one step size; arrays (size). */
 typedef struct baum_i_estimate {
   double *value;     /* of sixth order */
   double *error;     /* disagreement of the orders: far above the error of value at a good step */

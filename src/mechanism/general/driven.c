@@ -137,3 +137,15 @@ void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, d
   const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
   driven->type->place(driven, point, at);
 }
+
+/* Of a joint in space. */
+void baum_i_driver_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
+                              const double *lambda, double six[BAUM_I_SPACE])
+{
+  const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
+  baum_i_coordinate coordinate;
+  driven->type->coordinate(driven, point, &coordinate);
+  for (int k = 0; k < BAUM_I_SPACE; k++) {
+    six[k] -= lambda[0] * coordinate.gradient[BAUM_I_SPACE + k];
+  }
+}

@@ -44,7 +44,8 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 #define BAUM_I_DRIVER_MEMBERS(MOTION)                                                       \
   .driven = baum_i_driven_by, .motion = (MOTION), .replace_law = baum_i_driver_replace_law, \
   .row_count = 1, .evaluate = baum_i_evaluate_each, .evaluate_one = baum_i_driver_evaluate, \
-  .linearize = baum_i_driver_linearize, .place = baum_i_driver_place
+  .linearize = baum_i_driver_linearize, .place = baum_i_driver_place,                       \
+  .force_on_b = baum_i_driver_force_on_b
 
 const baum_i_joint *baum_i_driven_by(const baum_mechanism *mechanism, const void *def);
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
@@ -56,5 +57,7 @@ baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                                     const double *lambda, const baum_i_joint_blocks *blocks);
 void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
+void baum_i_driver_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
+                              const double *lambda, double six[BAUM_I_SPACE]);
 
 #endif

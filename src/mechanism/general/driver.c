@@ -57,14 +57,14 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
   return law_at(joint, point, point->t, s);
 }
 
-/* ---- checking what is given ---- */
+/* ---- checks of the user's law ---- */
 
 static baum_status law_field(const void *joint, const baum_i_local *at, double *out)
 {
   return law_at(joint, at->point, at->t, out);
 }
 
-/* A law may be defined for a limited time. Where it refuses, there is nothing to compare. */
+/* A law may be defined for a limited time. At times when it fails, nothing is compared. */
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
   static const baum_i_derived pairs[] = {{1, 0}, {2, 1}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A force by user functions, of user coordinates or of a user force: its value, its derivatives,
- * which are given or come from differences, and its potential.
+/* A force given by user functions, for user coordinates or a user force: its value, its potential,
+ * and its derivatives, which are given or come from differences.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
 #define BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
@@ -16,7 +16,7 @@ typedef struct baum_i_given_force {
   void *user;
 } baum_i_given_force;
 
-/* From a definition that has members of these names. */
+/* Initialize from a definition that has members of these names. */
 #define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
                         .force = (DEF)->force,                             \

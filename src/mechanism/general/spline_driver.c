@@ -14,7 +14,7 @@
 #include "mechanism/general/driven.h"
 #include "mechanism/general/user_function.h"
 
-/* With fewer points a natural spline is a line, and a periodic one is constant. */
+/* With fewer points a natural spline is a straight line and a periodic one is constant. */
 enum { COUNT_MIN = 3 };
 
 /* Relative difference of first and last value of a periodic spline that counts as rounding. */
@@ -91,7 +91,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
 
 /* ---- memory of an element's copy ---- */
 
-/* The numbers are the copy's times, its values and the bends. */
+/* The numbers of an element are the times and values of the definition and the second derivatives
+ * of the spline. */
 typedef struct curve {
   baum_i_cubic_spline spline;
   double numbers[];

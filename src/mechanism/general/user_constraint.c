@@ -13,8 +13,8 @@
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
- * Where nothing moves the time scale is unknown. Differences in t then assume one relevant change
- * per unit of time. For a constraint that varies much more slowly, give nu and gamma.
+ * If nothing moves, the time scale is unknown. Differences in t then assume one relevant change per
+ * unit of time. For a constraint that varies much more slowly, give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
@@ -173,7 +173,7 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* In fast motion the step is the same in any case, and only a missing nu matters. */
+  /* In fast motion the step does not depend on this, so it only matters if nu is missing. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
@@ -227,7 +227,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 
 /* ---- second derivatives ---- */
 
-/* Blocks of one joint in the making. */
+/* Blocks of one joint while they are computed. */
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
@@ -374,7 +374,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   return linearize_by(joint, nu_at, nu, BAUM_I_VARIABLE_Q, &at, nu_q);
 }
 
-/* ---- checking what is given ---- */
+/* ---- checks of the user's functions ---- */
 
 static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local *at)
 {
@@ -404,7 +404,7 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* By the more accurate of the two forms; jacobian and nu are already checked. */
+/* Uses the more accurate of the two forms, because jacobian and nu are already checked. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

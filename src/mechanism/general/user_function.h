@@ -62,8 +62,8 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
-/* The first and the last part of a call, for functions with other arguments. They use point and t
- * of `at`. */
+/* The first and the last part of a call, for functions with other arguments. Only point and t of
+ * `at` are used. */
 void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out);
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Point on a curve, planar: body_b's point is where a function of the user vanishes that is fixed
- * in body_a (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an
- * implicit curve instead of a parameter and its equation). With d from body_a's marker to body_b's:
+/* Point on a curve, planar: a function of the user, fixed in body_a, vanishes at body_b's point
+ * (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an implicit
+ * curve instead of a parameter and its equation). With d from body_a's marker to body_b's:
  *
  *   (x, y) = A_a^T d, both projections of axis_row.c, on (1, 0) and (0, 1)
  *   Phi    = F(x, y)                     (1)
@@ -141,7 +141,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   return BAUM_OK;
 }
 
-/* ---- checking what is given ---- */
+/* ---- checks of the user's curve ---- */
 
 static baum_status curve_field(const void *joint, const baum_i_local *at, double *out)
 {

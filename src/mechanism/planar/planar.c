@@ -11,7 +11,7 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* Relative tolerance: decimal numbers place a particle and a pin at the same point only to
+/* Relative tolerance. Decimal numbers can place a particle and a pin at the same point only up to
  * rounding. */
 static const double SAME_PLACE = 1e-9;
 

@@ -16,7 +16,7 @@
 /* Parameters; the last one of rigid bodies alone. */
 enum { MASS, INERTIA, PARAMETER_COUNT };
 
-/* ---- what both do ---- */
+/* ---- common to both ---- */
 
 static void scale(const void *def, double length, double *out)
 {

@@ -135,7 +135,7 @@ static void set_force_q(const load *l, double out[9])
 
 /* ---- type ---- */
 
-/* Leaves out what only energy and derivatives need. */
+/* Does not compute terms that only energy and derivatives need. */
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {

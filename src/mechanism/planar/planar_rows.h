@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Planar joints by kernels, which evaluate one joint over six columns from its two markers.
  *
- * The loops over a group and the packing stand here once. They are inline, so that the file of a
- * joint, which knows its kernels, compiles to a loop without calls through pointers.
+ * The loops over a group and the packing are written once, here. They are inline: the file of a
+ * joint has constant kernels, so its loop compiles without calls through pointers.
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
@@ -14,7 +14,7 @@
 
 enum {
   BAUM_I_PLANAR_COLUMNS = 6,
-  BAUM_I_PLANAR_ROWS = 3,    /* most that a planar joint has */
+  BAUM_I_PLANAR_ROWS = 3,    /* largest number of rows of a planar joint */
   BAUM_I_PLANAR_NUMBERS = 4, /* parameters begin with s_a and s_b */
 };
 

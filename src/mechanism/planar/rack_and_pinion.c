@@ -28,7 +28,7 @@ static const baum_i_def_field fields[] = {
 
 /* ---- definition ---- */
 
-/* Displacement along the rack minus the arc that has rolled off. */
+/* Displacement along the rack minus the arc rolled by the pinion. */
 static double rolled(const baum_i_planar_pair *pair)
 {
   return baum_i_axis_value(pair, pair->numbers + AXIS) -

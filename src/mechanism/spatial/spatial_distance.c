@@ -88,6 +88,16 @@ static void place(const baum_i_joint *joint, const baum_i_point *point, double a
   baum_i_spatial_place_of(&pair, at);
 }
 
+static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, const double *lambda,
+                       double six[BAUM_I_SPACE])
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  const baum_i_spatial_pair pair = baum_i_spatial_pair_at(&joint->span, numbers, false, point);
+  baum_i_coordinate square;
+  baum_i_spatial_row_at(&pair, SQUARE, &square);
+  baum_i_spatial_add_force_on_b(&square, 0.5 * lambda[0] / numbers[LENGTH], six);
+}
+
 static const baum_i_joint_type type = {
   .definition = {.kind = "spatial distance joint",
                  .size = sizeof(baum_spatial_distance_def),
@@ -103,6 +113,7 @@ static const baum_i_joint_type type = {
   .evaluate_one = evaluate,
   .linearize = linearize,
   .place = place,
+  .force_on_b = force_on_b,
 };
 
 BAUM_I_DEFINE(joint, spatial_distance, type)

@@ -55,6 +55,17 @@ void baum_i_spatial_place(const baum_i_joint *joint, const baum_i_point *point, 
   baum_i_spatial_place_of(&pair, at);
 }
 
+void baum_i_spatial_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
+                               const double *lambda, double six[BAUM_I_SPACE])
+{
+  const baum_i_spatial_pair pair = pair_at(joint, point);
+  for (int i = 0; i < joint->rows; i++) {
+    baum_i_coordinate row;
+    baum_i_spatial_row_at(&pair, type_of(joint)->rows[i], &row);
+    baum_i_spatial_add_force_on_b(&row, lambda[i], six);
+  }
+}
+
 bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *point)
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);

@@ -39,6 +39,8 @@ baum_status baum_i_spatial_linearize(const baum_i_joint *joint, baum_i_point *po
                                      const double *w, const double *lambda,
                                      const baum_i_joint_blocks *blocks);
 void baum_i_spatial_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
+void baum_i_spatial_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
+                               const double *lambda, double six[BAUM_I_SPACE]);
 bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *point);
 void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
                                baum_i_coordinate *out);
@@ -55,6 +57,7 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i
   .width = BAUM_I_SPACE, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \
   .extent = baum_i_spatial_extent, .evaluate = baum_i_evaluate_each,                 \
   .evaluate_one = baum_i_spatial_evaluate, .linearize = baum_i_spatial_linearize,    \
-  .place = baum_i_spatial_place, .is_reversed = baum_i_spatial_is_reversed
+  .place = baum_i_spatial_place, .force_on_b = baum_i_spatial_force_on_b,            \
+  .is_reversed = baum_i_spatial_is_reversed
 
 #endif

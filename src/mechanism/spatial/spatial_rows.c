@@ -154,6 +154,14 @@ void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row r
   add_gradient(pair, 1.0, &p.x[0], &p.y[0], out->gradient);
 }
 
+void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
+                                   double six[BAUM_I_SPACE])
+{
+  for (int k = 0; k < BAUM_I_SPACE; k++) {
+    six[k] -= lambda * row->gradient[BAUM_I_SPACE + k];
+  }
+}
+
 /* (J w)_q along a motion w. */
 static void add_first(const baum_i_spatial_pair *pair, const vector *x, const vector *y,
                       const motion *w, double out[COLUMNS])

@@ -92,6 +92,10 @@ void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point
                                    double factor, const double *w, const double *lambda,
                                    const baum_i_joint_blocks *blocks);
 
+/* Add -lambda times the columns of body_b. */
+void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
+                                   double six[BAUM_I_SPACE]);
+
 /* body_b's point in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);
 

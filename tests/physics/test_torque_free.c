@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A torque-free body over a thousand revolutions, against Euler's equations by their Taylor series
+ * in long double:
+ *
+ *   I w' = (I w) x w,   p' = p o (0, w) / 2
+ *
+ * and its energy and angular momentum, which are constant.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "check.h"
+#include "rotation.h"
+
+/* About its middle axis nearly, so that it turns over now and then. One revolution in a second. */
+static const double MOMENTS[3] = {1.0, 2.0, 2.7};
+static const double P[4] = {0.5, 0.5, -0.5, 0.5};
+static const double W[3] = {0.6, 6.2, 0.5};
+enum { REVOLUTIONS = 1000 };
+
+/* ---- reference ---- */
+
+/* Terms of a step: 0.5^40 of about one revolution is far below rounding. */
+enum { TERMS = 40, STEPS_A_SECOND = 16 };
+
+typedef struct series {
+  long double w[TERMS + 1][3];
+  long double p[TERMS + 1][4];
+} series;
+
+/* Coefficient n of the product p_i w_j, or w_i w_j. */
+static long double of_p_w(const series *s, int i, int j, int n)
+{
+  long double sum = 0.0L;
+  for (int k = 0; k <= n; k++) {
+    sum += s->p[k][i] * s->w[n - k][j];
+  }
+  return sum;
+}
+
+static long double of_w_w(const series *s, int i, int j, int n)
+{
+  long double sum = 0.0L;
+  for (int k = 0; k <= n; k++) {
+    sum += s->w[k][i] * s->w[n - k][j];
+  }
+  return sum;
+}
+
+static void extend(series *s, int n)
+{
+  long double scalar = 0.0L;
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3;
+    int k = (i + 2) % 3;
+    long double rise = (long double)(n + 1);
+    long double apart = (long double)MOMENTS[j] - (long double)MOMENTS[k];
+    long double turn = of_p_w(s, 0, i, n) + of_p_w(s, 1 + j, k, n) - of_p_w(s, 1 + k, j, n);
+    s->w[n + 1][i] = apart * of_w_w(s, j, k, n) / ((long double)MOMENTS[i] * rise);
+    s->p[n + 1][1 + i] = turn / (2.0L * rise);
+    scalar -= of_p_w(s, 1 + i, i, n) / (2.0L * rise);
+  }
+  s->p[n + 1][0] = scalar;
+}
+
+static long double sum_at(const long double *terms, int width, long double h)
+{
+  long double sum = 0.0L;
+  for (int n = TERMS; n >= 0; n--) {
+    sum = h * sum + terms[n * width];
+  }
+  return sum;
+}
+
+static void reference(int seconds, long double w[3], long double p[4])
+{
+  const long double h = 1.0L / STEPS_A_SECOND;
+  for (int step = 0; step < seconds * STEPS_A_SECOND; step++) {
+    series s;
+    memcpy(s.w[0], w, sizeof s.w[0]);
+    memcpy(s.p[0], p, sizeof s.p[0]);
+    for (int n = 0; n < TERMS; n++) {
+      extend(&s, n);
+    }
+    for (int i = 0; i < 4; i++) {
+      p[i] = sum_at(&s.p[0][i], 4, h);
+      if (i < 3) {
+        w[i] = sum_at(&s.w[0][i], 3, h);
+      }
+    }
+  }
+}
+
+/* ---- runs ---- */
+
+static baum_mechanism *make_body(void)
+{
+  baum_mechanism *m = NULL;
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  static const double velocity[3] = {0.3, -0.2, 0.1};
+  memcpy(def.inertia, MOMENTS, sizeof MOMENTS);
+  memcpy(def.orientation, P, sizeof P);
+  memcpy(def.angular_velocity, W, sizeof W);
+  memcpy(def.velocity, velocity, sizeof velocity);
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
+  check(baum_mechanism_add_spatial_body(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+static double energy_of(const double w[3])
+{
+  double sum = 0.0;
+  for (int i = 0; i < 3; i++) {
+    sum += 0.5 * MOMENTS[i] * w[i] * w[i];
+  }
+  return sum;
+}
+
+static void momentum_of(const double p[4], const double w[3], double out[3])
+{
+  const double own[3] = {MOMENTS[0] * w[0], MOMENTS[1] * w[1], MOMENTS[2] * w[2]};
+  rotate(p, own, out);
+}
+
+/* What a run is off by after the revolutions. */
+typedef struct errors {
+  double angle; /* [rad] */
+  double energy;
+  double momentum; /* both relative */
+} errors;
+
+static errors run(const baum_integrator *integrator, double rtol, const long double p[4])
+{
+  baum_mechanism *m = make_body();
+  baum_simulation *s = NULL;
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = integrator;
+  o.rtol = rtol;
+  check(baum_simulation_create(m, &o, &s));
+  check(baum_simulation_advance_to(s, REVOLUTIONS));
+  const double *q = baum_simulation_q(s);
+  const double *v = baum_simulation_v(s);
+  double before[3];
+  double after[3];
+  const double back[4] = {(double)p[0], -(double)p[1], -(double)p[2], -(double)p[3]};
+  double apart[4];
+  quaternion_product(back, q + 3, apart);
+  momentum_of(P, W, before);
+  momentum_of(q + 3, v + 3, after);
+  errors e = {.energy = fabs(energy_of(v + 3) / energy_of(W) - 1.0)};
+  e.angle = 2.0 * sqrt(apart[1] * apart[1] + apart[2] * apart[2] + apart[3] * apart[3]);
+  for (int i = 0; i < 3; i++) {
+    double size = sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
+    e.momentum = fmax(e.momentum, fabs(after[i] - before[i]) / size);
+    assert_true(fabs(q[i] - v[i] * REVOLUTIONS) <= 1e-9); /* the centre goes straight on */
+  }
+  baum_simulation_destroy(s);
+  baum_mechanism_destroy(m);
+  print_message("%s: angle %.2g rad, energy %.2g, momentum %.2g\n",
+                baum_integrator_name(integrator), e.angle, e.energy, e.momentum);
+  return e;
+}
+
+/* ---- tests ---- */
+
+static void find_reference(long double p[4])
+{
+  long double w[3];
+  double energy[3];
+  for (int i = 0; i < 4; i++) {
+    p[i] = (long double)P[i];
+    w[i % 3] = (long double)W[i % 3];
+  }
+  reference(REVOLUTIONS, w, p);
+  for (int i = 0; i < 3; i++) {
+    energy[i] = (double)w[i];
+  }
+  assert_true(fabs(energy_of(energy) / energy_of(W) - 1.0) <= 1e-15);
+}
+
+static void rk8_keeps_the_orientation_for_a_thousand_revolutions(void **state)
+{
+  (void)state;
+  long double p[4];
+  find_reference(p);
+  errors e = run(baum_rk8(), 1e-13, p);
+  assert_true(e.angle <= 1e-8);
+  assert_true(e.energy <= 1e-11);
+  assert_true(e.momentum <= 1e-11);
+}
+
+static void cvode_bdf_keeps_the_orientation_for_a_thousand_revolutions(void **state)
+{
+  (void)state;
+#if BAUM_HAVE_SUNDIALS
+  long double p[4];
+  find_reference(p);
+  errors e = run(baum_cvode_bdf(), 1e-11, p);
+  assert_true(e.angle <= 1e-3);
+  assert_true(e.energy <= 1e-6);
+  assert_true(e.momentum <= 1e-6);
+#else
+  skip();
+#endif
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(rk8_keeps_the_orientation_for_a_thousand_revolutions),
+    cmocka_unit_test(cvode_bdf_keeps_the_orientation_for_a_thousand_revolutions),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

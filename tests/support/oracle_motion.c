@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "oracle_motion.h"
+
+#include <math.h>
+#include <string.h>
+
+static void normalize3(wide x[3])
+{
+  wide length = wide_root(dot3(x, x));
+  for (int i = 0; i < 3; i++) {
+    x[i] /= length;
+  }
+}
+
+/* By the series of an angle below 1, which is doubled. */
+static void wide_turn(wide angle, wide *cosine, wide *sine)
+{
+  int halved = 0;
+  for (; wide_size(angle) > 1; halved++) {
+    angle /= 2;
+  }
+  wide term = 1;
+  *cosine = 0;
+  *sine = 0;
+  for (int n = 0; n < 32; n++) {
+    wide sign = n % 4 < 2 ? 1 : -1;
+    *(n % 2 == 0 ? cosine : sine) += sign * term;
+    term *= angle / (n + 1);
+  }
+  for (int n = 0; n < halved; n++) {
+    wide c = *cosine;
+    *cosine = c * c - *sine * *sine;
+    *sine *= 2 * c;
+  }
+}
+
+/* ---- bodies ---- */
+
+/* A of a unit quaternion, by rows, from p u p*. */
+static void matrix_of_quaternion(const wide p[4], wide a[9])
+{
+  wide square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
+  const wide *u = p + 1;
+  for (int j = 0; j < 3; j++) {
+    wide e[3] = {j == 0, j == 1, j == 2};
+    wide beside[3];
+    cross3(u, e, beside);
+    for (int i = 0; i < 3; i++) {
+      wide sum = (p[0] * p[0] - dot3(u, u)) * e[i] + 2 * u[j] * u[i] + 2 * p[0] * beside[i];
+      a[3 * i + j] = sum / square;
+    }
+  }
+}
+
+static void matrix_of(const oracle_body *body, const wide *q, wide a[9])
+{
+  memset(a, 0, 9 * sizeof *a);
+  a[0] = a[4] = a[8] = 1;
+  if (body->kind == 's') {
+    matrix_of_quaternion(q + 3, a);
+  } else if (body->kind == 'b') {
+    wide_turn(q[2], &a[0], &a[3]);
+    a[1] = -a[3];
+    a[4] = a[0];
+  }
+}
+
+static void place_of(const oracle_body *body, const wide *q, wide r[3])
+{
+  for (int i = 0; i < 3; i++) {
+    bool in_space = body->kind == 's' || body->kind == 'p';
+    r[i] = body->kind != 'g' && (i < 2 || in_space) ? q[i] : 0;
+  }
+}
+
+int oracle_six_of(const oracle_body *body, int k)
+{
+  return body->kind == 'b' && k == 2 ? 5 : k;
+}
+
+/* A' = A [w]x, A'' = A [w]x [w]x at constant w. */
+motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6])
+{
+  motion m = {.r = {{{0}}}};
+  wide a[9];
+  wide r[3];
+  matrix_of(body, q, a);
+  place_of(body, q, r);
+  for (int i = 0; i < 3; i++) {
+    m.r[i] = (jet){{r[i], six[i], 0}};
+  }
+  for (int j = 0; j < 3; j++) {
+    const wide e[3] = {j == 0, j == 1, j == 2};
+    wide first[3];
+    wide second[3];
+    cross3(six + 3, e, first);
+    cross3(six + 3, first, second);
+    for (int i = 0; i < 3; i++) {
+      const wide *row = a + (ptrdiff_t)3 * i;
+      m.axes[j][i] = (jet){{dot3(row, e), dot3(row, first), dot3(row, second)}};
+    }
+  }
+  return m;
+}
+
+void oracle_turned(const motion *m, const wide s[3], jet out[3])
+{
+  for (int i = 0; i < 3; i++) {
+    out[i] = jet_add(jet_scale(s[0], m->axes[0][i]),
+                     jet_add(jet_scale(s[1], m->axes[1][i]), jet_scale(s[2], m->axes[2][i])));
+  }
+}
+
+static void design_of(const oracle_body *body, wide q[7])
+{
+  for (int i = 0; i < 7; i++) {
+    q[i] = body->q[i];
+  }
+}
+
+void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3])
+{
+  wide q[7];
+  wide a[9];
+  design_of(body, q);
+  matrix_of(body, q, a);
+  for (int j = 0; j < 3; j++) {
+    s[j] = a[j] * axis[0] + a[3 + j] * axis[1] + a[6 + j] * axis[2];
+  }
+}
+
+void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3])
+{
+  wide q[7];
+  wide r[3];
+  design_of(body, q);
+  place_of(body, q, r);
+  const wide apart[3] = {point[0] - r[0], point[1] - r[1], point[2] - r[2]};
+  oracle_axis_to_body(body, apart, s);
+}
+
+void oracle_axis_to_ground(const oracle_body *body, const wide s[3], wide axis[3])
+{
+  wide q[7];
+  wide a[9];
+  design_of(body, q);
+  matrix_of(body, q, a);
+  for (int i = 0; i < 3; i++) {
+    axis[i] = dot3(a + (ptrdiff_t)3 * i, s);
+  }
+}
+
+void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3])
+{
+  wide q[7];
+  wide r[3];
+  design_of(body, q);
+  place_of(body, q, r);
+  oracle_axis_to_ground(body, s, point);
+  for (int i = 0; i < 3; i++) {
+    point[i] += r[i];
+  }
+}
+
+/* ---- joints ---- */
+
+void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
+                  const wide point_b[3], const wide z[3])
+{
+  wide axes[9];
+  wide *x = axes;
+  memcpy(axes + 6, z, 3 * sizeof *z);
+  normalize3(axes + 6);
+  int least = z[0] * z[0] < z[1] * z[1] ? 0 : 1;
+  const wide beside[3] = {least == 0, least == 1, 0};
+  cross3(axes + 6, beside, x);
+  normalize3(x);
+  cross3(axes + 6, x, axes + 3);
+  oracle_to_body(&o->bodies[joint->a], point_a, joint->s[0]);
+  oracle_to_body(&o->bodies[joint->b], point_b, joint->s[1]);
+  for (int k = 0; k < 9; k += 3) {
+    oracle_axis_to_body(&o->bodies[joint->a], axes + k, joint->axes[0] + k);
+    oracle_axis_to_body(&o->bodies[joint->b], axes + k, joint->axes[1] + k);
+  }
+  wide apart[3];
+  for (int i = 0; i < 3; i++) {
+    apart[i] = point_b[i] - point_a[i];
+  }
+  joint->length = wide_root(dot3(apart, apart));
+}
+
+/* A joint in motion. */
+typedef struct moving {
+  jet e[3]; /* from body_a's point to body_b's */
+  jet axes[2][3][3];
+} moving;
+
+static moving moving_of(const oracle_joint *joint, const motion *bodies)
+{
+  moving m;
+  const motion *side[2] = {&bodies[joint->a], &bodies[joint->b]};
+  jet arm[2][3];
+  for (int k = 0; k < 2; k++) {
+    oracle_turned(side[k], joint->s[k], arm[k]);
+    for (int j = 0; j < 3; j++) {
+      oracle_turned(side[k], joint->axes[k] + (ptrdiff_t)3 * j, m.axes[k][j]);
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    m.e[i] = jet_less(jet_add(side[1]->r[i], arm[1][i]), jet_add(side[0]->r[i], arm[0][i]));
+  }
+  return m;
+}
+
+static int add_same(const moving *m, int axis, jet *out)
+{
+  for (int i = 0; i < 3; i++) {
+    out[i] = jet_less(m->axes[1][axis][i], m->axes[0][axis][i]);
+  }
+  return 3;
+}
+
+static int add_coincident(const moving *m, jet *out)
+{
+  memcpy(out, m->e, sizeof m->e);
+  return 3;
+}
+
+static int add_on_line(const moving *m, jet *out)
+{
+  jet_cross(m->axes[0][2], m->e, out);
+  return 3;
+}
+
+static int add_product(const jet x[3], const jet y[3], jet *out)
+{
+  out[0] = jet_dot(x, y);
+  return 1;
+}
+
+static int rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_ROWS])
+{
+  int n = 0;
+  switch ((int)joint->kind) {
+  case ORACLE_SPHERICAL: return add_coincident(m, out);
+  case ORACLE_REVOLUTE: n = add_coincident(m, out); return n + add_same(m, 2, out + n);
+  case ORACLE_UNIVERSAL:
+    n = add_coincident(m, out);
+    return n + add_product(m->axes[0][2], m->axes[1][0], out + n);
+  case ORACLE_CYLINDRICAL: n = add_on_line(m, out); return n + add_same(m, 2, out + n);
+  case ORACLE_PLANAR: n = add_same(m, 2, out); return n + add_product(m->axes[0][2], m->e, out + n);
+  case ORACLE_PRISMATIC:
+  case ORACLE_FIXED:
+    n = joint->kind == ORACLE_FIXED ? add_coincident(m, out) : add_on_line(m, out);
+    for (int axis = 0; axis < 3; axis++) {
+      n += add_same(m, axis, out + n);
+    }
+    return n;
+  case ORACLE_DISTANCE:
+    out[0] = jet_root(jet_dot(m->e, m->e));
+    out[0].d[0] -= joint->length;
+    return 1;
+  case ORACLE_ON_LINE: return add_on_line(m, out);
+  default: return add_product(m->axes[0][2], m->e, out);
+  }
+}
+
+static jet coordinate_of(const oracle_joint *joint, const motion *bodies)
+{
+  const moving m = moving_of(joint, bodies);
+  if (joint->kind == ORACLE_REVOLUTE) {
+    return jet_angle(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][0]));
+  }
+  return jet_dot(m.axes[0][2], m.e);
+}
+
+int oracle_law(double t, double s[3], void *user)
+{
+  const double *start = user;
+  s[0] = start[1] + 0.3 * sin(t - start[0]);
+  s[1] = 0.3 * cos(t - start[0]);
+  s[2] = -0.3 * sin(t - start[0]);
+  return 0;
+}
+
+int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
+                   double t, int flow, jet out[ORACLE_ROWS])
+{
+  if (joint->kind < ORACLE_JOINT_KINDS) {
+    const moving m = moving_of(joint, bodies);
+    return rows_of(joint, &m, out);
+  }
+  double s[3];
+  double start[2] = {joint->start[0], joint->start[1]};
+  (void)oracle_law(t, s, start);
+  jet law = {{s[0], flow * s[1], flow * s[2]}};
+  out[0] = jet_less(coordinate_of(&o->joints[joint->of], bodies), law);
+  return 1;
+}
+
+wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint)
+{
+  static const wide still[6] = {0};
+  motion bodies[ORACLE_BODIES];
+  for (int k = 0; k < o->body_count; k++) {
+    wide q[7];
+    design_of(&o->bodies[k], q);
+    bodies[k] = oracle_motion_of(&o->bodies[k], q, still);
+  }
+  return coordinate_of(joint, bodies).d[0];
+}

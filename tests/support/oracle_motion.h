@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The joints of an oracle along motions (spatial_oracle.h). */
+#ifndef BAUM_TEST_ORACLE_MOTION_H
+#define BAUM_TEST_ORACLE_MOTION_H
+
+#include "jet.h"
+#include "spatial_oracle.h"
+
+/* A body in motion: its place and the columns of A. */
+typedef struct motion {
+  jet r[3];
+  jet axes[3][3];
+} motion;
+
+static inline wide dot3(const wide a[3], const wide b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void cross3(const wide a[3], const wide b[3], wide out[3])
+{
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3;
+    int k = (i + 2) % 3;
+    out[i] = a[j] * b[k] - a[k] * b[j];
+  }
+}
+
+/* The velocity among six that the k-th of a body is. */
+int oracle_six_of(const oracle_body *body, int k);
+
+/* At constant velocities. */
+motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6]);
+
+/* A s */
+void oracle_turned(const motion *m, const wide s[3], jet out[3]);
+
+/* All rows of a joint; returns their number. `flow` is 0 where time stands still. */
+int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
+                   double t, int flow, jet out[ORACLE_ROWS]);
+
+#endif

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "spatial_judge.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Of states that the library has projected; velocities are of size 3. */
+static const double ON_CONSTRAINTS = 1e-9;
+
+enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
+
+/* What is looked at. */
+typedef struct scene {
+  const random_spatial *random;
+  spatial_tally *tally;
+  uint64_t seed;
+  const char *what; /* configuration */
+  baum_workspace *w;
+  int nc;
+  double t;
+  double q[SIZE];
+  double v[SIZE];
+  double a[SIZE];
+  double reactions[ORACLE_JOINTS][6];
+  oracle_answer want;
+} scene;
+
+/* Errors relative to the sizes, and how much rounding of the positions changes the oracle's own. */
+typedef struct errors {
+  double acceleration;
+  double reaction;
+  double imbalance;
+} errors;
+
+/* ---- errors ---- */
+
+static void widen(const scene *s, chance *c, wide q[SIZE])
+{
+  for (int i = 0; i < SIZE; i++) {
+    q[i] = s->q[i];
+    if (c) {
+      q[i] += 0x1p-53 * chance_number(c, -1.0, 1.0) * fmax(1.0, fabs(s->q[i]));
+    }
+  }
+}
+
+static double largest_reaction(const scene *s)
+{
+  double most = 0.0;
+  for (int n = 0; n < s->random->oracle.joint_count; n++) {
+    for (int i = 0; i < 6; i++) {
+      most = fmax(most, s->want.unique[n] ? fabs((double)s->want.reaction[n][i]) : 0.0);
+      most = fmax(most, fabs(s->reactions[n][i]));
+    }
+  }
+  return most;
+}
+
+static double more(double most, double apart)
+{
+  return apart <= most ? most : apart; /* NaN stays */
+}
+
+/* Of `a` and the reactions from those of the oracle. */
+static errors errors_of(const scene *s, const oracle_answer *from)
+{
+  const spatial_oracle *o = &s->random->oracle;
+  errors e = {.reaction = 0.0};
+  for (int i = 0; i < o->nv; i++) {
+    double a = from == &s->want ? s->a[i] : (double)from->a[i];
+    e.acceleration = more(e.acceleration, fabs((double)(a - s->want.a[i])));
+  }
+  for (int n = 0; n < o->joint_count; n++) {
+    for (int i = 0; i < 6 && s->want.unique[n]; i++) {
+      double f = from == &s->want ? s->reactions[n][i] : (double)from->reaction[n][i];
+      e.reaction = more(e.reaction, fabs((double)(f - s->want.reaction[n][i])));
+    }
+  }
+  double size = largest_reaction(s);
+  e.acceleration /= s->want.rows.size > 0.0 ? s->want.rows.size : 1.0;
+  e.reaction /= size > 0.0 ? size : 1.0;
+  return e;
+}
+
+/* The oracle with positions and inertias that differ by rounding. */
+static errors sensitivity(const scene *s)
+{
+  chance c = chance_of(s->seed);
+  errors most = {.reaction = 0.0};
+  for (int turn = 0; turn < 3; turn++) {
+    wide q[SIZE];
+    oracle_answer moved;
+    spatial_oracle rounded = s->random->oracle;
+    for (int k = 1; k < rounded.body_count; k++) {
+      for (int i = 0; i < 6; i++) {
+        rounded.bodies[k].inertia[i] *= 1.0 + (double)(chance_below(&c, 3) - 1) * 0x1p-52;
+      }
+    }
+    widen(s, &c, q);
+    assert_true(oracle_answer_at(&rounded, s->t, q, s->v, &moved));
+    errors e = errors_of(s, &moved);
+    most.acceleration = fmax(most.acceleration, e.acceleration);
+    most.reaction = fmax(most.reaction, e.reaction);
+  }
+  return most;
+}
+
+/* ---- verdicts ---- */
+
+static void print(const scene *s, const char *verdict, const errors *e, const errors *own)
+{
+  const spatial_oracle *o = &s->random->oracle;
+  (void)printf("seed %llu, %s: %s; %d bodies, %d joints, %d rows of rank %d, smallest %.2g, "
+               "conflict %.2g, Phi %.2g, Phi' %.2g; errors %.2g %.2g %.2g, rounding %.2g %.2g\n",
+               (unsigned long long)s->seed, s->what, verdict, o->body_count - 1, o->joint_count,
+               s->nc, s->want.rows.rank, s->want.rows.kept, s->want.rows.conflict, s->want.phi,
+               s->want.rate, e->acceleration, e->reaction, e->imbalance, own->acceleration,
+               own->reaction);
+}
+
+static spatial_verdict verdict_of(const errors *e, const errors *own)
+{
+  if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
+    return SPATIAL_ACCELERATED;
+  }
+  if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
+    return SPATIAL_REACTION;
+  }
+  /* masses times errors of the accelerations */
+  double allowed = SPATIAL_ERROR + 100.0 * (own->acceleration + own->reaction);
+  return e->imbalance <= allowed ? SPATIAL_MET : SPATIAL_BALANCE;
+}
+
+static void count(scene *s, spatial_verdict verdict, const errors *e, const errors *own)
+{
+  static const char *const names[SPATIAL_VERDICTS] = {
+    "met",       "refused", "off the constraints", "accelerations",
+    "reactions", "balance", "false alarm"};
+  s->tally->counts[verdict]++;
+  if (verdict > SPATIAL_REFUSED) {
+    print(s, names[verdict], e, own);
+  }
+}
+
+static spatial_verdict read_library(scene *s, errors *e)
+{
+  const spatial_oracle *o = &s->random->oracle;
+  double lambda[MULTIPLIERS];
+  wide q[SIZE];
+  widen(s, NULL, q);
+  if (baum_workspace_acceleration(s->w, s->t, s->q, s->v, 0.0, 0.0, s->a, lambda) != BAUM_OK) {
+    bool dependent = s->want.rows.rank < s->nc || s->want.rows.kept < QUAD_DEPENDENT;
+    return dependent ? SPATIAL_REFUSED : SPATIAL_FALSE_ALARM;
+  }
+  for (int n = 0; n < o->joint_count; n++) {
+    assert_int_equal(
+      baum_workspace_reaction(s->w, s->t, s->q, lambda, o->joints[n].id, s->reactions[n]), BAUM_OK);
+    s->tally->reactions += s->want.unique[n] ? 1 : 0;
+  }
+  *e = errors_of(s, &s->want);
+  e->imbalance = oracle_imbalance(o, q, s->v, s->a, s->reactions);
+  return SPATIAL_MET;
+}
+
+static void look(scene *s)
+{
+  errors e = {.reaction = 0.0};
+  errors own = {.reaction = 0.0};
+  wide q[SIZE];
+  widen(s, NULL, q);
+  assert_true(oracle_answer_at(&s->random->oracle, s->t, q, s->v, &s->want));
+  s->tally->configurations++;
+  if (!(s->want.phi <= ON_CONSTRAINTS && s->want.rate <= ON_CONSTRAINTS)) {
+    count(s, SPATIAL_OFF, &e, &own);
+    return;
+  }
+  spatial_verdict verdict = read_library(s, &e);
+  if (verdict == SPATIAL_MET && verdict_of(&e, &own) != SPATIAL_MET) {
+    own = sensitivity(s);
+  }
+  verdict = verdict == SPATIAL_MET ? verdict_of(&e, &own) : verdict;
+  count(s, verdict, &e, &own);
+  if (verdict == SPATIAL_MET && own.acceleration + own.reaction > 0.01 * SPATIAL_ERROR) {
+    s->tally->ill_conditioned++;
+  } else if (verdict == SPATIAL_MET) {
+    s->tally->dependent += s->want.rows.rank < s->nc ? 1 : 0;
+    s->tally->worst_reaction = fmax(s->tally->worst_reaction, e.reaction);
+    if (e.acceleration > s->tally->worst) {
+      s->tally->worst = e.acceleration;
+      s->tally->worst_seed = s->seed;
+    }
+  }
+}
+
+/* ---- configurations ---- */
+
+static void look_beside(scene *s, const char *what, double away, chance *c)
+{
+  double dx[SIZE];
+  for (int i = 0; i < s->random->oracle.nv; i++) {
+    dx[i] = chance_number(c, -away, away);
+    s->v[i] = chance_number(c, -3.0, 3.0);
+  }
+  s->what = what;
+  assert_int_equal(baum_workspace_move(s->w, dx, s->q), BAUM_OK);
+  if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
+    look(s);
+  } else {
+    s->tally->not_projected++;
+  }
+}
+
+void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally)
+{
+  random_spatial_make(room, seed);
+  scene s = {.random = room, .tally = tally, .seed = seed, .t = room->start};
+  chance c = chance_of(seed + 1);
+  int nq;
+  int nv;
+  assert_int_equal(baum_mechanism_sizes(room->mechanism, &nq, &nv, &s.nc), BAUM_OK);
+  assert_int_equal(nq, room->oracle.nq);
+  assert_int_equal(nv, room->oracle.nv);
+  assert_int_equal(baum_workspace_create(room->mechanism, &s.w), BAUM_OK);
+  assert_int_equal(baum_workspace_design(s.w, s.q, NULL), BAUM_OK);
+  look_beside(&s, "design", 0.0, &c);
+  look_beside(&s, "moved", 0.2, &c);
+  tally->mechanisms++;
+  baum_workspace_destroy(s.w);
+  random_spatial_destroy(room);
+}
+
+long spatial_bad(const spatial_tally *tally)
+{
+  long bad = 0;
+  for (int k = SPATIAL_OFF; k < SPATIAL_VERDICTS; k++) {
+    bad += tally->counts[k];
+  }
+  return bad;
+}
