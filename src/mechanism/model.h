@@ -359,7 +359,7 @@ struct baum_i_joint_type {
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
   /* The joint's point on body_b in ground axes, for reactions and drawing; NULL without width. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
-  /* Spatial joints: the generalized force -J^T lambda (of its rows) over six columns of body_b, also
+  /* Spatial joints: the generalized force -J^T lambda of the rows over six columns of body_b, also
    * those that a planar body or a particle does not have. */
   void (*force_on_b)(const baum_i_joint *joint, const baum_i_point *point, const double *lambda,
                      double six[BAUM_I_SPACE]);

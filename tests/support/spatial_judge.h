@@ -17,7 +17,8 @@ typedef enum spatial_verdict {
 } spatial_verdict;
 
 /* Relative to the largest acceleration with or without the constraints, or to the largest part of a
- * reaction. What rounding of positions and inertias costs the oracle itself is added a hundred times. */
+ * reaction. What rounding of positions and inertias costs the oracle itself is added a hundred
+ * times. */
 static const double SPATIAL_ERROR = 1e-9;
 
 /* Of all configurations so far. */

@@ -7,8 +7,8 @@
 
 #include "oracle_motion.h"
 
-/* Entries of a row that are smaller are rounding: rows are of size 1, or zero because bodies stay in
- * their plane. */
+/* Entries of a row that are smaller are rounding: rows are of size 1, or zero because bodies stay
+ * in their plane. */
 static const double NO_ROW = 1e-13;
 
 /* Of a combination of rows that is zero, a joint whose part in it is smaller has a reaction that is
