@@ -161,11 +161,13 @@ typedef struct baum_i_point {
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   baum_i_spatial_frame *spatial; /* likewise; NULL where nothing is spatial */
-  double *angles;                /* (joint_count) spatial joints' angles are the nearest to these */
-  const double *inputs;          /* (input_count) present values; NULL while there are none */
-  double *scratch;               /* (mechanism->scratch_size) for gathering and differences */
-  bool retry;                    /* set when the last failure may vanish with a smaller step */
-  bool asking;                   /* a user function is running, which must not use this point */
+  /* (joint_count, 2) angle and rate of spatial joints at angles[2 joint_count], a time: angles are
+   * the nearest to those that go on at these rates. */
+  double *angles;
+  const double *inputs; /* (input_count) present values; NULL while there are none */
+  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
+  bool retry;           /* set when the last failure may vanish with a smaller step */
+  bool asking;          /* a user function is running, which must not use this point */
 } baum_i_point;
 
 /* Frame of a body in the design configuration at rest, from its definition; valid before freeze. */

@@ -55,7 +55,7 @@ static baum_status create_spatial(const baum_mechanism *mechanism, baum_i_point 
     return BAUM_OK;
   }
   point->spatial = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial);
-  point->angles = baum_i_alloc((size_t)mechanism->joint_count, sizeof *point->angles);
+  point->angles = baum_i_alloc(2 * (size_t)mechanism->joint_count + 1, sizeof *point->angles);
   if (!point->spatial || !point->angles) {
     return baum_i_fail_memory();
   }

@@ -33,10 +33,13 @@ void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_st
     if (joint->type->is_angle && joint->type->width == BAUM_I_SPACE) {
       baum_i_coordinate c;
       joint->type->coordinate(joint, point, &c);
-      double expected = point->angles[k] + c.rate * (state->t - from);
-      point->angles[k] = expected + remainder(c.value - expected, REVOLUTION);
+      double *angle = point->angles + 2 * (ptrdiff_t)k;
+      double expected = angle[0] + 0.5 * (angle[1] + c.rate) * (state->t - from);
+      angle[0] = expected + remainder(c.value - expected, REVOLUTION);
+      angle[1] = c.rate;
     }
   }
+  point->angles[2 * m->joint_count] = state->t;
 }
 
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own)

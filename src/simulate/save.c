@@ -168,7 +168,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_add_state(list, m, &run->state);
   baum_i_saved_add_array(list, w->inputs, m->input_count);
   baum_i_saved_add_array(list, w->metric, m->nv);
-  baum_i_saved_add_array(list, w->point.angles, m->spatial ? m->joint_count : 0);
+  baum_i_saved_add_array(list, w->point.angles, m->spatial ? 2 * m->joint_count + 1 : 0);
   baum_i_saved_add_some(list, run->warnings, sizeof *run->warnings, run->counters.warnings,
                         BAUM_I_WARNINGS);
   if (run->account) {

@@ -63,7 +63,8 @@ def _of_matrix(r: Array) -> Array:
     outer[0, 1:] = outer[1:, 0] = turned
     outer[1:, 1:] = r + r.T + (1.0 - np.trace(r)) * np.eye(3)
     row: Array = outer[np.argmax(np.diag(outer))]
-    return row / np.copysign(np.linalg.norm(row), row[0])
+    found: Array = row / np.copysign(np.linalg.norm(row), row[0])
+    return found
 
 
 def matrix(quaternions: Array) -> Array:

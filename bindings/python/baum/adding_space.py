@@ -104,9 +104,10 @@ class AddingInSpace:
         three [m], two [-].
 
         Its coordinate is the angle of body_b relative to body_a about the axis [rad], 0 in the
-        design configuration, between -pi and pi. point: in ground axes in the design configuration
-        [m]; or point_a, point_b: in the axes of the bodies [m]. axis, axis_b: directions, in ground
-        axes with `point`, else in the axes of body_a and body_b; axis_b: default along axis.
+        design configuration; runs count its revolutions. point: in ground axes in the design
+        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. axis, axis_b:
+        directions, in ground axes with `point`, else in the axes of body_a and body_b; axis_b:
+        default along axis.
         """
         return self._add(Joint, "spatial_revolute", locals())
 

@@ -93,6 +93,6 @@ def check_turned(
     if not np.allclose(before[0].T @ before[1], after[0].T @ after[1], rtol=0.0, atol=1e-9):
         raise ValueError(
             f'joint "{element.name}" keeps the relative orientation of the design configuration, '
-            "which these changes alter; change both of its bodies, or place the joint again by its "
-            "points"
+            "which these changes alter; change both of its bodies, or give the joint its points "
+            "again"
         )

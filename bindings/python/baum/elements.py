@@ -169,7 +169,7 @@ class Joint(Element):
     def coordinate(self) -> Channel:
         """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
         along an axis [m], [m/s]: translational, pin in a slot, prismatic, cylindrical, point on a
-        line. The angle of a spatial revolute joint is between -pi and pi."""
+        line."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property

@@ -50,7 +50,7 @@ def sphere(mass: Scalar, radius: Scalar) -> Array:
 def rod(mass: Scalar, length: Scalar, axis: Axis = "z") -> Array:
     """A thin rod. mass: [kg]. length: [m]. axis: "x", "y" or "z".
 
-    Its moment about its own axis is 0. A body needs one: add other parts, or take cylinder().
+    Its moment about its own axis is 0.
     """
     return _about(axis, 0.0, number(mass, "mass") * number(length, "length") ** 2 / 12.0)
 

@@ -107,6 +107,16 @@ static angle angle_of(double c, double s)
                  .third = {2.0 * d[1], 2.0 * d[0], -2.0 * d[1], -2.0 * d[0]}};
 }
 
+/* Within a step, which may be longer than a revolution. */
+static double expected_angle(const baum_i_joint *joint, const baum_i_point *point)
+{
+  if (!point->angles) {
+    return 0.0;
+  }
+  const double *angle = point->angles + 2 * (ptrdiff_t)(joint->element.index - 1);
+  return angle[0] + angle[1] * (point->t - point->angles[2 * point->mechanism->joint_count]);
+}
+
 void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
                                baum_i_coordinate *out)
 {
@@ -120,7 +130,7 @@ void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *po
   baum_i_spatial_row_at(&pair, type->coordinate[1], &x[0]);
   baum_i_spatial_row_at(&pair, type->coordinate[0], &x[1]);
   const angle g = angle_of(x[0].value, x[1].value);
-  double near = point->angles ? point->angles[joint->element.index - 1] : 0.0;
+  double near = expected_angle(joint, point);
   double raw = atan2(x[1].value, x[0].value);
   *out = (baum_i_coordinate){.value = near + remainder(raw - near, REVOLUTION)};
   for (int i = 0; i < 2; i++) {
