@@ -113,8 +113,8 @@ static double expected_angle(const baum_i_joint *joint, const baum_i_point *poin
   if (!point->angles) {
     return 0.0;
   }
-  const double *angle = point->angles + 2 * (ptrdiff_t)(joint->element.index - 1);
-  return angle[0] + angle[1] * (point->t - point->angles[2 * point->mechanism->joint_count]);
+  const double *followed = point->angles + 2 * (ptrdiff_t)(joint->element.index - 1);
+  return followed[0] + followed[1] * (point->t - point->angles[2 * point->mechanism->joint_count]);
 }
 
 void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
