@@ -43,8 +43,8 @@ typedef enum stepping { FIXED_STEP, VARIABLE_STEP, NO_STEP } stepping;
 static const char *const WHY_NOT[] = {
   [FIXED_STEP] = "has a fixed step; give step alone",
   [VARIABLE_STEP] = "chooses its own steps; give rtol alone",
-  [NO_STEP] = "solves Phi(q, t) = 0 to rounding at the requested times; give neither step nor "
-              "tolerance",
+  [NO_STEP] = ("solves Phi(q, t) = 0 to rounding at the requested times; give neither step nor "
+               "tolerance"),
 };
 
 /* A number of the options, which must lie between two limits. */
