@@ -133,7 +133,7 @@ static bool is_zero(const unsigned char *bytes, size_t size)
 
 static bool numbers_are(const char *text, const unsigned char *bytes, size_t size)
 {
-  double value[2];
+  double value[BAUM_I_FIELD_SIZE_MAX];
   size_t count = size / sizeof *value;
   memcpy(value, bytes, size);
   bool same = true;

@@ -199,7 +199,7 @@ static void check_stands(const scene *s)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  enum { CALLS = 10, COORDINATES = 64 };
+  enum { CALLS = 10, COORDINATES = 128 /* more than every element has */ };
   fuzz_bytes b = {data, size};
   double factors[DRAWN_ROOM];
   double q[COORDINATES];
