@@ -9,6 +9,8 @@
 #include <float.h>
 #include <math.h>
 
+#define BAUM_I_REVOLUTION 6.283185307179586 /* [rad] */
+
 static inline double baum_i_dot3(const double a[3], const double b[3])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -149,12 +149,12 @@ static double violation(const baum_i_continuation *path, bool kept, int *row)
 }
 
 /* Evaluate the position stage and its violation. */
-static baum_status evaluate_violation(const baum_i_continuation *path, const baum_i_pose *pose,
-                                      double *worst)
+static baum_status evaluate_violation(const baum_i_continuation *path,
+                                      const baum_i_configuration *to, double *worst)
 {
   baum_workspace *w = path->workspace;
   int row = 0;
-  BAUM_I_TRY(baum_i_position_stage(w, pose->t, pose->q));
+  BAUM_I_TRY(baum_i_position_stage(w, to->t, to->q));
   baum_i_row_displacements(w, path->distance);
   *worst = violation(path, true, &row);
   return BAUM_OK;
@@ -178,13 +178,14 @@ static bool converges(int k, double size, double last)
 }
 
 /* Find the configuration; the workspace then has its position stage. */
-static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i_verdict *verdict)
+static bool find_root(const baum_i_continuation *path, baum_i_configuration *to,
+                      baum_i_verdict *verdict)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   double last = 0.0;
   for (int k = 0; k < ITERATIONS; k++) {
     double worst = 0.0;
-    if (!accept_evaluation(path->workspace, evaluate_violation(path, pose, &worst), verdict)) {
+    if (!accept_evaluation(path->workspace, evaluate_violation(path, to, &worst), verdict)) {
       return false;
     }
     if (worst <= ROUNDING) {
@@ -199,10 +200,10 @@ static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i
       verdict->contraction = size / last;
     }
     if (!converges(k, size, last)) {
-      bool is_noise = worst <= NOISE * fmax(1.0, baum_i_position_size(m, pose->q));
+      bool is_noise = worst <= NOISE * fmax(1.0, baum_i_position_size(m, to->q));
       return is_noise || refuse(verdict, BAUM_I_REFUSAL_FAR, BAUM_OK);
     }
-    baum_i_move(m, 1.0, path->image, pose->q);
+    baum_i_move(m, 1.0, path->image, to->q);
     last = size;
   }
   return refuse(verdict, BAUM_I_REFUSAL_FAR, BAUM_OK);
@@ -214,7 +215,7 @@ static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
   return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE ||
-         refuse(verdict, BAUM_I_REFUSAL_LEFT_OUT, BAUM_OK);
+         refuse(verdict, BAUM_I_REFUSAL_OMITTED, BAUM_OK);
 }
 
 /* A number of size 1/2 to 1 and either sign. */
@@ -239,7 +240,7 @@ static baum_status apply_turning(const baum_i_continuation *path, const double *
 
 /* Start a probe: a fraction of its scale in every coordinate, plus the direction in which the last
  * probe ended, because there branches come close to each other. */
-static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from)
+static void begin_probe(const baum_i_continuation *path, const baum_i_configuration *from)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   double size = baum_i_scaled_size(m, from->turn);
@@ -249,8 +250,8 @@ static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from
   }
 }
 
-static bool keeps_turning(const baum_i_continuation *path, const baum_i_pose *from,
-                          baum_i_pose *pose, baum_i_verdict *verdict)
+static bool keeps_turning(const baum_i_continuation *path, const baum_i_configuration *from,
+                          baum_i_configuration *to, baum_i_verdict *verdict)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   begin_probe(path, from);
@@ -266,50 +267,50 @@ static bool keeps_turning(const baum_i_continuation *path, const baum_i_pose *fr
   if (!accept_solution(status, verdict)) {
     return false;
   }
-  memcpy(pose->turn, path->probe, (size_t)m->nv * sizeof *pose->turn);
+  memcpy(to->turn, path->probe, (size_t)m->nv * sizeof *to->turn);
   return verdict->turning <= TURNING || refuse(verdict, BAUM_I_REFUSAL_TURNED, BAUM_OK);
 }
 
 /* ---- velocities and accelerations ---- */
 
 /* Find v and a at the configuration in the workspace, whose J is factored. */
-static bool differentiate(const baum_i_continuation *path, baum_i_pose *pose,
+static bool differentiate(const baum_i_continuation *path, baum_i_configuration *to,
                           baum_i_verdict *verdict)
 {
   baum_workspace *w = path->workspace;
-  if (!accept_solution(solve(path, w->nu, pose->v), verdict)) {
+  if (!accept_solution(solve(path, w->nu, to->v), verdict)) {
     return false;
   }
-  baum_i_point_set(&w->point, pose->t, pose->q, pose->v);
+  baum_i_point_set(&w->point, to->t, to->q, to->v);
   return accept_evaluation(w, baum_i_mechanism_gamma(&w->point, w->gamma), verdict) &&
-         accept_solution(solve(path, w->gamma, pose->a), verdict);
+         accept_solution(solve(path, w->gamma, to->a), verdict);
 }
 
 /* ---- the step ---- */
 
-static void keep_jacobian(const baum_workspace *w, baum_i_pose *pose)
+static void keep_jacobian(const baum_workspace *w, baum_i_configuration *to)
 {
-  memcpy(pose->jacobian, w->jacobian, (size_t)w->mechanism->jacobian_size * sizeof *pose->jacobian);
+  memcpy(to->jacobian, w->jacobian, (size_t)w->mechanism->jacobian_size * sizeof *to->jacobian);
 }
 
-baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose)
+baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to)
 {
   baum_workspace *w = path->workspace;
-  BAUM_I_TRY(baum_i_position_stage(w, pose->t, pose->q));
-  memset(pose->turn, 0, (size_t)w->mechanism->nv * sizeof *pose->turn);
-  keep_jacobian(w, pose);
+  BAUM_I_TRY(baum_i_position_stage(w, to->t, to->q));
+  memset(to->turn, 0, (size_t)w->mechanism->nv * sizeof *to->turn);
+  keep_jacobian(w, to);
   return BAUM_OK;
 }
 
-bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
-                               baum_i_pose *pose, baum_i_verdict *verdict)
+bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configuration *from,
+                               baum_i_configuration *to, baum_i_verdict *verdict)
 {
   *verdict = (baum_i_verdict){.refusal = BAUM_I_REFUSAL_NONE};
-  bool found = find_root(path, pose, verdict) && all_follow(path, verdict) &&
+  bool found = find_root(path, to, verdict) && all_follow(path, verdict) &&
                accept_solution(factor(path->workspace), verdict) &&
-               keeps_turning(path, from, pose, verdict) && differentiate(path, pose, verdict);
+               keeps_turning(path, from, to, verdict) && differentiate(path, to, verdict);
   if (found) {
-    keep_jacobian(path->workspace, pose);
+    keep_jacobian(path->workspace, to);
   }
   return found;
 }
@@ -383,12 +384,12 @@ static void name_joints(const baum_i_continuation *path, baum_i_impasse *out)
   }
 }
 
-baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
+baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_configuration *to,
                                         baum_i_impasse *impasse)
 {
   double worst = 0.0;
   *impasse = (baum_i_impasse){.gain = (double)INFINITY, .driver = -1, .resister = -1};
-  BAUM_I_TRY(evaluate_violation(path, pose, &worst));
+  BAUM_I_TRY(evaluate_violation(path, to, &worst));
   BAUM_I_TRY(factor(path->workspace));
   BAUM_I_TRY(find_critical(path));
   impasse->gain = baum_i_scaled_size(path->workspace->mechanism, path->probe);

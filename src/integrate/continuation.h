@@ -7,7 +7,7 @@
 #include "dynamics/dynamics.h"
 
 /* A configuration that satisfies the constraints, with its velocities and accelerations. */
-typedef struct baum_i_pose {
+typedef struct baum_i_configuration {
   double t;
   double *q; /* (nq) */
   double *v; /* (nv) J v = nu */
@@ -15,7 +15,7 @@ typedef struct baum_i_pose {
   double *
     turn; /* (nv) direction in which J has turned most since the configuration before; 0 for none */
   double *jacobian; /* (jacobian_size) */
-} baum_i_pose;
+} baum_i_configuration;
 
 /* Why a configuration was refused. */
 typedef enum baum_i_refusal {
@@ -23,7 +23,7 @@ typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the second is hardly smaller */
   BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
   BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
-  BAUM_I_REFUSAL_LEFT_OUT, /* a row that was omitted as redundant is violated */
+  BAUM_I_REFUSAL_OMITTED,  /* a row that was omitted as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
   BAUM_I_REFUSAL_STOP,       /* a function stops the run, or BAUM_ERR_MEMORY */
 } baum_i_refusal;
@@ -35,7 +35,7 @@ typedef struct baum_i_verdict {
   int iterations;     /* of Newton */
   double contraction; /* second correction over the first; 0 if one was enough */
   double turning;     /* estimate of |I - J^-1 J_from| by a probe */
-  int row;            /* of BAUM_I_REFUSAL_LEFT_OUT */
+  int row;            /* of BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
 
 /* Memory of the steps. */
@@ -62,18 +62,18 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* Find J at pose->q and pose->t, which need not satisfy the constraints, so that the pose can serve
- * as `from` below. */
-baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
+/* Find J at to->q and to->t, which need not satisfy the constraints. The configuration can then
+ * serve as `from` below. */
+baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to);
 
-/* Find the configuration near the guess pose->q at pose->t by Newton's method, then v and a. J and
+/* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. J and
  * turn of the configuration `from` guard against a change of branch. true: the configuration is
  * good; otherwise verdict->refusal is the reason. */
-bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
-                               baum_i_pose *pose, baum_i_verdict *verdict);
+bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configuration *from,
+                               baum_i_configuration *to, baum_i_verdict *verdict);
 
 /* Analyse a good configuration if no next one was found near it. */
-baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
+baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_configuration *to,
                                         baum_i_impasse *impasse);
 
 #endif

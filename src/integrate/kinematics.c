@@ -42,46 +42,47 @@ static const double SINGULAR_GAIN = 1e3;
  * branches cross the share is about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
-enum { POSES = 4, MOST_PIECES = 10000 /* largest number of short steps inside a step */ };
+enum { STORED = 4, MOST_PIECES = 10000 /* largest number of short steps inside a step */ };
 
 typedef struct kinematics_run {
   baum_i_continuation path;
   double *memory;
-  baum_i_pose poses[POSES];
-  baum_i_pose *left;  /* beginning of the last step */
-  baum_i_pose *right; /* its end: the last good configuration */
-  baum_i_pose *trial;
-  baum_i_pose *spare;
+  baum_i_configuration stored[STORED];
+  baum_i_configuration *left;  /* beginning of the last step */
+  baum_i_configuration *right; /* its end: the last good configuration */
+  baum_i_configuration *trial;
+  baum_i_configuration *spare;
   bool forgotten; /* the next step restarts */
   double h;       /* [s] > 0, length that the next step tries */
   baum_i_statistics statistics;
   baum_i_kept_message evaluation; /* of the last refused evaluation */
 } kinematics_run;
 
-/* ---- poses ---- */
+/* ---- configurations ---- */
 
-/* Count of the numbers of a pose, which are contiguous from q on. */
-static size_t pose_size(const baum_mechanism *m)
+/* Count of the numbers of a configuration, which are contiguous from q on. */
+static size_t number_count(const baum_mechanism *m)
 {
   return (size_t)m->nq + 3 * (size_t)m->nv + (size_t)m->jacobian_size;
 }
 
-static void copy_pose(const baum_mechanism *m, const baum_i_pose *from, baum_i_pose *to)
+static void copy_configuration(const baum_mechanism *m, const baum_i_configuration *from,
+                               baum_i_configuration *to)
 {
   to->t = from->t;
-  memcpy(to->q, from->q, pose_size(m) * sizeof *to->q);
+  memcpy(to->q, from->q, number_count(m) * sizeof *to->q);
 }
 
-static void swap(baum_i_pose **a, baum_i_pose **b)
+static void swap(baum_i_configuration **a, baum_i_configuration **b)
 {
-  baum_i_pose *kept = *a;
+  baum_i_configuration *kept = *a;
   *a = *b;
   *b = kept;
 }
 
 /* work (nv). */
-static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double t, double *q,
-                        double *work)
+static void extrapolate(const baum_mechanism *m, const baum_i_configuration *from, double t,
+                        double *q, double *work)
 {
   double h = t - from->t;
   for (int i = 0; i < m->nv; i++) {
@@ -95,8 +96,8 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
                               double *q)
 {
   double *dx = run->path.image;
-  const baum_i_pose *l = run->left;
-  const baum_i_pose *r = run->right;
+  const baum_i_configuration *l = run->left;
+  const baum_i_configuration *r = run->right;
   double h = r->t - l->t;
   double s = (t - l->t) / h;
   double u = 1.0 - s;
@@ -115,10 +116,10 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
 /* ---- steps ---- */
 
 /* Turn a guess into a configuration, and count the iterations. */
-static bool solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
+static bool solve(kinematics_run *run, const baum_i_configuration *from, baum_i_configuration *to,
                   baum_i_verdict *verdict)
 {
-  bool found = baum_i_continuation_solve(&run->path, from, pose, verdict);
+  bool found = baum_i_continuation_solve(&run->path, from, to, verdict);
   run->statistics.nonlinear_iterations += verdict->iterations;
   if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
     baum_i_message_keep(&run->evaluation);
@@ -127,7 +128,7 @@ static bool solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pos
 }
 
 /* Add the time to the message of a callback, which does not know it. */
-static baum_status say_when(const baum_i_pose *from, baum_status status)
+static baum_status say_when(const baum_i_configuration *from, baum_status status)
 {
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
     return status;
@@ -180,19 +181,19 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
 
 /* Fail if the cause is a callback, an evaluation or memory. Otherwise return BAUM_OK, with the
  * analysis of the configuration in *at. */
-static baum_status fail_for_cause(kinematics_run *run, const baum_i_pose *pose,
+static baum_status fail_for_cause(kinematics_run *run, const baum_i_configuration *to,
                                   const baum_i_verdict *verdict, const char *when,
                                   baum_i_impasse *at)
 {
   if (verdict->refusal == BAUM_I_REFUSAL_STOP) {
-    return say_when(pose, verdict->status);
+    return say_when(to, verdict->status);
   }
   if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
-    return baum_i_fail(verdict->status, "t = %.9g s: kinematics: %s: %.800s", pose->t, when,
+    return baum_i_fail(verdict->status, "t = %.9g s: kinematics: %s: %.800s", to->t, when,
                        run->evaluation.text);
   }
-  baum_status status = baum_i_continuation_explain(&run->path, pose, at);
-  return status == BAUM_ERR_SINGULAR ? BAUM_OK : say_when(pose, status);
+  baum_status status = baum_i_continuation_explain(&run->path, to, at);
+  return status == BAUM_ERR_SINGULAR ? BAUM_OK : say_when(to, status);
 }
 
 /* Fail because no step was short enough. */
@@ -209,7 +210,7 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
   if (!(at.gain < SINGULAR_GAIN)) {
     return fail_singular(m, t, &at);
   }
-  if (verdict->refusal == BAUM_I_REFUSAL_LEFT_OUT) {
+  if (verdict->refusal == BAUM_I_REFUSAL_OMITTED) {
     return baum_i_fail(BAUM_ERR_CONVERGENCE,
                        "t = %.9g s: kinematics: a row of %s that was omitted as redundant no "
                        "longer follows from the "
@@ -225,8 +226,9 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
 
 /* Take one step from *from towards t_end, shortened as often as it is refused, into *to. *h is the
  * length to try on entry, and the length for the next step on return. */
-static baum_status step(kinematics_run *run, const baum_i_problem *problem, const baum_i_pose *from,
-                        baum_i_pose *to, double t_end, double *h)
+static baum_status step(kinematics_run *run, const baum_i_problem *problem,
+                        const baum_i_configuration *from, baum_i_configuration *to, double t_end,
+                        double *h)
 {
   const baum_mechanism *m = problem->workspace->mechanism;
   double shortest = shortest_step(problem, from->t);
@@ -260,7 +262,7 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
  * the rounding of the time would not advance. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
-  copy_pose(problem->workspace->mechanism, run->left, run->trial);
+  copy_configuration(problem->workspace->mechanism, run->left, run->trial);
   double h = 0.5 * fabs(t - run->left->t);
   for (int k = 0; run->trial->t != t; k++) {
     if (k == MOST_PIECES) {
@@ -297,13 +299,13 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
     return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of kinematics",
                        t);
   }
-  const baum_i_pose *pose = t == run->right->t ? run->right : run->left;
-  if (t != pose->t) {
+  const baum_i_configuration *to = t == run->right->t ? run->right : run->left;
+  if (t != to->t) {
     BAUM_I_TRY(solve_inside(run, problem, t));
-    pose = run->trial;
+    to = run->trial;
   }
-  memcpy(q, pose->q, (size_t)m->nq * sizeof *q);
-  memcpy(v, pose->v, (size_t)m->nv * sizeof *v);
+  memcpy(q, to->q, (size_t)m->nq * sizeof *q);
+  memcpy(v, to->v, (size_t)m->nv * sizeof *v);
   return BAUM_OK;
 }
 
@@ -345,7 +347,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
     return fail_to_start(run, &verdict);
   }
   swap(&run->right, &run->trial);
-  copy_pose(m, run->right, run->left);
+  copy_configuration(m, run->right, run->left);
   run->forgotten = false;
   double rate = baum_i_state_rate(m, run->right->v, run->right->a);
   run->h = FIRST_TURN / fmax(rate, problem->rate);
@@ -392,22 +394,22 @@ static void close_run(void *self)
   baum_i_free(run->memory);
 }
 
-static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
+static baum_status make_configurations(kinematics_run *run, const baum_mechanism *m)
 {
   size_t nv = (size_t)m->nv;
-  size_t size = pose_size(m);
-  run->memory = baum_i_alloc(POSES * size, sizeof *run->memory);
+  size_t size = number_count(m);
+  run->memory = baum_i_alloc(STORED * size, sizeof *run->memory);
   BAUM_I_TRY(baum_i_check_memory(run->memory));
-  for (size_t k = 0; k < POSES; k++) {
+  for (size_t k = 0; k < STORED; k++) {
     double *at = run->memory + k * size;
     double *v = at + m->nq;
-    run->poses[k] =
-      (baum_i_pose){.q = at, .v = v, .a = v + nv, .turn = v + 2 * nv, .jacobian = v + 3 * nv};
+    run->stored[k] = (baum_i_configuration){
+      .q = at, .v = v, .a = v + nv, .turn = v + 2 * nv, .jacobian = v + 3 * nv};
   }
-  run->left = &run->poses[0];
-  run->right = &run->poses[1];
-  run->trial = &run->poses[2];
-  run->spare = &run->poses[3];
+  run->left = &run->stored[0];
+  run->right = &run->stored[1];
+  run->trial = &run->stored[2];
+  run->spare = &run->stored[3];
   return BAUM_OK;
 }
 
@@ -433,7 +435,7 @@ static baum_status open_run(void *self, const void *table, const baum_i_problem 
   kinematics_run *run = self;
   BAUM_I_TRY(check_freedom(problem->workspace));
   BAUM_I_TRY(baum_i_continuation_open(&run->path, problem->workspace));
-  BAUM_I_TRY(make_poses(run, problem->workspace->mechanism));
+  BAUM_I_TRY(make_configurations(run, problem->workspace->mechanism));
   return restart(run, problem, start);
 }
 

@@ -146,7 +146,7 @@ baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
 /* Add flags, own arrays and inputs to a digest. Bodies and lowered numbers are added elsewhere, and
- * fields that matter only for the start are left out. */
+ * fields that matter only for the start are skipped. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
 /* Find the bodies that an element acts on, each once: the bodies and the bodies of the joints that

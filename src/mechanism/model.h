@@ -324,7 +324,6 @@ typedef struct baum_i_coordinate_blocks {
   double jtl_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
   double gamma_q[BAUM_I_PAIR_COLUMNS];
   double gamma_v[BAUM_I_PAIR_COLUMNS];
-  double rate_q[BAUM_I_PAIR_COLUMNS]; /* (gradient v)_q; in the plane -gamma_v / 2, not set */
 } baum_i_coordinate_blocks;
 
 struct baum_i_joint_type {

@@ -257,7 +257,7 @@ static void record_crossing(baum_simulation *run, double to)
     entry.t, p->present.joint,
     "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e times the usual one, %s): %s",
     entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
-  if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {
+  if (run->counters.near_singular_intervals < BAUM_I_NEAR_SINGULAR_KEPT) {
     p->kept[run->counters.near_singular_intervals] = entry;
   }
   run->counters.near_singular_intervals++;
@@ -438,7 +438,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   const char *call = "baum_simulation_near_singular";
   BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   int64_t count = simulation->counters.near_singular_intervals;
-  int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
+  int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
   if (entry.joint.index1 > 0) { /* in a restored run it may have another tag */

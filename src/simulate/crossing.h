@@ -8,8 +8,8 @@
 #include "simulate/run.h"
 
 enum {
-  BAUM_I_PASSAGES = 64, /* number of stored intervals; further ones are only counted */
-  BAUM_I_RECENT = 3     /* states */
+  BAUM_I_NEAR_SINGULAR_KEPT = 64, /* number of stored intervals; further ones are only counted */
+  BAUM_I_RECENT = 3               /* states */
 };
 
 /* A crossing that has begun, or has just been found between two steps. */
@@ -38,7 +38,7 @@ struct baum_i_crossings {
   baum_i_knot other;
   baum_i_knot between;
   baum_i_knot lowest; /* of the crossing under way: t, pivot and q */
-  baum_near_singular kept[BAUM_I_PASSAGES];
+  baum_near_singular kept[BAUM_I_NEAR_SINGULAR_KEPT];
 };
 
 /* The last recent state, which must exist. */

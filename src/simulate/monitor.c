@@ -64,25 +64,25 @@ static void observe_redundant(baum_simulation *run, double t)
     return; /* a failing function of the user will soon be reported */
   }
   double kept = 0.0;
-  double left_out = 0.0;
+  double omitted = 0.0;
   int row = 0;
   (void)baum_i_row_sizes(w, w->phi, &row);
   for (int i = 0; i < m->nc; i++) {
     if (!w->rows.omitted[i]) {
       kept = fmax(kept, w->work_c[i]);
-    } else if (w->work_c[i] > left_out) {
-      left_out = w->work_c[i];
+    } else if (w->work_c[i] > omitted) {
+      omitted = w->work_c[i];
       row = i;
     }
   }
-  if (left_out > may_be_off(run, kept)) {
+  if (omitted > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
     baum_i_run_warn(
       run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
       "t = %.9g s: an omitted redundant row of %s is violated by %.3g, relative to the "
       "scales, the active rows by %.1g: constraints contradict each other, or the "
       "motion has left its branch; do not trust it",
-      t, baum_i_row_label(m, row, label), left_out, kept);
+      t, baum_i_row_label(m, row, label), omitted, kept);
   }
 }
 

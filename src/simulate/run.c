@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/rotation.h"
 #include "base/sized.h"
 #include "base/text.h"
 #include "simulate/run.h"
@@ -21,7 +22,6 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
 
 void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_state *state)
 {
-  static const double REVOLUTION = 6.283185307179586;
   baum_i_point *point = &run->workspace->point;
   const baum_mechanism *m = point->mechanism;
   if (!point->angles) {
@@ -35,7 +35,7 @@ void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_st
       joint->type->coordinate(joint, point, &c);
       double *angle = point->angles + 2 * (ptrdiff_t)k;
       double expected = angle[0] + 0.5 * (angle[1] + c.rate) * (state->t - from);
-      angle[0] = expected + remainder(c.value - expected, REVOLUTION);
+      angle[0] = expected + remainder(c.value - expected, BAUM_I_REVOLUTION);
       angle[1] = c.rate;
     }
   }

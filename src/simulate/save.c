@@ -140,7 +140,7 @@ static void list_crossings(baum_simulation *run, baum_i_saved *list)
   list_knots(list, m, p->clear, BAUM_I_HERMITE_MOST);
   list_knots(list, m, &p->lowest, 1);
   baum_i_saved_add_some(list, p->kept, sizeof *p->kept, run->counters.near_singular_intervals,
-                        BAUM_I_PASSAGES);
+                        BAUM_I_NEAR_SINGULAR_KEPT);
 }
 
 static void list_events(baum_i_events *events, baum_i_saved *list)
@@ -514,7 +514,7 @@ static void own_ids(baum_simulation *run)
 {
   own_id(run, &run->counters.max_phi_joint);
   own_id(run, &run->counters.max_phi_rate_joint);
-  for (int k = 0; run->crossings && k < BAUM_I_PASSAGES; k++) {
+  for (int k = 0; run->crossings && k < BAUM_I_NEAR_SINGULAR_KEPT; k++) {
     own_id(run, &run->crossings->kept[k].joint);
   }
 }

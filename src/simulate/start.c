@@ -36,24 +36,24 @@ static const char *unit_of(const baum_i_body *body, int coordinate)
 }
 
 /* The joint that the design configuration violates most. */
-static void name_worst_joint(baum_simulation *run, double t, const double *drawn,
+static void name_worst_joint(baum_simulation *run, double t, const double *design,
                              char label[BAUM_I_LABEL_SIZE])
 {
   baum_workspace *w = run->workspace;
   int row = -1;
-  if (w->mechanism->nc > 0 && baum_i_position_stage(w, t, drawn) == BAUM_OK) {
+  if (w->mechanism->nc > 0 && baum_i_position_stage(w, t, design) == BAUM_OK) {
     (void)baum_i_row_sizes(w, w->phi, &row);
   }
   (void)baum_i_row_label(w->mechanism, row, label);
 }
 
-static baum_status fail_far(baum_simulation *run, const double *drawn, const baum_i_body *body,
+static baum_status fail_far(baum_simulation *run, const double *design, const baum_i_body *body,
                             int coordinate, double moved, double limit)
 {
   double scale = run->workspace->mechanism->scale[coordinate];
   char label[BAUM_I_LABEL_SIZE];
   char joint[BAUM_I_LABEL_SIZE];
-  name_worst_joint(run, run->trial.t, drawn, joint);
+  name_worst_joint(run, run->trial.t, design, joint);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
@@ -63,11 +63,11 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
 }
 
 /* Find the largest displacement, and refuse one that is too large. */
-static baum_status check_displacement(baum_simulation *run, const double *drawn, double *largest)
+static baum_status check_displacement(baum_simulation *run, const double *design, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double *moved = run->workspace->work_v;
-  baum_i_difference(m, drawn, run->trial.q, moved);
+  baum_i_difference(m, design, run->trial.q, moved);
   *largest = 0.0;
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
@@ -76,7 +76,7 @@ static baum_status check_displacement(baum_simulation *run, const double *drawn,
       double limit = is_angle(body, i) ? LARGEST_TURN : LARGEST_MOVE;
       *largest = fmax(*largest, move);
       if (move > limit) {
-        return fail_far(run, drawn, body, i, moved[i], limit);
+        return fail_far(run, design, body, i, moved[i], limit);
       }
     }
   }

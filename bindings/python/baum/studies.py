@@ -475,7 +475,7 @@ class Study(_calls.Closing):
         plain = default(_abi.baum_simulation_options)
         found = {"integrator": _value("integrator", best.integrator)}
         words = {"formulation": FORMULATIONS, "start": STARTS, "solver": SOLVERS}
-        left_out = {
+        skipped = {
             "struct_size",
             "integrator",
             "gains",
@@ -486,7 +486,7 @@ class Study(_calls.Closing):
         }
         for name in (field[0] for field in best._fields_):
             value = getattr(best, name)
-            if name in left_out or value == getattr(plain, name) or value != value:
+            if name in skipped or value == getattr(plain, name) or value != value:
                 continue
             found[name] = _swap(words[name])[value] if name in words else value
         gains = _gains(best.gains)

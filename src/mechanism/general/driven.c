@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "base/rotation.h"
 #include "mechanism/general/columns.h"
 #include "mechanism/general/coordinate.h"
 
@@ -80,7 +81,6 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 static double find_offset(const baum_i_joint *driven, const baum_i_point *point, double s,
                           baum_i_coordinate *c)
 {
-  static const double REVOLUTION = 6.283185307179586;
   if (!driven->type->is_angle || driven->type->width != BAUM_I_SPACE) {
     driven->type->coordinate(driven, point, c);
     return c->value - s;
@@ -88,7 +88,7 @@ static double find_offset(const baum_i_joint *driven, const baum_i_point *point,
   baum_i_point near_zero = *point;
   near_zero.angles = NULL;
   driven->type->coordinate(driven, &near_zero, c);
-  return remainder(c->value - remainder(s, REVOLUTION), REVOLUTION);
+  return remainder(c->value - remainder(s, BAUM_I_REVOLUTION), BAUM_I_REVOLUTION);
 }
 
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,

@@ -45,8 +45,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   baum_i_axis_lower(def->axis, def->point, &a, numbers + AXIS, NULL);
   numbers[RADIUS] = def->radius;
-  baum_i_planar_pair drawn = baum_i_planar_pair_of(parameters, &a, &b);
-  numbers[OFFSET] = isnan(def->offset) ? rolled(&drawn) : def->offset;
+  baum_i_planar_pair design = baum_i_planar_pair_of(parameters, &a, &b);
+  numbers[OFFSET] = isnan(def->offset) ? rolled(&design) : def->offset;
   return BAUM_OK;
 }
 

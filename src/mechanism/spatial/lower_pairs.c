@@ -111,18 +111,26 @@ static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const
   return true;
 }
 
-static baum_status lower_axis(const baum_mechanism *mechanism, const baum_i_joint *joint,
-                              double *parameters)
+/* z along an axis of the definition, x and y anywhere beside it. */
+static void put_any_axes(const baum_mechanism *mechanism, const baum_i_joint *joint, int side,
+                         const double axis[3], double out[9])
 {
-  BAUM_I_TRY(lower_points(mechanism, joint, parameters));
-  const baum_i_spatial_axis_head *def = joint->element.def;
-  const baum_i_spatial_frame a = baum_i_spatial_design_frame(mechanism, joint->span.bodies[0]);
+  const baum_i_spatial_frame frame =
+    baum_i_spatial_design_frame(mechanism, joint->span.bodies[side]);
   double z[3];
   double x[3];
   double y[3];
-  to_ground(&def->head, &a, def->axis, z);
+  to_ground(joint->element.def, &frame, axis, z);
   baum_i_complete_axes(z, x, y);
-  (void)put_axes(&a, z, x, parameters + BAUM_I_SPATIAL_AXES_A);
+  (void)put_axes(&frame, z, x, out);
+}
+
+static baum_status lower_axis(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                              double *parameters)
+{
+  const baum_i_spatial_axis_head *def = joint->element.def;
+  BAUM_I_TRY(lower_points(mechanism, joint, parameters));
+  put_any_axes(mechanism, joint, 0, def->axis, parameters + BAUM_I_SPATIAL_AXES_A);
   return BAUM_OK;
 }
 
@@ -168,19 +176,12 @@ static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_join
   return fine ? BAUM_OK : fail_opposite(joint);
 }
 
-/* z_b is free, and x_b any axis beside it. */
 static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                   double *parameters)
 {
-  BAUM_I_TRY(lower_axis(mechanism, joint, parameters));
   const baum_i_spatial_axis_head *def = joint->element.def;
-  const baum_i_spatial_frame b = baum_i_spatial_design_frame(mechanism, joint->span.bodies[1]);
-  double z[3];
-  double x[3];
-  double y[3];
-  to_ground(&def->head, &b, def->axis_b, z);
-  baum_i_complete_axes(z, x, y);
-  (void)put_axes(&b, z, x, parameters + BAUM_I_SPATIAL_AXES_B);
+  BAUM_I_TRY(lower_axis(mechanism, joint, parameters));
+  put_any_axes(mechanism, joint, 1, def->axis_b, parameters + BAUM_I_SPATIAL_AXES_B);
   return BAUM_OK;
 }
 

@@ -86,8 +86,6 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
  *   first 1 / z, second -1 / z^2, third 2 / z^3
  */
 
-static const double REVOLUTION = 6.283185307179586;
-
 /* Derivatives of the angle by (c, s): entry j has j derivatives by s. */
 typedef struct angle {
   double first[2];
@@ -132,7 +130,7 @@ void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *po
   const angle g = angle_of(x[0].value, x[1].value);
   double near = expected_angle(joint, point);
   double raw = atan2(x[1].value, x[0].value);
-  *out = (baum_i_coordinate){.value = near + remainder(raw - near, REVOLUTION)};
+  *out = (baum_i_coordinate){.value = near + remainder(raw - near, BAUM_I_REVOLUTION)};
   for (int i = 0; i < 2; i++) {
     out->rate += g.first[i] * x[i].rate;
     out->gamma += g.first[i] * x[i].gamma;
@@ -145,6 +143,7 @@ void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *po
   }
 }
 
+/* gradient w */
 static double along(const double *gradient, const double *w)
 {
   double sum = 0.0;
@@ -175,7 +174,6 @@ static void add_composed(const baum_i_coordinate x[2], const baum_i_spatial_seco
   for (int k = 0; k < COLUMNS; k++) {
     double slope = x[i].gradient[k];
     out->jw_q[k] += bend_w * slope;
-    out->rate_q[k] += g->first[i] * second->rate_q[k] + bend * slope;
     out->gamma_v[k] += g->first[i] * second->gamma_v[k] - 2.0 * bend * slope;
     out->gamma_q[k] += g->first[i] * second->gamma_q[k] + bend_rate * slope;
     out->gamma_q[k] -= 2.0 * bend * second->rate_q[k];
