@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A control loop: every millisecond a controller reads the crank of the slider-crank and sets
- * the torque of its motor, to keep the speed when a brake comes on. With fixed steps the work of
- * an interval is bounded: ten steps, which allocate nothing. The table of wall times shows how
- * well the bound is kept. */
+/* A control loop. Every millisecond a controller reads the angle and speed of the slider-crank's
+ * crank and sets the torque of the motor, which keeps the speed when a brake is switched on. With
+ * fixed steps the work of an interval is bounded: ten steps, which allocate no memory. A table
+ * shows the wall times of the intervals. */
 #include <time.h>
 
 #include "slider_crank_model.h"
 
-enum { STEPS = 10 /* of one interval */, INTERVALS = 250 /* of one row */, ROWS = 12, BINS = 8 };
+enum { STEPS = 10 /* per interval */, INTERVALS = 250 /* per row */, ROWS = 12, BINS = 8 };
 
 static const double STEP = 1e-4;         /* [s] */
 static const double SPEED = 150.0;       /* [rad/s] set point and initial speed */
 static const double PROPORTIONAL = 0.02; /* [N m s/rad] */
 static const double INTEGRAL = 0.1;      /* [N m/rad] */
 static const double BRAKE = -0.2;        /* [N m] */
-static const double BRAKE_TIME = 1.0;    /* [s] at which it comes on */
+static const double BRAKE_TIME = 1.0;    /* [s] the brake is switched on */
 
 typedef struct loop {
   baum_simulation *run;
@@ -22,13 +22,13 @@ typedef struct loop {
   baum_input_id motor;
   baum_input_id brake;
   double crank[2];      /* [rad] angle and [rad/s] angular velocity */
-  double work;          /* [J] done by the motor and, negative, by the brake */
-  double longest;       /* [s] wall time of an interval */
-  double longest_step;  /* [s] of a step, as a mean over an interval */
-  long histogram[BINS]; /* intervals of 2^k us to twice that; the last all above */
+  double work;          /* [J] done by the motor and (negative) by the brake */
+  double longest;       /* [s] longest wall time of an interval */
+  double longest_step;  /* [s] longest mean wall time of a step in an interval */
+  long histogram[BINS]; /* element k: intervals of 2^k to 2^(k+1) us; the last: all longer ones */
 } loop;
 
-/* A torque on the crank whose size is an input. */
+/* Adds a torque on the crank; an input sets the torque. */
 static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, const char *name)
 {
   baum_planar_load_def load = baum_planar_load_def_default();
@@ -45,7 +45,7 @@ static void look(loop *l)
   CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
 }
 
-/* The integral of the speed error is the lag of the angle. */
+/* The integral of the speed error is the difference of the desired and the actual angle. */
 static double controller(const loop *l, double t)
 {
   return PROPORTIONAL * (SPEED - l->crank[1]) + INTEGRAL * (SPEED * t - l->crank[0]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events and break times: a pendulum bounces at a stop, at times that the run finds; and a
- * torque kicks a pendulum at times that are known in advance. */
+/* Events and break times. A pendulum bounces at a stop: the run finds the times of the bounces. A
+ * torque acts on a pendulum for short intervals, whose times are known in advance. */
 #include <baum/baum.h>
 
 #include "example_util.h"
@@ -8,9 +8,9 @@
 enum { BOUNCES = 8, KICKS = 3 };
 
 static const double LENGTH = 1.0;      /* [m] of a uniform rod of 1 kg */
-static const double ANGLE = 1.0;       /* [rad] at which it is released */
+static const double ANGLE = 1.0;       /* [rad] initial angle */
 static const double STOP = 0.0;        /* [rad] straight below the pin */
-static const double RESTITUTION = 0.9; /* [-] share of the speed that a bounce leaves */
+static const double RESTITUTION = 0.9; /* [-] speed after a bounce / speed before it */
 
 typedef struct pendulum {
   baum_mechanism *mechanism;
@@ -59,8 +59,9 @@ static baum_simulation *start(const pendulum *p)
 
 /* ---- events: times that the run finds ---- */
 
-/* [s] a quarter of the period of swings to an angle: K(sin(angle / 2)) sqrt(2 l / (3 g)), K by the
- * arithmetic-geometric mean (Abramowitz, Stegun 1964, 17.6.3). */
+/* Returns the duration [s] of a quarter of a swing of the given amplitude:
+ * K(sin(angle / 2)) sqrt(2 l / (3 g)), with K computed by the arithmetic-geometric mean
+ * (Abramowitz, Stegun 1964, 17.6.3). */
 static double quarter(double angle)
 {
   double a = 1.0;
@@ -83,7 +84,7 @@ static void add_stop(baum_simulation *run, const pendulum *p)
   CHECK(baum_simulation_add_event(run, &stop, NULL));
 }
 
-/* Sets the velocities after the bounce; the run stands at the stop. */
+/* Sets the velocities after the bounce. The run has stopped at the event. */
 static void bounce(baum_simulation *run)
 {
   double v[3];
@@ -93,8 +94,8 @@ static void bounce(baum_simulation *run)
   CHECK(baum_simulation_set_state(run, baum_simulation_time(run), baum_simulation_q(run), v));
 }
 
-/* Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
- * proportional to 1 - cos(angle). */
+/* At every bounce the energy is multiplied by RESTITUTION^2. In the next swing it becomes potential
+ * energy, which is proportional to 1 - cos(angle). */
 static double tell_bounces(baum_simulation *run)
 {
   static const example_column columns[] = {{"bounce", "bounce", 'd', 0},

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Events and break times: a pendulum bounces at a stop, at times that the run finds; and a torque
-kicks a pendulum at times that are known in advance."""
+"""Events and break times. A pendulum bounces at a stop: the run finds the times of the bounces. A
+torque acts on a pendulum for short intervals, whose times are known in advance."""
 
 import sys
 
@@ -10,9 +10,9 @@ from baum.typing import Array
 from support.report import Report
 
 LENGTH = 1.0  # [m] of a uniform rod of 1 kg
-ANGLE = 1.0  # [rad] at which it is released
+ANGLE = 1.0  # [rad] initial angle
 STOP = 0.0  # [rad] straight below the pin
-RESTITUTION = 0.9  # of the speed that a bounce leaves
+RESTITUTION = 0.9  # speed after a bounce / speed before it
 BOUNCES = 8
 KICKS = (1.0, 10.0), (1.05, 0.0), (2.0, 10.0), (2.05, 0.0), (3.0, 10.0), (3.05, 0.0)  # s, N m
 
@@ -29,8 +29,8 @@ def pendulum() -> baum.Mechanism:
 
 
 def quarter(angle: float) -> float:
-    """A quarter of the period of swings to an angle [s]: K(sin(angle / 2)) sqrt(2 l / (3 g)), K by
-    the arithmetic-geometric mean."""
+    """Duration of a quarter of a swing of the given amplitude [s]: K(sin(angle / 2)) sqrt(2 l /
+    (3 g)), with K computed by the arithmetic-geometric mean."""
     a, b = 1.0, np.cos(angle / 2)
     for _ in range(8):
         a, b = (a + b) / 2, np.sqrt(a * b)
@@ -38,8 +38,8 @@ def quarter(angle: float) -> float:
 
 
 def exact_times() -> Array:
-    """Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
-    proportional to 1 - cos(angle)."""
+    """At every bounce the energy is multiplied by RESTITUTION^2. In the next swing it becomes
+    potential energy, which is proportional to 1 - cos(angle)."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
     times: Array = quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])

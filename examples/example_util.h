@@ -27,19 +27,19 @@ enum { EXAMPLE_SKIPPED = 77 };
 typedef struct example_column {
   const char *key;
   const char *title;
-  char format; /* 's' text, 'd' whole number, 'f' fixed point, 'e' exponent */
-  int digits;  /* after the point; least width of a text */
+  char format; /* 's' text, 'd' integer, 'f' fixed point, 'e' exponent */
+  int digits;  /* digits after the point; of a text: minimum width */
 } example_column;
 
 static struct {
   const char *name;
   FILE *json;
   FILE *data;
-  const char *page; /* path of a page, for programs that make one; NULL: none */
+  const char *page; /* where a program writes its HTML page; NULL: nowhere */
   const example_column *columns;
   int column_count;
-  int column; /* of the next cell */
-  bool shown; /* also on the screen */
+  int column; /* index of the next cell */
+  bool shown; /* whether the table is also printed on the screen */
   long rows;
   int checks;
   int failures;
@@ -108,7 +108,7 @@ static inline void example_close_table(void)
   example.columns = NULL;
 }
 
-/* The titles of a table, on the screen and in the files. */
+/* Writes the titles of a table to the screen and to the files. */
 static inline void example_heading(void)
 {
   for (int k = 0; k < example.column_count; k++) {
@@ -126,7 +126,7 @@ static inline void example_heading(void)
   }
 }
 
-/* Begins a table; one that is not shown goes to the files only. */
+/* Begins a table. A table with shown = false is written only to the files. */
 static inline void example_table(const char *name, const example_column *columns, int count,
                                  bool shown)
 {
@@ -190,7 +190,7 @@ static inline void example_close_cell(void)
   }
 }
 
-/* The next cell of a row. */
+/* Writes a text into the next cell of the row. */
 static inline void example_text(const char *text)
 {
   const example_column *column = example_next_cell();
@@ -206,7 +206,8 @@ static inline void example_text(const char *text)
   example_close_cell();
 }
 
-/* The next cell of a row. NaN is shown as a dash, null in JSON, NaN for gnuplot. */
+/* Writes a number into the next cell of the row. NaN becomes a dash on the screen, null in JSON and
+ * NaN in the data file. */
 static inline void example_number(double value)
 {
   const example_column *column = example_next_cell();
@@ -229,7 +230,7 @@ static inline void example_number(double value)
   example_close_cell();
 }
 
-/* One line with the cost of a run, also as "counters" in the JSON. */
+/* Prints one line with the cost of a run and writes it to the JSON file as "counters". */
 static inline void example_counters(baum_simulation *simulation)
 {
   baum_counters c;

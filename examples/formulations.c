@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cost and accuracy of integrators and formulations: the undriven slider-crank, released at 150
- * rad/s, for 0.2 s. Error: the largest difference from the reference at its samples, with angles
- * in radians and lengths relative to the characteristic length. Violations: the largest of all
- * rows; that of the guide's angle is in radians. */
+/* Cost and accuracy of integrators and formulations: the slider-crank without a driver, released at
+ * 150 rad/s, for 0.2 s. Error: the largest difference from the samples of the reference, with
+ * angles in radians and lengths divided by the characteristic length. Violations: the largest of
+ * all rows; the row of the guide's angle is in radians. */
 #include "slider_crank_reference.h"
 
-enum { SETTINGS = 3, SHOWN = 1 }; /* coarse, as in the table, fine */
+enum { SETTINGS = 3, SHOWN = 1 }; /* a coarse setting, that of the table and a fine one */
 
 typedef enum tuning { STEP, RTOL } tuning;
 
@@ -13,8 +13,8 @@ typedef struct method {
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
   tuning tuned_by;
-  double settings[SETTINGS]; /* step [s] or rtol [-] */
-  double error;              /* limit of its error in the table */
+  double settings[SETTINGS]; /* steps [s] or values of rtol [-] */
+  double error;              /* largest error allowed for the setting of the table */
 } method;
 
 static const method methods[] = {
@@ -53,7 +53,7 @@ static outcome simulate(const slider_crank *s, const method *how, int setting)
   CHECK(baum_simulation_create(s->mechanism, &options, &run));
   for (int k = 0; k < REFERENCE_SAMPLES; k++) {
     baum_status status = baum_simulation_advance_to(run, reference_time(k));
-    if (status != BAUM_WARNED || setting == SHOWN) { /* once is enough */
+    if (status != BAUM_WARNED || setting == SHOWN) { /* print each warning once */
       CHECK(status);
     }
     CHECK(baum_simulation_counters(run, &out.counters, sizeof out.counters));
@@ -78,7 +78,8 @@ static void row(int k, int setting, const outcome *out)
   example_number(out->energy);
 }
 
-/* Writes the results into the table and, with all settings, into the files; then the checks. */
+/* Writes the results of one setting into the table and of all settings into the files; then makes
+ * the checks. */
 static void tell(outcome outcomes[][SETTINGS], int count)
 {
   static const example_column columns[] = {{"integrator", "integrator", 's', 19},
@@ -100,7 +101,7 @@ static void tell(outcome outcomes[][SETTINGS], int count)
     row(k / SETTINGS, k % SETTINGS, &outcomes[k / SETTINGS][k % SETTINGS]);
   }
 
-  double phi[2] = {0.0}; /* after projection, of the others */
+  double phi[2] = {0.0}; /* largest violation: [0] with projection, [1] without */
   int worse = 0;
   printf("\n");
   for (int k = 0; k < count; k++) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A heavy top: a disc on a light axle that stands on a spherical joint. With the right spin it
-precesses steadily; with a little less it nods."""
+"""A heavy top: a disc on a light axle that stands on a spherical joint. At a certain angular
+velocity about its axle the top precesses steadily; when it spins slightly slower, its tilt
+oscillates."""
 
 import sys
 
@@ -31,14 +32,14 @@ COLUMNS = {
 
 
 def steady_spin() -> float:
-    """Angular velocity about the axle [rad/s] of the steady precession p at the tilt n:
-    axial spin p - across p^2 cos(n) = m g arm."""
+    """Angular velocity about the axle [rad/s] at which the top precesses steadily with PRECESSION p
+    at TILT n: AXIAL spin p - ACROSS p^2 cos(n) = MASS GRAVITY ARM."""
     weight = MASS * GRAVITY * ARM
     return float((weight + ACROSS * PRECESSION**2 * np.cos(TILT)) / (AXIAL * PRECESSION))
 
 
 def top(spin: float) -> baum.Mechanism:
-    """The centre of mass is in the plane of x and z at the start; the axle is the body's z axis."""
+    """The centre of mass starts in the plane of x and z; the axle is the body's z axis."""
     m = baum.Mechanism(up="z")
     sine, cosine = np.sin(TILT), np.cos(TILT)
     axes = np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])  # columns: axes of the body
@@ -55,14 +56,14 @@ def top(spin: float) -> baum.Mechanism:
 
 
 def simulate(spin: float, times: Array) -> tuple[baum.Run, Array]:
-    """A run, and azimuth and tilt [rad] of the axle (2 x n)."""
+    """Returns a run, and azimuth and tilt [rad] of the axle (2 x n)."""
     run = top(spin).simulate(times, "rk8", rtol=1e-10, record=["foot.reaction", "energy"])
     x, y, z = run["top.pose"][:, :3].T
     return run, np.stack([np.unwrap(np.arctan2(y, x)), np.arctan2(np.hypot(x, y), z)])
 
 
 def vertical_momentum(run: baum.Run) -> Array:
-    """Angular momentum [N m s] about the vertical through the joint, which gravity keeps."""
+    """Angular momentum [N m s] about the vertical through the joint. Gravity does not change it."""
     r, velocity = run["top.pose"][:, :3], run["top.velocity"]  # both in ground axes
     v, w = velocity[:, :3], velocity[:, 3:]
     spin = (w * r).sum(axis=1, keepdims=True) * r / ARM**2

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A shaper's quick-return motion by kinematics: its motor leaves no degree of freedom, so that
-every configuration follows from the constraints alone, and the torque of the motor from the
+every configuration follows from the constraints alone. The torque of the motor follows from the
 accelerations.
 
-A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps
-level. With the crank at angle p the ram is at x = H R cos(p) / (D + R sin(p)).
+A pin of the crank slides in a slot of the rocker. A pin of the ram slides in the same slot, and a
+guide lets the ram move only horizontally. With the crank at angle p the ram is at
+x = H R cos(p) / (D + R sin(p)).
 """
 
 import sys
@@ -14,10 +15,11 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-R, D, H = 0.1, 0.25, 0.6  # [m] crank, its shaft and the ram above the pivot of the rocker
+# [m] length of the crank; heights of its shaft and of the ram above the rocker's pivot
+R, D, H = 0.1, 0.25, 0.6
 OMEGA = 4 * np.pi  # [rad/s] two revolutions per second
 DAMPING = 200.0  # [N s/m] of the guide
-SAMPLES = 360  # of one revolution
+SAMPLES = 360  # per revolution
 
 COLUMNS = {
     "p": ("crank [deg]", "9.1f"),
@@ -30,7 +32,8 @@ COLUMNS = {
 
 
 def shaper() -> baum.Mechanism:
-    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
+    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
+    the bodies to their places."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)
@@ -56,7 +59,7 @@ def ram_at(t: Array) -> Array:
 
 
 def turning_times() -> Array:
-    """Times [s] at which the ram reverses: sin(p) = -R / D; in between it goes back."""
+    """Times [s] at which the ram reverses, where sin(p) = -R / D. Between them it moves back."""
     more = np.arcsin(R / D)
     times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
     return times
@@ -84,7 +87,7 @@ def main() -> int:
     report.expect("its acceleration, off by [m/s^2]", error[2], 1e-9)
     turned = m.simulate(turning_times(), "kinematics")["ram.velocity"][:, 0]
     report.expect("velocity where it turns round [m/s]", abs(turned).max(), 1e-11)
-    # Means over a revolution of periodic values: the trapezoidal rule is exact except for rounding.
+    # The trapezoidal rule gives means of these periodic values that are exact except for rounding.
     work = OMEGA * effort[1:].mean() * times[-1]
     lost = DAMPING * (ram[1, 1:] ** 2).mean() * times[-1]
     report.expect("motor's work less the oil's [J]", abs(work - lost), 1e-9 * lost)

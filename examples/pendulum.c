@@ -4,9 +4,9 @@
 
 #include "example_util.h"
 
-enum { SAMPLES = 501, SHOWN = 25 /* every so many */ };
+enum { SAMPLES = 501, SHOWN = 25 /* samples per printed row */ };
 
-static double path[SAMPLES][5]; /* t, x, y, error, energy change, for the figure */
+static double path[SAMPLES][5]; /* t, x, y, error, energy change; for the figure */
 
 /* Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod. */
 static int circle(double t, const double *q, double *phi, void *user)
@@ -40,9 +40,9 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* The exact motion. With s = sin(angle / 2), angle from the lowest point and k^2 = 1/2, s = k sn(K
- * - sqrt(g/l) t, k), sn by the arithmetic-geometric mean (Abramowitz, Stegun 1964, 16.4), K = pi /
- * (2 agm(1, sqrt(1 - k^2))). */
+/* The exact motion. With s = sin(angle / 2), the angle measured from the lowest point, and
+ * k^2 = 1/2: s = k sn(K - sqrt(g/l) t, k). The function sn is computed by the arithmetic-geometric
+ * mean (Abramowitz, Stegun 1964, 16.4); K = pi / (2 agm(1, sqrt(1 - k^2))). */
 static void exact(double t, double *x, double *y)
 {
   enum { LEVELS = 6 };

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rollback: every two milliseconds a controller tries two torques on the run itself, each for
- * one revolution of the crank. It restores the saved run after each trial and takes the torque
- * that ends with the better speed. Saving and restoring allocate nothing. With a one-step method
- * and blocks the run continues as if nothing had been tried. */
+/* Trying controls and undoing them. Every two milliseconds a controller simulates one revolution of
+ * the crank with each of two torques, on the run itself. It restores the saved run after each trial
+ * and chooses the torque whose mean speed is closer to the set point. Saving and restoring allocate
+ * no memory. With a one-step method and blocks the run continues as if there had been no trial. */
 #include <time.h>
 
 #include "slider_crank_model.h"
 
-enum { STEPS = 20 /* of one interval */, AHEAD = 420, INTERVALS = 125 /* of one row */, ROWS = 8 };
+enum { STEPS = 20 /* per interval */, AHEAD = 420, INTERVALS = 125 /* per row */, ROWS = 8 };
 
 static const double STEP = 1e-4;   /* [s] */
 static const double SPEED = 150.0; /* [rad/s] set point and initial speed */
 static const double BRAKE = -0.1;  /* [N m] always on */
-static const double FULL = 0.6;    /* [N m] of the motor, which can be on or off */
+static const double FULL = 0.6;    /* [N m] torque of the motor when it is on */
 
 typedef struct plant {
   baum_simulation *run;
@@ -21,7 +21,7 @@ typedef struct plant {
   unsigned char *buffer;
   size_t capacity;
   long tries;
-  double seconds; /* wall time of saving and restoring */
+  double seconds; /* wall time spent in saving and restoring */
 } plant;
 
 static double now(void)
@@ -39,7 +39,8 @@ static double angle(const plant *p)
   return crank[0];
 }
 
-/* The error of the mean speed if a torque acts for a while from here; the run is restored. */
+/* Returns the error of the mean speed over the next AHEAD steps with a given torque. Restores the
+ * run. */
 static double try_torque(plant *p, double torque)
 {
   size_t size = 0;
@@ -59,7 +60,7 @@ static double try_torque(plant *p, double torque)
 
 static baum_mechanism *build(slider_crank *s, plant *p)
 {
-  baum_mechanism *mechanism = NULL; /* a copy, because that of s is frozen */
+  baum_mechanism *mechanism = NULL; /* a copy, because s.mechanism is frozen */
   CHECK(baum_mechanism_copy(s->mechanism, &mechanism));
   baum_planar_load_def load = baum_planar_load_def_default();
   load.body = s->crank;
@@ -85,7 +86,7 @@ int main(int argc, char **argv)
   options.step = STEP;
   CHECK(baum_simulation_create(mechanism, &options, &p.run));
   CHECK(
-    baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* a capacity that is always sufficient */
+    baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* sufficient for every state of the run */
   p.buffer = malloc(p.capacity);
   if (!p.buffer) {
     return EXIT_FAILURE;

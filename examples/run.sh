@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh examples/run.sh [NAME...]
 #
-# Sets up what is missing, builds the release library, runs the examples named or all of them,
-# and leaves in out/ what each printed (.txt), its tables (.json, and .dat for gnuplot), the
-# figures drawn from them (.png), and the pages of studies (.html).
+# Installs missing packages, builds the release library and runs the named examples (default: all).
+# Writes into out/ what each prints (.txt), its tables (.json, and .dat for gnuplot), their figures
+# (.png), and the pages of studies (.html).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank}
+names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank animation}
 out=$PWD/out
 
 # shellcheck disable=SC2086
@@ -22,7 +22,7 @@ mkdir -p "$out"
 summary=
 failures=0
 
-# run TITLE COMMAND...: run one example, keep and show what it prints, note how it went.
+# run TITLE COMMAND...: run one example, save and show what it prints, and record whether it failed.
 run() {
   title=$1
   shift
@@ -54,7 +54,7 @@ for program in examples/*.py; do
     "$venv/bin/python" "$program" "$@"
 done
 
-# Scripts draw in out/, from the tables there.
+# Scripts draw figures in out/ from the tables there.
 for script in examples/*.gp; do
   [ -e "$script" ] || continue
   name=$(basename "$script" .gp)

@@ -2,10 +2,10 @@
 /* Fig. 3 of Flores et al. 2008: Phi_3 of the eccentric slider-crank, its crank driven at constant
  * speed, with explicit Euler and eight sets of Baumgarte's gains.
  *
- * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e. Earlier
- * violations obey (6), so that
+ * Prediction: one step of Euler from the exact motion causes the violations d of Phi_3 and e of
+ * Phi_3'. Earlier violations follow equation (6), so that
  *   Phi_3+ = Phi_3 + h Phi_3' + d,   Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e,
- * the recursion with the characteristic equation (19). */
+ * a recursion whose characteristic equation is (19). */
 #include "slider_crank_model.h"
 
 enum { STEPS = 10000, TURN = 419, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
@@ -26,8 +26,7 @@ enum { PHI3, X = 2, CHANNELS = 5 };
 static double rows[SETS][STEPS + 1][CHANNELS];
 static double predicted[SETS][STEPS + 1]; /* Phi_3 */
 
-/* A driven mechanism has no degree of freedom left: its motion follows from the constraints
- * alone. */
+/* A driven mechanism has no degree of freedom: its motion follows from the constraints alone. */
 static void solve_kinematics(const baum_mechanism *mechanism)
 {
   baum_workspace *workspace = NULL;
@@ -42,7 +41,7 @@ static void solve_kinematics(const baum_mechanism *mechanism)
   for (int k = 0; k <= STEPS; k++) {
     double t = k * H;
     for (int i = 0; i < N; i++) {
-      v[i] = (double)NAN; /* not known yet */
+      v[i] = (double)NAN; /* unknown, to be computed */
     }
     CHECK(baum_workspace_assemble(workspace, t, q, v, NULL, 0));
     CHECK(baum_workspace_acceleration(workspace, t, q, v, 0.0, 0.0, a, NULL));
@@ -74,7 +73,8 @@ static void predict(double alpha, double beta, double *phi)
   }
 }
 
-/* Largest difference of Phi_3 from its prediction, relative to the largest prediction. */
+/* Returns the largest difference of Phi_3 from its prediction, divided by the largest
+ * prediction. */
 static double surprise(int set)
 {
   double difference = 0.0;
@@ -100,7 +100,7 @@ static baum_counters simulate(const slider_crank *s, baum_gains gains, int set)
                                    baum_channel_of_body(BAUM_BODY_POSE, s->slider)};
   baum_status status =
     baum_simulation_sample(run, exact.t, STEPS + 1, channels, 2, rows[set][0], NULL);
-  if (status != BAUM_WARNED) { /* of marginal gains, as the table shows */
+  if (status != BAUM_WARNED) { /* the table shows which gains are marginal */
     CHECK(status);
   }
   baum_counters counters;
@@ -109,7 +109,7 @@ static baum_counters simulate(const slider_crank *s, baum_gains gains, int set)
   return counters;
 }
 
-/* A row of the table. */
+/* Prints one row of the table. */
 static void tell(const char *name, const baum_counters *c, int set)
 {
   static const char *const classes[] = {"stable", "marginal", "unstable", "-"};
@@ -153,7 +153,7 @@ static const struct {
 };
 enum { NONE, EQUAL_50 = 2, STIFF = SETS - 1 };
 
-/* Phi_3 over time, for the figure. */
+/* Writes Phi_3 over time, for the figure. */
 static void write_series(const char *name, int steps, int every)
 {
   example_column columns[SETS + 1] = {{"t", "t [s]", 'f', 4}};
@@ -191,7 +191,7 @@ int main(int argc, char **argv)
          "predicted     by the recursion of (19); steady: by the library, for gains >= 0.1/h\n\n",
          SLIDER_CRANK_SPEED, H, STEPS);
   example_table("gain_sets", columns, 11, true);
-  double steady = 0.0; /* the library's own prediction for the last set */
+  double steady = 0.0; /* the library's prediction for the last set */
   for (int set = 0; set < SETS; set++) {
     baum_gains gains = {.rule = sets[set].rule, .value = {sets[set].value[0], sets[set].value[1]}};
     baum_counters counters = simulate(&s, gains, set);

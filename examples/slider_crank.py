@@ -3,8 +3,8 @@
 constant speed, by explicit Euler with eight sets of Baumgarte's gains.
 
 Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165,
-Table 1. The eccentricity and the other numbers of the runs are choices made here, because the
-paper's are not known. The motion is known in closed form: each run shows its error too.
+Table 1. The eccentricity and the other numbers of the runs are chosen here, because the paper
+does not give them. The motion is known in closed form, so the error of each run is shown too.
 """
 
 import sys
@@ -46,7 +46,8 @@ COLUMNS = {
 
 
 def slider_crank() -> baum.Mechanism:
-    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
+    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
+    the bodies to their places."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -60,13 +61,13 @@ def slider_crank() -> baum.Mechanism:
 
 
 def slider_at(t: Array) -> Array:
-    """x of the slider [m], from the closed loop."""
+    """x of the slider [m], in closed form."""
     x: Array = R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
     return x
 
 
 def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.Run, Row]:
-    """A run and its row of the table; Phi_3 is the first row of pin B."""
+    """Returns a run and its row of the table. Phi_3 is the first row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -76,12 +77,12 @@ def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.R
 
 
 def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> None:
-    """Checks of the paper's statements on its eight sets."""
+    """Checks what the paper says of its eight sets."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # decayed after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # violations have decayed after half of the run
             report.expect(f"{name}, last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)
@@ -92,7 +93,7 @@ def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> No
 
 
 def plot(path: str, runs: dict[str, baum.Run]) -> None:
-    """Phi_3 over time, each set in a frame of its own."""
+    """Plots Phi_3 over time, each set in a separate diagram."""
     import matplotlib.pyplot as plt
 
     figure, frames = plt.subplots(4, 2, sharex=True, figsize=(9, 9), layout="constrained")
@@ -109,7 +110,7 @@ def main() -> int:
     m, times = slider_crank(), H * np.arange(10001.0)
     print(f"{m}: {m.mobility()}\nexplicit Euler, h = {H:g} s, crank at {OMEGA:g} rad/s for 1 s\n")
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", baum.Warning)  # of marginal gains, as the table shows
+        warnings.simplefilter("ignore", baum.Warning)  # the table shows marginal gains
         results = {name: simulate(m, gains, times) for name, gains in GAINS.items()}
     runs = {name: run for name, (run, _) in results.items()}
     said = {name: row for name, (_, row) in results.items()}

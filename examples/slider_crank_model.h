@@ -2,11 +2,11 @@
 /* The eccentric slider-crank of the examples.
  *
  * Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165,
- * Table 1, without clearance. The eccentricity of 0.05 m is a choice made here, and so are the
- * other numbers of the runs: the figures of the paper on Baumgarte's method (Flores et al. 2008)
- * come without their data.
+ * Table 1, without clearance. The eccentricity of 0.05 m and the other numbers of the runs are
+ * chosen here: the paper on Baumgarte's method (Flores et al. 2008) does not give the data of its
+ * figures.
  *
- *   rows of Phi   1, 2 pin A   3, 4 pin B   5, 6 pin C   7, 8 guide   9 motor, when driven
+ *   rows of Phi   1, 2 pin A   3, 4 pin B   5, 6 pin C   7, 8 guide   9 motor, if driven
  */
 #ifndef SLIDER_CRANK_MODEL_H
 #define SLIDER_CRANK_MODEL_H
@@ -30,7 +30,7 @@ typedef struct slider_crank {
   baum_joint_id motor; /* when driven */
 } slider_crank;
 
-/* A pin on the x axes of two bodies, at given distances from their centres. */
+/* Adds a pin on the x axes of two bodies, at given distances from their centres. */
 static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const char *name,
                                              baum_body_id body_a, double at_a, baum_body_id body_b,
                                              double at_b)
@@ -47,7 +47,8 @@ static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const ch
   return id;
 }
 
-/* Bodies in a rough design configuration with the crank at angle 0; assembly closes the joints. */
+/* Adds the bodies with the crank at angle 0 and the other poses only approximate. Assembly corrects
+ * them. */
 static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
 {
   const double r = SLIDER_CRANK_R;
@@ -79,8 +80,8 @@ static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
   CHECK(baum_mechanism_add_planar_body(s->mechanism, &body, &s->slider));
 }
 
-/* Driven: the crank rotates at constant speed and no degree of freedom is left. Otherwise only
- * its initial speed is given. */
+/* driven: the crank rotates at constant speed, which leaves no degree of freedom. Otherwise only
+ * the initial speed of the crank is given. */
 static inline slider_crank slider_crank_build(bool driven)
 {
   const double r = SLIDER_CRANK_R;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference motion of the undriven slider-crank of slider_crank_model.h. It comes from the
- * catalogue of mechanisms whose motion is known and was computed without this library
+/* The reference motion of the slider-crank of slider_crank_model.h without a driver. It comes from
+ * the catalogue of mechanisms with known motions and was computed without this library
  * (docs/mechanisms.md). */
 #ifndef SLIDER_CRANK_REFERENCE_H
 #define SLIDER_CRANK_REFERENCE_H
@@ -21,8 +21,8 @@ static inline double reference_time(int k)
   return times[k];
 }
 
-/* Largest difference of the run's present positions from sample k, with angles in radians and
- * lengths relative to the characteristic length. */
+/* Returns the largest difference of the run's present positions from sample k, with angles in
+ * radians and lengths divided by the characteristic length. */
 static inline double slider_crank_error(const slider_crank *s, const baum_simulation *run, int k)
 {
   const double t = reference_time(k);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A slider-crank in space: the crank rotates about the z axis, the slider moves along x beside and
- * above it. One joint of each kind leaves one degree of freedom:
+ * above it. One joint of each kind leaves the mechanism one degree of freedom:
  *
  *   ground - revolute - crank - spherical - rod - universal - slider - prismatic - ground
  *
  * The crank is released at 20 rad/s. With its angle p the slider is at
- * x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2), and the energy stays what it was. */
+ * x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2), and the energy is conserved. */
 #include <string.h>
 
 #include <baum/baum.h>
@@ -33,8 +33,9 @@ static double slider_at(double angle)
 
 /* ---- bodies ---- */
 
-/* A slender bar whose x axis leads from one point to another. The quaternion turns the ground's x
- * axis there by the shortest way: (1 + d_x, 0, -d_z, d_y) of unit length. */
+/* Adds a slender bar whose x axis points from one given point to another. The quaternion rotates
+ * the ground's x axis to the direction d of the bar by the smallest angle: it is (1 + d_x, 0, -d_z,
+ * d_y), normalized. */
 static baum_body_id add_bar(slider_crank *s, const char *name, double mass, const double from[3],
                             const double to[3], double spin)
 {
@@ -93,7 +94,7 @@ static void add_joints(slider_crank *s, const double a[3], const double b[3])
   cross.body_a = s->slider;
   cross.body_b = s->rod;
   memcpy(cross.point, b, sizeof cross.point);
-  cross.axis_b[0] = a[1] - b[1]; /* level, and perpendicular to the rod */
+  cross.axis_b[0] = a[1] - b[1]; /* horizontal and perpendicular to the rod */
   cross.axis_b[1] = b[0] - a[0];
   cross.axis_b[2] = 0.0;
   CHECK(baum_mechanism_add_spatial_universal(s->mechanism, &cross, &s->cross));

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 1 of Flores et al. 2008 for every fixed-step integrator: which gains are stable?
- * Predicted: the library knows the outline of the stable region in the plane of alpha h and
- * beta^2 h^2 (for explicit Euler the triangle of equation (19)) and how fast violations decay
- * there. Observed: a slider-crank starts with all rows violated. Gains count as stable if the
- * largest violation stays bounded and is smaller in the last quarter of the run than in the
- * first. */
+/* Fig. 1 of Flores et al. 2008 for every fixed-step integrator: which gains are stable? Prediction:
+ * the library gives the boundary of the stable region in the plane of alpha h and beta^2 h^2 (for
+ * explicit Euler the triangle of equation (19)) and how fast violations decay inside it.
+ * Simulation: a slider-crank starts with all rows violated. Gains count as stable if the largest
+ * violation stays bounded and is smaller in the last quarter of the run than in the first. */
 #include "slider_crank_model.h"
 
 enum { CELLS = 22, STEPS = 1500, NQ = 9, NC = 8, OUTLINE = 2000 };
 
-static const double H = 1e-5 / 150.0; /* [s] the crank turns by 1e-5 rad a step */
+static const double H = 1e-5 / 150.0; /* [s] the crank rotates by 1e-5 rad in a step */
 static const double OFF = 1e-6;       /* [m, rad] initial error of every coordinate */
-static const double FAR = 1e3;        /* bound, times the initial violation */
+static const double FAR = 1e3;        /* bound of the violation / initial violation */
 static const double LEVELS[] = {1.0, 0.9, 0.75, 0.5, 0.25};
 
 typedef const baum_integrator *integrator_fn(void);
@@ -81,7 +80,7 @@ static double violation(const bench *b, const baum_simulation *run)
 static bool simulated_stable(const bench *b, const baum_integrator *integrator, double alpha_h,
                              double beta2_h2)
 {
-  double most[4] = {0.0}; /* of each quarter */
+  double most[4] = {0.0}; /* largest violation in each quarter of the run */
   baum_simulation *run = start(b, integrator, baum_gains_scaled(alpha_h, beta2_h2));
   const double far = FAR * violation(b, run);
   bool held = true;
@@ -103,8 +102,7 @@ static bool predicted_stable(const baum_integrator *integrator, double alpha_h, 
   return z.stability == BAUM_STABLE;
 }
 
-/* Writes the contours into a table of their own. @return the largest alpha h and beta^2 h^2 of
- * the region */
+/* Writes the contours into one table. @return the largest alpha h and beta^2 h^2 of the region */
 static void draw_outlines(const baum_integrator *integrator, double most[2])
 {
   static const example_column columns[] = {{"radius", "spectral radius [-]", 'f', 2},
@@ -122,20 +120,20 @@ static void draw_outlines(const baum_integrator *integrator, double most[2])
       example_number(LEVELS[l]);
       example_number(line[0][k]);
       example_number(line[1][k]);
-      most[0] = fmax(most[0], line[0][k]); /* of the first contour, which is the widest */
+      most[0] = fmax(most[0], line[0][k]); /* from the first contour, which is the widest */
       most[1] = fmax(most[1], line[1][k]);
     }
   }
 }
 
-/* ---- Both ----------------------------------------------------------------- */
+/* ---- Comparison ----------------------------------------------------------- */
 
 typedef struct window {
   const baum_integrator *integrator;
   double step[2];
 } window;
 
-/* Points off the axes and off edges at round numbers. */
+/* Points that are neither on the axes nor at round numbers, where boundaries may be. */
 static double alpha_at(const window *w, int i)
 {
   return fmax(0.0, w->step[0] * (i + 0.6));
@@ -146,7 +144,7 @@ static double beta2_at(const window *w, int j)
   return fmax(0.0, w->step[1] * (j + 0.7));
 }
 
-/* Whether a point has a neighbour on the other side of the predicted boundary. */
+/* Returns whether a point has a neighbour on the other side of the predicted boundary. */
 static bool at_boundary(const window *w, int i, int j)
 {
   bool here = predicted_stable(w->integrator, alpha_at(w, i), beta2_at(w, j));
@@ -158,7 +156,8 @@ static bool at_boundary(const window *w, int i, int j)
   return other;
 }
 
-/* The points in the files. @return number of points that are not as predicted */
+/* Writes the points to the files. @return the number of points where simulation and prediction
+ * differ */
 static int compare(const bench *b, const window *w, int *astray)
 {
   static const example_column columns[] = {{"alpha_h", "alpha h [-]", 'f', 4},
@@ -187,10 +186,10 @@ static int compare(const bench *b, const window *w, int *astray)
 
 typedef struct summary {
   const char *name;
-  double limit;   /* of alpha h at alpha = beta */
+  double limit;   /* largest stable alpha h at alpha = beta */
   double best[2]; /* alpha h, beta^2 h^2 */
-  double radius;  /* at the best point */
-  double agree;   /* [%] of the points that agree */
+  double radius;  /* spectral radius at the best point */
+  double agree;   /* [%] points where prediction and simulation agree */
 } summary;
 
 static summary examine(const bench *b, const baum_integrator *integrator, int *astray)
@@ -225,8 +224,8 @@ static void show(const summary *all)
   }
 }
 
-/* With Taylor's gains explicit Euler has z^2 = -1: a violation returns every fourth step and
- * stays. @return its relative change in 1000 steps */
+/* With Taylor's gains explicit Euler has z^2 = -1: a violation returns every fourth step and does
+ * not decay. @return its relative change in 1000 steps */
 static double taylor(const bench *b)
 {
   static const example_column columns[] = {{"step", "step", 'd', 5}, {"phi", "Phi_1 [m]", 'e', 3}};

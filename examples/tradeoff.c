@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accuracy against cost: a study of the undriven slider-crank, released at 150 rad/s, for 0.2 s.
- * It runs every integrator with every formulation and recommends settings. --page FILE writes
- * everything as a page for a browser. */
+/* Accuracy and cost: a study of the slider-crank without a driver, released at 150 rad/s, for
+ * 0.2 s. It runs every integrator with every formulation and recommends settings. --page FILE
+ * writes everything as a page for a browser. */
 #include "slider_crank_reference.h"
 
 static const char TITLE[] = "Undriven slider-crank, released at 150 rad/s";
 
-/* A grid that takes a few seconds: few settings, and a limit on the cost of each. */
+/* A grid that takes a few seconds: it has few settings, and the cost of each is limited. */
 static baum_study *make_study(const slider_crank *s)
 {
   baum_study *study = NULL;
@@ -43,7 +43,7 @@ static void tell_entry(const baum_study *study, int32_t k, int columns)
   }
 }
 
-/* The front on the screen, all entries in the files. */
+/* Prints the entries on the front and writes all entries to the files. */
 static void tell_entries(const baum_study *study)
 {
   enum { MOST = 100 };
@@ -72,7 +72,8 @@ static void tell_entries(const baum_study *study)
   }
 }
 
-/* The error of a run with these options against a reference that was made without this library. */
+/* Returns the error of a run with these options against a reference that was computed without this
+ * library. */
 static double error_of(const slider_crank *s, const baum_simulation_options *options)
 {
   baum_simulation *run = NULL;
@@ -86,7 +87,7 @@ static double error_of(const slider_crank *s, const baum_simulation_options *opt
   return error;
 }
 
-/* Recommendations for some errors, and runs that try them. */
+/* Prints the recommendations for some errors and simulates with them. */
 static void recommend(const baum_study *study, const slider_crank *s)
 {
   static const double wanted[] = {1e-2, 1e-4, 1e-6, 1e-8};

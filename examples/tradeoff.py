@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Accuracy against cost, from Python: a study of the slider-crank, released at 150 rad/s, and the
-runs that try its recommendations."""
+"""Accuracy and cost, from Python: a study of the slider-crank, released at 150 rad/s, and runs with
+the settings that it recommends."""
 
 import sys
 
@@ -20,7 +20,8 @@ COLUMNS = {
 
 
 def slider_crank() -> baum.Mechanism:
-    """Three bodies, roughly designed with the crank at angle 0; assembly closes the joints."""
+    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
+    the bodies to their places."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body(
         "crank", mass=0.038, inertia=7.4e-5, position=(0.0765, 0), held=True, angular_velocity=150

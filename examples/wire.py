@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study of a mechanism given entirely by Python functions: a bead on a wire y = x^2 - x^4 / 4
-in oil. Which method is cheapest depends on what an evaluation costs: here it is Python that costs,
-so that the number of evaluations determines the cost."""
+in oil. Here the time spent in Python's functions dominates, so that the method with the fewest
+evaluations is the cheapest."""
 
 import sys
 
@@ -22,7 +22,7 @@ COLUMNS = {
 
 
 def wire() -> baum.Mechanism:
-    """Two coordinates, x and y, with a mass, a force and one constraint."""
+    """Two coordinates, x and y, with a mass matrix, a force and one constraint."""
     m = baum.Mechanism(gravity=(0, 0))
     bead = m.coordinates(
         "bead",

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh tests/run.sh [STAGE...]
 #
-# Sets up what is missing and runs the stages named, or all of the first row, until one fails.
+# Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   longer or rarer, by name only
-# BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders have 100 in any case.
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   these run only if named
+# BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
-# BAUM_FRESH="build test" are the stages that stage fresh runs in the bare system, all of the first row otherwise.
+# BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -28,7 +28,7 @@ stage_format() {
   sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
 }
 
-# Layout, hints and lines of the Python package and of the examples.
+# Formatting, type hints and lint of the Python package and of the examples.
 stage_types() {
   need_venv
   settings=bindings/python/pyproject.toml
@@ -39,7 +39,7 @@ stage_types() {
   "$venv/bin/pyright" --project $settings --pythonpath "$venv/bin/python"
 }
 
-# The reference manual in build/doxygen; every public function, parameter and field is documented.
+# The reference manual in build/doxygen; fails if a public function, parameter or field is undocumented.
 stage_docs() {
   mkdir -p build
   doxygen docs/Doxyfile
@@ -85,7 +85,7 @@ stage_minimal() {
   run_tests minimal -LE sweep
 }
 
-# The library as a user installs it, then moved, so that nothing may depend on where it was.
+# Installs the library like a user, then moves it: nothing may depend on the original place.
 install_release() {
   need_venv
   build release release -DBAUM_WERROR=ON -DBAUM_TESTS=OFF
@@ -106,7 +106,7 @@ stage_python() {
   fi
   need_venv
   [ -d "$prefix" ] || install_release
-  # From a copy, because building a package writes into its source.
+  # The package is built from a copy, because building writes into the source.
   rm -rf build/python-source
   cp -R bindings/python build/python-source
   quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps build/python-source
@@ -143,14 +143,14 @@ stage_coverage() {
   "$venv/bin/python" tests/layout/check_messages.py --untriggered "$all.json" .
 }
 
-# What stage asan leaves out.
+# The tests that stage asan omits.
 stage_sweeps() {
   need_venv
   build asan asan -DBAUM_WERROR=ON
   run_tests asan -L 'sweep|grid'
 }
 
-# The replays of the fuzzers keep mechanisms by pointers into them, which are possibly lost.
+# The replays of the fuzzers keep only pointers into their mechanisms: valgrind calls these "possibly lost".
 stage_valgrind() {
   need_venv
   checks="--quiet;--trace-children=yes;--error-exitcode=99;--leak-check=full;--errors-for-leak-kinds=definite"
@@ -170,9 +170,11 @@ stage_browser() {
   build_dev
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_page.py build/browser
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$venv/bin/python" tests/browser/check_motion.py build/browser
 }
 
-# A finding stays in build/fuzz as crash-*: mend it, and add it to tests/fuzz/corpus.
+# An input that fails stays in build/fuzz as crash-*: correct the error and add it to tests/fuzz/corpus.
 stage_fuzz() {
   need_venv
   need_packages libclang-rt-14-dev
@@ -195,13 +197,14 @@ stage_random() {
   need_venv
   build release random -DBAUM_TESTS=ON
   build/random/tests/bench_random 10000
+  build/random/tests/bench_random_spatial 10000
   build/random/tests/bench_reactions 1000
   build/random/tests/bench_doubts -n 2000 -f 10000 -j 2
   build/random/tests/bench_doubts -n 2000 -f 10000 -j 2 -e
   build/random/tests/bench_sweeps all
 }
 
-# The README's two commands on a bare Debian 12; before any release or large change.
+# Runs the two commands of the README on a bare Debian 12; for releases and large changes.
 stage_fresh() {
   need_packages debootstrap git
   rm -rf build/fresh-clone

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What tests/run.sh and examples/run.sh share; sourced from the top folder of the project.
-# Installs what a fresh Debian 12 lacks, as root or through sudo, and builds under build/.
+# Functions of tests/run.sh and examples/run.sh, which source this file from the top folder of the project.
+# They install packages that a fresh Debian 12 lacks, as root or by sudo, and build under build/.
 
 jobs=$(nproc)
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev
@@ -17,7 +17,7 @@ as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# need_packages NAME...: install those that are missing.
+# need_packages NAME...: install the missing ones of these packages.
 need_packages() {
   command -v dpkg-query >/dev/null || { echo "no Debian here; wanted: $*"; return 0; }
   missing=
@@ -33,7 +33,7 @@ need_packages() {
     apt-get install -q -y --no-install-recommends $missing
 }
 
-# A Python of our own with what the tests and examples import; Debian's, because of its python3-venv.
+# A virtual environment with the packages that tests and examples import, of Debian's Python with python3-venv.
 need_venv() {
   [ "$(cat "$venv/installed" 2>/dev/null)" = "$venv_packages" ] && return
   heading "Python environment with $venv_packages"
@@ -45,7 +45,7 @@ need_venv() {
   echo "$venv_packages" >"$venv/installed"
 }
 
-# quietly COMMAND...: its output only when it fails.
+# quietly COMMAND...: run it and show its output only if it fails.
 quietly() {
   mkdir -p build
   "$@" >build/last.log 2>&1 || { cat build/last.log; echo "failed: $*"; return 1; }

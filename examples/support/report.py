@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shared by the Python examples: tables, checks that decide the exit code, the JSON file with both.
 
-The JSON is as that of the C examples:
+The JSON file has the form of that of the C examples:
 "name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
 """
 

@@ -6,6 +6,7 @@
 #define BAUM_BAUM_H
 
 #include <baum/breaks.h>
+#include <baum/draw.h>
 #include <baum/dynamics.h>
 #include <baum/elements.h>
 #include <baum/events.h>

@@ -15,8 +15,8 @@ extern "C" {
 /** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
  *  have a kink. At its break time a function must return the value after the break.
  *
- *  No step crosses a break, forward or backward in time. One step ends a few roundings before it,
- *  and the next begins at it. Methods that use past steps restart there (counters.restarts). A
+ *  No step crosses a break, forward or backward in time. One step ends a few rounding errors before
+ *  it, and the next begins at it. Methods that use past steps restart there (counters.restarts). A
  *  fixed-step method shortens the step before a break that is off its grid (counters.short_steps)
  *  and begins a new grid at the break. Breaks do not change the times of outputs. A target closer
  *  to a break than the rounding of time is moved to the break.

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Named mechanisms with known motion: for examples, for trying methods and for comparing programs.
+ *  Named mechanisms with known motion, for examples, tests of methods and comparisons of programs.
  *  docs/mechanisms.md lists them. The catalogue is a separate library, baum_catalog, and uses only
  *  the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);
  *
- *  Units are SI. Angles are counter-clockwise from the x axis unless a text says otherwise. Texts
- *  are constant.
+ *  Units are SI. Angles are counter-clockwise from the x axis unless documented otherwise. Strings
+ *  in structs are constant and must not be freed.
  *
  *  A reference is either stored samples or formulas (`exact`). Samples hold for the default
- *  parameters only. Formulas hold for all parameters, and for all times at which rounding leaves
- *  them their digits. The library refuses comparisons with a reference that does not hold.
+ *  parameters only. Formulas hold for all parameters, and for all times at which rounding errors
+ *  leave the stated number of digits. The library refuses comparisons with a reference that does
+ *  not hold for the parameters or the time.
  *
- *  Threads: every function may be called from any thread. A mechanism built here depends on nothing
- *  else that you must keep.
- */
+ *  Threads: every function may be called from any thread. A mechanism from baum_catalog_build()
+ *  depends on no other object. */
 #ifndef BAUM_CATALOG_H
 #define BAUM_CATALOG_H
 
@@ -43,21 +43,21 @@ extern "C" {
 typedef struct baum_catalog_entry {
   size_t struct_size; /**< Set by the call. */
   const char *name;   /**< Such as "slider_crank". */
-  const char *title;  /**< Name for people. */
-  const char *source; /**< Where its data come from. */
-  /** How its reference was computed and checked; "" without reference. */
+  const char *title;  /**< Description in a few words. */
+  const char *source; /**< Source of its data. */
+  /** How its reference was computed and checked; "" if it has none. */
   const char *provenance;
-  const char *note;        /**< What to know before running it; may be "". */
+  const char *note;        /**< Advice for running it; may be "". */
   int32_t parameter_count; /**< [-] see baum_catalog_parameter_at(). */
-  int32_t sample_count; /**< [-] samples of the reference, including the start; 0: no reference. */
-  double start_time;    /**< [s] of the reference and of the problem. */
-  double end_time;      /**< [s] of the reference and of the problem. */
-  /** [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN without
-   *  reference. */
+  int32_t sample_count;    /**< [-] samples of the reference, with the start; 0: no reference. */
+  double start_time;       /**< [s] start of the problem and its reference. */
+  double end_time;         /**< [s] end of the problem and its reference. */
+  /** [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN if it has
+   *  none. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
   bool exact;      /**< The reference consists of formulas. */
-  bool smooth;     /**< With default parameters the motion avoids singular configurations. */
+  bool smooth;     /**< The motion with default parameters passes no singular configuration. */
 } baum_catalog_entry;
 
 /** A parameter of a mechanism of the catalogue. */
@@ -73,13 +73,13 @@ typedef struct baum_catalog_parameter {
 
 /** A value for a parameter. */
 typedef struct baum_catalog_setting {
-  const char *name; /**< Of the parameter. */
+  const char *name; /**< Name of the parameter. */
   double value;     /**< [unit of the parameter] finite. */
 } baum_catalog_setting;
 
 /** A mechanism of the catalogue and its parameters. */
 typedef struct baum_catalog_choice {
-  const char *name;                     /**< Of the entry. */
+  const char *name;                     /**< Name of the entry. */
   const baum_catalog_setting *settings; /**< (setting_count) NULL if there are none. */
   int32_t setting_count;                /**< [-] >= 0; the other parameters have their defaults. */
 } baum_catalog_choice;
@@ -117,10 +117,10 @@ BAUM_CATALOG_API baum_status baum_catalog_parameter_at(const char *name, int32_t
 
 /** Build a mechanism with its initial configuration and velocities at t = 0.
  *  @param[in]  choice  entry and parameters
- *  @param[out] out     receives it, frozen; NULL on failure; release it with
+ *  @param[out] out     receives the frozen mechanism; NULL on failure; release it with
  *                      baum_mechanism_destroy()
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if it cannot be assembled with these parameters),
- *           BAUM_ERR_MEMORY */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the mechanism cannot be assembled with these
+ *           parameters), BAUM_ERR_MEMORY */
 BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choice,
                                                 baum_mechanism **out);
 
@@ -129,22 +129,22 @@ BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choic
 /** Read the times of the samples of a reference.
  *  @param[in]  name   of the entry
  *  @param[out] times  (sample_count) [s] rising, from start_time to end_time
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (it has no reference) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (the entry has no reference) */
 BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times);
 
-/** Read the state of the reference.
+/** Compute positions and velocities of the reference at a time.
  *  @param[in]  choice  entry and parameters
  *  @param      t       [s] a time of baum_catalog_times(); if the reference is exact, any finite
  *                      time
  *  @param[out] q       (nq) positions in the order of the mechanism. May be NULL.
  *  @param[out] v       (nv) velocities. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED (no
- *           reference, none for these parameters, or rounding of the formulas costs too many digits
- *           at this time) */
+ *           reference, none for these parameters, or rounding errors of the formulas exceed the
+ *           stated digits at this time) */
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
 
-/** The same as a function for baum_study_set_solution(), for exact references.
+/** Solution for baum_study_set_solution(): calls baum_catalog_reference(). For exact references.
  *  @param      t       [s]
  *  @param[out] q,v     (nq), (nv)
  *  @param[out] lambda  not written: multipliers are not known
@@ -153,14 +153,16 @@ BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *c
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
 
-/** Distance of states from the reference. Errors of positions are relative to the characteristic
- *  length of the mechanism; those of angles and user coordinates are in their own unit. Errors of
- *  velocities are scaled likewise and relative to the largest velocity of the reference. The floor
- *  is the uncertainty of the reference: errors below it cannot be told apart. */
+/** Errors of states relative to the reference. Errors of lengths are divided by the characteristic
+ *  length of the mechanism; errors of angles [rad] and user coordinates are not scaled. The error
+ *  of an orientation in space has three components: the rotation from the reference to the state
+ *  about the body axes [rad]. Errors of velocities are scaled likewise and divided by the largest
+ *  velocity of the reference. A floor is the uncertainty of the reference: errors below it have no
+ *  meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */
-  double v; /**< [-] the same for velocities; NaN also if they are not given. */
+  double v; /**< [-] the same for velocities; NaN also if v was NULL. */
   double q_final; /**< [-] error of positions at the last time. */
   double v_final; /**< [-] error of velocities at the last time. */
   double q_time;  /**< [s] time of the largest error of positions. */
@@ -170,7 +172,7 @@ typedef struct baum_catalog_error {
 } baum_catalog_error;
 
 /** Compare states with the reference.
- *  @param[in]  choice       what the mechanism was built from
+ *  @param[in]  choice       the choice that the mechanism was built from
  *  @param      mechanism    frozen
  *  @param[in]  times        (n) [s] see baum_catalog_reference()
  *  @param      n            [-] > 0
@@ -178,7 +180,7 @@ typedef struct baum_catalog_error {
  *  @param[in]  v            (n x nv) velocities. NULL: not compared.
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return  BAUM_OK, BAUM_ERR_STATE (not frozen), and as baum_catalog_reference() */
+ *  @return  BAUM_OK, BAUM_ERR_STATE (not frozen), or a status of baum_catalog_reference() */
 BAUM_CATALOG_API baum_status baum_catalog_compare(const baum_catalog_choice *choice,
                                                   const baum_mechanism *mechanism,
                                                   const double *times, int64_t n, const double *q,

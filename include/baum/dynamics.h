@@ -64,7 +64,7 @@ BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by a displacement of velocity size: q + dx if q is a vector.
+/** Move positions by a displacement dx (nv): q + dx if q is a vector.
  *  @param         workspace  of the mechanism
  *  @param[in]     dx         (nv)
  *  @param[in,out] q          (nq)
@@ -133,14 +133,15 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  multipliers; alpha = beta = 0 gives (5).
  *
  *  Redundant rows are omitted from the solution. Multipliers that are not unique are chosen with
- *  least norm, in rows scaled by M. They balance the forces to 1e-9. The choice of omitted rows
- *  changes if the remaining rows come close to dependent. This change allocates memory; the
- *  residual forms then omit the same rows.
+ *  least norm, in rows scaled by M. They balance the forces to 1e-9. The set of omitted redundant
+ *  rows changes if the active rows become nearly dependent and another set is less so. This change
+ *  allocates memory; baum_workspace_residual() then omits the same rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
  *  @param[out] lambda           (nc) May be NULL.
- *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
+ *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (no acceleration fulfils
+ *           the omitted rows, too; the message names a joint) */
 BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
@@ -161,8 +162,8 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
  *
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first equation by q' - N (v - W^-1 J^T mu) and
  *  adds one unknown mu for each row. The mu are zero except for errors of the method. W is constant
- *  and diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk with M_kk
- *  s_k^2 below a millionth of the largest are raised to that millionth over s_k^2, where s is the
+ *  and diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk below m /
+ *  s_k^2 are raised to m / s_k^2, where m is a millionth of the largest M_jj s_j^2 and s_j is the
  *  scale of a coordinate. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
@@ -199,8 +200,8 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
                                              double *residual);
 
 /** Evaluate the Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only.
- *  To learn the number of entries, first call the function with all arrays of `out` NULL. It
- *  allocates memory, so do not use it in inner loops.
+ *  To learn the number of entries, first call the function with all arrays of `out` NULL. The
+ *  function allocates memory, so do not use it in inner loops.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param      c            [1/s] finite
@@ -213,15 +214,16 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       baum_sparse *out);
 
 /** Assemble: move q by the least mass-weighted change that satisfies Phi(q, t) = 0, and complete v.
- *  Each Newton step is the least possible. Their sum is close to the least possible unless J
- *  changes much over the move. In that case name the bodies that must stay in `held`.
+ *  Each Newton step is the least possible change. The sum of the steps is close to the least
+ *  possible unless J changes much during the move. In that case list the bodies that must not move
+ *  in `held`.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
  *  @param[in,out] v            (nv) finite entries are kept exactly; NaN entries follow from the
  *                              constraints, with the least norm if undetermined. Unchanged on
  *                              failure.
- *  @param[in]     held         (held_count) bodies whose positions stay, in addition to those whose
- *                              definition says `held`. May be NULL if held_count is 0.
+ *  @param[in]     held         (held_count) bodies that keep their positions, in addition to those
+ *                              whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
  *  @return  also BAUM_ERR_INCONSISTENT (the message names the joints in conflict),
  *           BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */

@@ -4,21 +4,21 @@
  *  passes a value.
  *
  *  Detection: the run evaluates its event functions after every step, at the quarters of the step
- *  and at outputs. After a change of sign it searches for the time in the motion as outputs see it.
- *  Variable-step methods search in the interpolant of the last step, fixed-step methods by shorter
- *  steps from its start. The search is the same for every integrator. A function that passes zero
- *  twice between two evaluations goes unseen; reduce max_step or the step.
+ *  and at outputs. After a change of sign it searches for the time of the event on the motion that
+ *  outputs return: for variable-step methods the interpolant of the last step, for fixed-step
+ *  methods shorter steps from its start. The search is the same for every integrator. Two zeros
+ *  between two evaluations are not detected; reduce max_step or the step.
  *
- *  Zero at the start: if an event is zero at the start, after baum_simulation_set_state() or where
- *  a run reverses, leaving zero does not trigger it; coming back does. An event counts as zero if
- *  it reaches zero within its tolerance or within 1e-10 T, where T is 1 over the rate that
- *  baum_simulation_explain() states. For IDA, which first moves the state onto the constraints,
- *  this is 10 rtol T. baum_simulation_set_input() and baum_simulation_set_driver() trigger nothing:
- *  a function that jumps there continues with its new sign.
+ *  Zero at the start: if an event function is zero at the start, after baum_simulation_set_state()
+ *  or where a run reverses, leaving zero is not an event; the next crossing of zero is. The
+ *  function is treated as zero there if it reaches zero within the tolerance of the event or within
+ *  1e-10 T, where T is 1 over the rate that baum_simulation_explain() states. For IDA, which first
+ *  moves the state onto the constraints, this is 10 rtol T. baum_simulation_set_input() and
+ *  baum_simulation_set_driver() trigger no event: a function that jumps there continues with its
+ *  new sign.
  *
- *  Events do not alter the motion. The one exception is a fixed-step run that stops: it begins a
- *  new grid at the event, as at a target off the grid.
- */
+ *  Events do not alter the motion, with one exception: a fixed-step run that stops at an event
+ *  begins a new grid there, as at a target off the grid. */
 #ifndef BAUM_EVENTS_H
 #define BAUM_EVENTS_H
 
@@ -32,17 +32,18 @@ extern "C" {
 typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after steps, so it cannot
-   *  ask for smaller ones: > 0 stops the call, as < 0 does. Default: NULL, the coordinate of
-   *  `joint`. */
+  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after a step.
+   *  Therefore it cannot ask for a smaller step: any non-zero result ends the advance of the run.
+   *  Default: NULL, the coordinate of `joint`. */
   baum_force_fn *function;
-  baum_joint_id joint; /**< A joint with a coordinate, in place of function. Default: none. */
-  double value;        /**< [rad or m] of the coordinate. Default: 0. */
+  baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
+  double value;        /**< [rad or m] of the joint coordinate. Default: 0. */
   /** [-] 1: only rising in time, -1: only falling, 0: both. Default: 0. */
   int32_t direction;
   bool terminal;    /**< The call stops at the event with BAUM_STOP_EVENT. Default: true. */
-  double tolerance; /**< [s] > 0, of the event's time. Default: NaN, rounding of the time. */
+  double tolerance; /**< [s] > 0, accuracy of the event's time. Default: NaN, rounding. */
   void *user;       /**< Passed to function. Not owned. Default: NULL. */
+  baum_joint_coordinate coordinate; /**< [-] of joint. Default: BAUM_COORDINATE_FIRST. */
 } baum_event_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -56,9 +57,10 @@ static inline baum_event_def baum_event_def_default(void)
 }
 
 /** Add an event to a run, from the present state on. A run that stops at an event returns
- *  BAUM_STOP_EVENT and stands exactly at it; the next call continues. baum_simulation_sample() has
- *  then filled the rows of the times before the event. Events at the same time are all recorded
- *  before the run stops. An event at the end of a call belongs to that call.
+ *  BAUM_STOP_EVENT, and its state is that at the event; the next call continues.
+ *  baum_simulation_sample() has then filled the rows of the times before the event. Events at the
+ *  same time are all recorded before the run stops. An event at the end of a call belongs to that
+ *  call.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives its number 0, 1, ... in the order of adding; not written on
@@ -81,7 +83,8 @@ typedef struct baum_event_record {
  *  @return  0 for NULL */
 BAUM_API int64_t baum_simulation_event_count(const baum_simulation *simulation);
 
-/** Read an event that has happened. The last 1024 are kept; read them during longer runs.
+/** Read an event that has happened. A run keeps the last 1024; read them during the run if there
+ *  may be more.
  *  @param      simulation   the run
  *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they
  *                           happened

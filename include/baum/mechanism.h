@@ -113,16 +113,15 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
 
-/** Computes dq = N(q) v, which is linear in v. q may be off the manifold by as much as a step
- *  leaves it. Scaling q must scale dq by the same factor. */
+/** Computes dq = N(q) v, which is linear in v. q may be off the manifold by the error of a step.
+ *  Scaling q must scale dq by the same factor. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
 /** Moves q in place along constant v for the time h, accurate to second order in h or better. With
- *  h = 1, v is a displacement of velocity size. */
+ *  h = 1, v is a displacement (size). */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** Computes the displacement dx (of velocity size) for which baum_move_fn with h = 1 takes `from`
- *  to `to`. */
+/** Computes the displacement dx (size) for which baum_move_fn with h = 1 takes `from` to `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest point on the manifold. Do not change the sign of a quaternion here:
@@ -134,8 +133,8 @@ typedef void baum_normalize_fn(double *q, void *user);
  *  Usually v = q'. If positions are not a vector, such as a unit quaternion, set the last fields;
  *  then q' = N(q) v. All functions but `rate` receive a normalized q. Derivatives with respect to
  *  q, including those of constraints on these coordinates, are then derivatives along displacements
- *  of velocity size: (Phi_q N) in place of Phi_q. The functions of the manifold report failure by
- *  writing NaN. */
+ *  (size): (Phi_q N) in place of Phi_q. The functions of the manifold report failure by writing
+ *  NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
@@ -164,7 +163,7 @@ typedef struct baum_coordinates_def {
   baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
   baum_move_fn *move;             /**< Default: NULL; must be set if `rate` is. */
   baum_difference_fn *difference; /**< Default: NULL; must be set if `rate` is. */
-  baum_normalize_fn *normalize;   /**< Default: NULL, every q is on the manifold. */
+  baum_normalize_fn *normalize;   /**< Default: NULL, if every q is on the manifold. */
   int32_t position_count;         /**< [-] number of positions. Default: 0, the same as `size`. */
 } baum_coordinates_def;
 
@@ -182,8 +181,8 @@ static inline baum_coordinates_def baum_coordinates_def_default(void)
   return def;
 }
 
-/** Add an element. The library copies the definition, its name and its arrays; it keeps function
- *  pointers and `user` as they are.
+/** Add an element. The library copies the definition, its name and its arrays; it stores function
+ *  pointers and `user`, but not what `user` points to.
  *  @param      mechanism  not frozen; unchanged on failure
  *  @param[in]  def        the definition
  *  @param[out] id         receives the id of the element; not written on failure. May be NULL.
@@ -204,8 +203,8 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     baum_body_id id, baum_coordinates_def *out,
                                                     size_t caller_size);
 
-/** Replace a definition. Structure must stay the same: the bodies or joints that the element acts
- *  on, numbers of rows and coordinates, and whether `rate` is given.
+/** Replace a definition. The structure must stay the same: the bodies or joints that the element
+ *  acts on, numbers of rows and coordinates, and whether `rate` is given.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param     id         an element of this kind
  *  @param[in] def        the new definition, copied as by the add function
@@ -217,7 +216,7 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /* ---- constraints given by functions ---------------------------------------------------------- */
 
 /** Constraints Phi(q, t) = 0 on the coordinates of the named bodies, given by functions. Only phi
- *  is required. nv below is the number of velocities of the named bodies together.
+ *  is required. nv below is the total number of velocities of the named bodies.
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Missing derivatives are replaced
  *  by central differences of phi. These evaluate phi up to 0.006 time units before and after t for
@@ -258,23 +257,43 @@ BAUM_API baum_status baum_mechanism_get_user_constraint(const baum_mechanism *me
 BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanism, baum_joint_id id,
                                                         const baum_user_constraint_def *def);
 
+/* ---- coordinates of joints ------------------------------------------------------------------- */
+
+/** A coordinate of a joint, for drivers, couplings, joint springs, channels and events:
+ *
+ *  - planar revolute joint, spatial revolute joint: ANGLE
+ *  - planar translational joint, pin in a slot: DISPLACEMENT
+ *  - prismatic joint, point on a line: DISPLACEMENT
+ *  - cylindrical joint: DISPLACEMENT, ANGLE
+ *  - universal joint: ANGLE, ANGLE_B
+ *  - spatial planar joint: X, Y, ANGLE
+ *
+ *  Angles of planar joints are continuous over revolutions. In space a run counts them; calls of a
+ *  workspace take angles between -pi and pi. */
+typedef enum baum_joint_coordinate {
+  BAUM_COORDINATE_FIRST = 0, /**< The first of the list above; of most joints the only one. */
+  BAUM_COORDINATE_DISPLACEMENT = 1, /**< [m] of body_b's point from body_a's along the axis. */
+  BAUM_COORDINATE_ANGLE = 2,        /**< [rad] of body_b relative to body_a about the axis. */
+  BAUM_COORDINATE_ANGLE_B = 3,      /**< [rad] about axis_b. */
+  BAUM_COORDINATE_X = 4,            /**< [m] of body_b's point from body_a's in the plane. */
+  BAUM_COORDINATE_Y = 5             /**< [m] perpendicular to x in the plane. */
+} baum_joint_coordinate;
+
 /* ---- drivers --------------------------------------------------------------------------------- */
 
 /** A driver: one row that prescribes the coordinate of a joint, coordinate(q) - s(t) = 0, with s(t)
- *  = value + rate t + acceleration t^2 / 2 or a law of your own.
- *
- *  The coordinate of a revolute joint is angle_b - angle_a, continuous over revolutions. The
- *  coordinate of a translational joint or a pin in a slot is the displacement of body_b's point
- *  from body_a's point along the axis. */
+ *  = value + rate t + acceleration t^2 / 2 or a law of your own. Whole revolutions of an angle in
+ *  space do not matter. */
 typedef struct baum_driver_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  double value;        /**< [rad or m] s at t = 0. Default: 0. */
-  double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
-  double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;    /**< Replaces the polynomial. Default: NULL. */
-  void *user;          /**< Passed to law. Not owned. Default: NULL. */
+  size_t struct_size;               /**< Set by the default. Do not write. */
+  const char *name;                 /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
+  double value;                     /**< [rad or m] s at t = 0. Default: 0. */
+  double rate;                      /**< [rad/s or m/s] s' at t = 0. Default: 0. */
+  double acceleration;              /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
+  baum_law_fn *law;                 /**< Replaces the polynomial. Default: NULL. */
+  void *user;                       /**< Passed to law. Not owned. Default: NULL. */
+  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
 } baum_driver_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -299,15 +318,19 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 /* ---- couplings ------------------------------------------------------------------------------- */
 
 /** The law of a coupling: f[0] is the value, f[1] the first and f[2] the second derivative at
- *  coordinate x of joint_a [rad or m]. Angles are continuous over revolutions. f is zeroed before
- * the call. Methods that need third derivatives take differences of f[2]. The check of derivatives
- *  also calls the law at coordinates near those of the motion. Returns the same as baum_q_fn. */
+ *  coordinate x of joint_a [rad or m]. Angles count revolutions; those in space are between -pi
+ *  and pi in calls of a workspace. f is zeroed before the call. Methods that need third derivatives
+ *  take differences of f[2]. The check of derivatives also calls the law at coordinates near those
+ *  of the motion. Returns the same as baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling: one row that ties the coordinates of two joints, coordinate_b - f(coordinate_a) = 0,
- *  with f(x) = ratio x + offset or a law of your own. A law describes a cam whose follower is a
- *  joint. Coordinates are those of drivers. The joints may share bodies, such as a crank and a
- *  slider on the ground.
+ *  with f(x) = ratio x + offset or a law of your own. A law describes a cam whose follower moves
+ *  along coordinate_b. The joints may share bodies, such as a crank and a slider on the ground.
+ *  With angle and displacement of one cylindrical joint it is a screw.
+ *
+ *  Without a law, whole revolutions of angles in space do not matter, unless both coordinates are
+ *  such angles and ratio is no fraction with a denominator up to 1000.
  *
  *  Reaction: the generalized force -J^T lambda on the velocities of the bodies of joint_a, then of
  *  joint_b; each body once, without ground. */
@@ -315,13 +338,15 @@ typedef struct baum_coupling_def {
   size_t struct_size;    /**< Set by the default. Do not write. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint_a; /**< A joint with a coordinate. Default: none, must be set. */
-  /** A joint with a coordinate, not joint_a. Default: none, must be set. */
+  /** A joint with a coordinate; joint_a for two coordinates of it. Default: none, must be set. */
   baum_joint_id joint_b;
   double ratio; /**< [unit of b / unit of a] Default: 1. */
-  /** [rad or m] of coordinate_b. Default: NaN, as in the design configuration. */
+  /** [rad or m] of coordinate_b. Default: NaN, the value in the design configuration. */
   double offset;
-  baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
-  void *user;            /**< Passed to law. Not owned. Default: NULL. */
+  baum_coupling_fn *law;              /**< Replaces ratio and offset. Default: NULL. */
+  void *user;                         /**< Passed to law. Not owned. Default: NULL. */
+  baum_joint_coordinate coordinate_a; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate_b; /**< [-] Default: BAUM_COORDINATE_FIRST. */
 } baum_coupling_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -345,8 +370,10 @@ BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum
 
 /* ---- forces given by functions --------------------------------------------------------------- */
 
-/** A generalized force on the named bodies, given by functions. nv below is the number of
- *  velocities of these bodies together. */
+/** A generalized force on the named bodies, given by functions. nv below is the total number of
+ *  velocities of these bodies. A planar body receives a force x, y [N] and a moment [N m]; a
+ *  spatial body a force x, y, z in ground axes and a moment x, y, z in body axes; both about the
+ *  centre of mass. */
 typedef struct baum_user_force_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -382,12 +409,68 @@ BAUM_API baum_status baum_mechanism_get_user_force(const baum_mechanism *mechani
 BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, baum_force_id id,
                                                    const baum_user_force_def *def);
 
+/* ---- springs of joints ----------------------------------------------------------------------- */
+
+/** The law of a spring: tension or torque, and its derivatives.
+ *  @param      length  [m] distance of the points; of a torsion spring [rad] angle_b - angle_a;
+ *                      of a joint spring the coordinate
+ *  @param      rate    [m/s or rad/s] time derivative of length
+ *  @param[out] out     (3) zeroed before the call. out[0]: tension [N] (positive pulls the points
+ *                      together), restoring force [N] or torque [N m]; out[1]: its derivative with
+ *                      respect to length [N/m or N m/rad]; out[2]: its derivative with respect to
+ *                      rate [N s/m or N m s/rad]
+ *  @param      user    the definition's `user`
+ *  @return  as baum_q_fn. The check of derivatives also calls it at configurations near those of
+ *           the mechanism. */
+typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
+
+/** A linear spring and damper in parallel on a coordinate of a joint, or a law of your own. It
+ *  returns the coordinate to the free value, by a force along the axis or a torque about it.
+ *
+ *  Angles of spatial joints count revolutions in a run, where a spring keeps winding up. Calls of a
+ *  workspace take them between -pi and pi. */
+typedef struct baum_joint_spring_def {
+  size_t struct_size;               /**< Set by the default. Do not write. */
+  const char *name;                 /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
+  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  double stiffness;                 /**< [N m/rad or N/m] >= 0. Default: 0. */
+  double damping;                   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
+  /** [rad or m] without force. Default: NaN, as in the design configuration. */
+  double free_value;
+  /** Replaces the three above; without potential energy. Default: NULL. */
+  baum_spring_fn *law;
+  void *user;               /**< Passed to law. Not owned. Default: NULL. */
+  bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
+} baum_joint_spring_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_joint_spring_def_init(baum_joint_spring_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_joint_spring_def baum_joint_spring_def_default(void)
+{
+  baum_joint_spring_def def;
+  baum_joint_spring_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_joint_spring(baum_mechanism *mechanism,
+                                                     const baum_joint_spring_def *def,
+                                                     baum_force_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_joint_spring(const baum_mechanism *mechanism,
+                                                     baum_force_id id, baum_joint_spring_def *out,
+                                                     size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, baum_force_id id,
+                                                     const baum_joint_spring_def *def);
+
 /* ---- inputs ---------------------------------------------------------------------------------- */
 
 /** Add an input: a number that acts on the motion from outside, such as the torque of a motor. An
  *  input multiplies the loads that name it (planar.h), and all force functions receive it. Runs and
- *  workspaces begin with the initial value and hold it until baum_simulation_set_input() or
- *  baum_workspace_set_input() changes it there.
+ *  workspaces begin with the initial value and keep it until baum_simulation_set_input() or
+ *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
  *  @param[in]  name       label in messages. Copied. NULL: "input<k>".
  *  @param      initial    finite, in the unit of your choice
@@ -527,14 +610,14 @@ typedef struct baum_mobility {
   int32_t degrees_of_freedom;
   /** [-] rows that depend on others at every nearby configuration. */
   int32_t redundant_rows;
-  int32_t conflicting_rows; /**< [-] rows that cannot be met together with the others. */
+  int32_t conflicting_rows; /**< [-] rows that contradict the others. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
   /** The initial configuration is singular: J has a lower rank there than nearby. Also true within
    *  1e-5 of such a configuration, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
-  char text[1024];           /**< The same in words, with the names of the elements. */
+  char text[1024];           /**< These results in words, with the names of elements. */
 } baum_mobility;
 
 /** Count degrees of freedom, redundant and conflicting rows and free bodies, in the assembled
@@ -572,7 +655,8 @@ typedef struct baum_report {
   int32_t most_couplings; /**< [-] largest number of couplings of a node; 0 for KLU. */
   int32_t most_joints;    /**< [-] largest number of joints of a body that is not fixed. */
   baum_body_id most_joined; /**< The body with most joints; none if there are no joints. */
-  char text[2048];          /**< The same in words, with the names of elements and the reasons. */
+  /** These results in words, with the names of elements and the reasons. */
+  char text[2048];
 } baum_report;
 
 /** Report what an evaluation costs, in the assembled initial configuration at t = 0 and with the

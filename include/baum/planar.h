@@ -16,7 +16,7 @@
  *  initial guess.
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b.
+ *  point on body_b. The effort of a driver of the joint is not part of it.
  */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H
@@ -105,7 +105,7 @@ typedef struct baum_planar_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
@@ -142,13 +142,14 @@ typedef struct baum_planar_translational_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (1, 0). */
   double axis[2];
-  /** [rad] constant angle_b - angle_a. Default: NaN, as in the design configuration. */
+  /** [rad] constant angle_b - angle_a. Default: NaN, the value in the design configuration. */
   double angle;
 } baum_planar_translational_def;
 
@@ -177,17 +178,17 @@ BAUM_API baum_status baum_mechanism_set_planar_translational(
 /* ---- distance joint (massless rod) ----------------------------------------------------------- */
 
 /** A massless rod between two points. One row [m]: (d.d - length^2) / (2 length), where d leads
- *  from body_a's point to body_b's point. To first order this is the change of length; unlike the
- *  length it is smooth everywhere. */
+ *  from body_a's point to body_b's point. To first order the row is the change of length; unlike
+ *  the length it is smooth everywhere. */
 typedef struct baum_planar_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  double length;     /**< [m] > 0. Default: NaN, as in the design configuration. */
+  double length;     /**< [m] > 0. Default: NaN, the value in the design configuration. */
 } baum_planar_distance_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -220,11 +221,11 @@ typedef struct baum_planar_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [rad] constant angle_b - angle_a. Default: NaN, as in the design configuration. */
+  /** [rad] constant angle_b - angle_a. Default: NaN, the value in the design configuration. */
   double angle;
 } baum_planar_fixed_def;
 
@@ -251,32 +252,21 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
 
 /* ---- spring-damper between two points -------------------------------------------------------- */
 
-/** The law of a spring: tension or torque, and its derivatives.
- *  @param      length  [m] distance of the points; for a torsion spring [rad] angle_b - angle_a
- *  @param      rate    [m/s or rad/s] time derivative of length
- *  @param[out] out     (3) zeroed before the call. out[0]: tension [N] (positive pulls the points
- *                      together) or restoring torque [N m]; out[1]: its derivative by length [N/m
- *                      or N m/rad]; out[2]: its derivative by rate [N s/m or N m s/rad]
- *  @param      user    the definition's `user`
- *  @return  as baum_q_fn. The check of derivatives also calls it beside the configurations of the
- *           mechanism. */
-typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
-
 /** A linear spring and damper in parallel between two points, or a law of your own. The force acts
  *  along the line through the points; it is zero when they coincide. */
 typedef struct baum_planar_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
   double stiffness;  /**< [N/m] >= 0. Default: 0. */
   double damping;    /**< [N s/m] >= 0. Default: 0. */
-  /** [m] >= 0, without force. Default: NaN, as in the design configuration. */
+  /** [m] >= 0, length without force. Default: NaN, the value in the design configuration. */
   double free_length;
-  /** Replaces the three above; without potential energy. Default: NULL. */
+  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
@@ -311,12 +301,12 @@ typedef struct baum_planar_torsion_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
   double damping;      /**< [N m s/rad] >= 0. Default: 0. */
-  /** [rad] without torque. Default: NaN, as in the design configuration. */
+  /** [rad] without torque. Default: NaN, the value in the design configuration. */
   double free_angle;
-  /** Replaces the three above; without potential energy. Default: NULL. */
+  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
@@ -348,11 +338,11 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
 
 /** A force at a point of a body and a torque, constant or multiplied by an input. The point is
  *  fixed in the body. The direction of the force is fixed in ground axes or in the body. A load in
- *  ground axes without torque and input has a potential; the others do work. */
+ *  ground axes without torque and input has a potential; other loads have none. */
 typedef struct baum_planar_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;  /**< Default: none, must be set; not ground. */
+  baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */
   double force[2];    /**< [N] Default: (0, 0). */
   double torque;      /**< [N m] counter-clockwise. Default: 0. */

@@ -22,11 +22,12 @@ typedef struct baum_planar_pin_in_slot_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (1, 0). */
   double axis[2];
 } baum_planar_pin_in_slot_def;
 
@@ -69,15 +70,16 @@ typedef struct baum_planar_rack_and_pinion_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (1, 0). */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (1, 0). */
   double axis[2];
-  /** [m] of the pitch circle, not 0; sign as above. Default: 0, must be set. */
+  /** [m] radius of the pitch circle, not 0; sign as above. Default: 0, must be set. */
   double radius;
-  double offset; /**< [m] in the row above. Default: NaN, as in the design configuration. */
+  double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
 } baum_planar_rack_and_pinion_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -109,25 +111,25 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  the angle of the carrier.
  *
  *  Two positive radii mean external teeth: the wheels rotate in opposite directions. One negative
- *  radius means that this wheel is a ring with internal teeth: they rotate in the same direction.
- *  Only the ratio matters for the motion, so numbers of teeth may replace radii. Other joints, such
- *  as pins, must keep the wheels on the carrier. A planetary gear has one row between sun and
- *  planet and one between planet and ring, with the arm as carrier; a fixed ring is BAUM_GROUND.
- *  All bodies must have an angle.
+ *  radius means that this wheel is a ring with internal teeth: both wheels rotate in the same
+ *  direction. Only the ratio matters for the motion, so numbers of teeth may replace radii. Other
+ *  joints, such as pins, must keep the wheels on the carrier. A planetary gear has one row between
+ *  sun and planet and one between planet and ring, with the arm as carrier; a fixed ring is
+ *  BAUM_GROUND. All bodies must have an angle.
  *
  *  Reaction: the generalized force -J^T lambda on the velocities of body_a, body_b and the carrier,
- *  without ground. Only its moments are not zero. */
+ *  without ground. Its forces are zero. */
 typedef struct baum_planar_gear_def {
   size_t struct_size;   /**< Set by the default. Do not write. */
   const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a;  /**< Default: none, must be set. */
-  baum_body_id body_b;  /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b;  /**< Default: none, must be set; must differ from body_a. */
   baum_body_id carrier; /**< Neither body_a nor body_b. Default: BAUM_GROUND. */
-  /** [m] of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
+  /** [m] radius of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
   double radius_a;
-  /** [m] of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
+  /** [m] radius of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
   double radius_b;
-  double offset; /**< [m] in the row above. Default: NaN, as in the design configuration. */
+  double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
 } baum_planar_gear_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -155,7 +157,7 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 
 /** A curve F(x, y) = 0 and the derivatives of F. The derivatives must be exact near the curve, not
  *  only on it. F should change by about 1 per metre across the curve: with |grad F| near 1 the row
- *  is the distance from the curve to first order, and tolerances keep their meaning.
+ *  is to first order the distance from the curve, and tolerances bound this distance.
  *  @param[in]  xy    (2) [m] in body_a's axes, from its point
  *  @param[out] out   (6) F [m], F_x, F_y [-], F_xx, F_xy, F_yy [1/m]; zeroed before the call
  *  @param      user  the definition's `user`
@@ -166,15 +168,15 @@ typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
  *  a wire. One row [m]: F at body_b's point. For a roller, give the path of its centre. For a cam
  *  whose follower is a joint, use a coupling with a law (mechanism.h).
  *
- *  With `point`, the origin of the curve is at body_b's point in the design configuration. body_a
- *  must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares the
- *  derivatives with differences. Methods that need third derivatives take differences of the
+ *  If `point` is given, the origin of the curve is at this point in the design configuration.
+ *  body_a must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares
+ *  the derivatives with differences. Methods that need third derivatives take differences of the
  *  second. */
 typedef struct baum_planar_curve_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2];    /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2];    /**< [m] on body_b, in its axes. Default: NaN, not given. */

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Reports of a study: its entries, front, recommendations and reference, and where it was made.
+ *  Reports of a study: its entries, front, recommendations and reference, and the machine
+ *  that ran it.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
  *  Unknown values, such as figures of failed entries, are a dash in text and page, empty in CSV and
- *  null in JSON. Texts are UTF-8. Numbers have a decimal point in every locale. Reports only read;
- *  a study may be reported at any time.
- */
+ *  null in JSON. Texts are UTF-8. Numbers have a decimal point in every locale. Writing a report
+ *  does not change the study and is possible at any time. */
 #ifndef BAUM_REPORT_H
 #define BAUM_REPORT_H
 
@@ -26,15 +26,15 @@ typedef enum baum_report_form {
   BAUM_REPORT_CSV = 1,
   /** Everything; "units" has the unit of every key. Keys are stable. */
   BAUM_REPORT_JSON = 2,
-  /** One HTML page with charts and a sortable table; it loads nothing. */
+  /** One HTML page with charts and a sortable table; it loads no other files. */
   BAUM_REPORT_PAGE = 3
 } baum_report_form;
 
 /** Write a report into a file and wait until it is on the disk. A complete new file replaces an
- *  older one and keeps its mode; on failure the older one stays. Meanwhile the new file has a
- *  temporary name in the same folder (.baum-*.part). Pipes, devices, symbolic links, files with
- *  several hard links and files of another owner cannot be replaced safely. They are written in
- *  place and may be incomplete after a failure.
+ *  older one and keeps its mode; on failure the older one remains. While it is written, the new
+ *  file has a temporary name in the same folder (.baum-*.part). Pipes, devices, symbolic links,
+ *  files with several hard links and files of another owner cannot be replaced safely. They are
+ *  written in place and may be incomplete after a failure.
  *  @param     study  the study
  *  @param     form   the form
  *  @param[in] title  of text, JSON and page. NULL: "Study".

@@ -2,7 +2,7 @@
 /** @file
  *  One run of a frozen mechanism: formulation, integrator, motion and results.
  *
- *  Failure: a run that fails keeps its last good step; time, q and v stay readable.
+ *  Failure: a run that fails keeps its last good step; time, q and v can still be read.
  *
  *  Threads: one simulation is used by one thread at a time, except baum_simulation_cancel().
  *  Simulations may share a mechanism.
@@ -47,8 +47,9 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           explicit, with rtol or with a fixed step. Twelve evaluations per step, three more if
  *           the step is interpolated. Formulations as baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** Starts with Runge-Kutta steps. It restarts with them after baum_simulation_set_state(),
- *  _set_input() and _set_driver(), after a reversal of time and after a target off the grid.
+/** Takes its first steps with a Runge-Kutta method: at the start, after
+ *  baum_simulation_set_state(), _set_input() and _set_driver(), after a reversal of time and after
+ *  a target off the grid.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
  *           BAUMGARTE (best damping), UNSTABILIZED; its past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
@@ -56,9 +57,11 @@ BAUM_API const baum_integrator *baum_ab2(void);
 BAUM_API const baum_integrator *baum_ab3(void);
 /** @return four-step Adams-Bashforth method, order 4; otherwise as baum_ab2() */
 BAUM_API const baum_integrator *baum_ab4(void);
-/** For long runs without dissipation: the energy stays in a band of width O(h^2). Refuses variable
- *  masses and forces that depend on velocities, such as dampers; it checks user functions at sample
- *  states. Phi = 0 and Phi' = 0 hold to rounding after every step.
+/** For long runs without dissipation: the energy stays in a band of width O(h^2). Takes rigid
+ *  bodies in space; the angular momentum of a free one is kept to rounding. Refuses variable masses
+ *  and forces that depend on velocities, such as dampers and gyroscopic moments of user
+ *  coordinates; it checks user functions at sample states. Phi = 0 and Phi' = 0 hold to rounding
+ *  after every step.
  *  @return  RATTLE, order 2, fixed step, symplectic. INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
 /** For stiff forces, and for comparison at index 3. Phi = 0 holds to rounding after every step,
@@ -66,21 +69,20 @@ BAUM_API const baum_integrator *baum_rattle(void);
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** Solves each step by fixed-point iteration, and with gains by Newton's method on the terms that
- *  the gains make stiff. High gains therefore do not limit the steps, but stiff forces do. CVODE
- *  projects only with BDF.
+/** Solves each step by fixed-point iteration, but the stiff terms of the gains by Newton's method.
+ *  High gains therefore do not limit the steps, but stiff forces do. CVODE projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** For stiff forces. Newton iteration with the true sparse Jacobian, including the derivatives of
  *  all joints and forces. PROJECTION projects inside each step, before the error test.
  *  @return  SUNDIALS CVODE, BDF, rtol. PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** INDEX3 exists for comparison only: its error is far above its tolerance.
+/** INDEX3 is offered for comparison only: its error is far above its tolerance.
  *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
  *           UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
 /** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
- *  every coordinate; other mechanisms are refused. It solves for configurations to rounding at the
+ *  every coordinate; other mechanisms are refused. It computes configurations to rounding at the
  *  requested times, by continuation along the branch of the initial configuration. It takes no
  *  formulation, gains, step, rtol or atol. If the mechanism locks or branches cross, the run stops
  *  with BAUM_ERR_SINGULAR; it never jumps to another branch.
@@ -114,7 +116,7 @@ typedef enum baum_formulation {
   /** (5): J a = gamma; the constraint violation drifts. */
   BAUM_FORMULATION_UNSTABILIZED = 1,
   BAUM_FORMULATION_BAUMGARTE = 2,  /**< (7): J a = gamma - 2 alpha Phi' - beta^2 Phi. */
-  BAUM_FORMULATION_PROJECTION = 3, /**< (5), then q and v projected after each step. */
+  BAUM_FORMULATION_PROJECTION = 3, /**< (5); q and v are projected after each step. */
   BAUM_FORMULATION_INDEX2 = 4,     /**< J v = nu; Phi drifts slowly. */
   BAUM_FORMULATION_GGL = 5,        /**< J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
   BAUM_FORMULATION_INDEX3 = 6      /**< Phi = 0. */
@@ -134,12 +136,14 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 
 /** How a run begins from the design configuration. */
 typedef enum baum_start {
-  /** Assemble; refuse moves above a quarter of the characteristic length, or 1 rad. */
+  /** Assemble; refuse moves above a quarter of the characteristic length, or 1 rad. If drivers
+   *  begin elsewhere than the design configuration, close the joints there and follow the
+   *  drivers. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse a configuration or velocities that violate the constraints. */
   BAUM_START_EXACT = 1,
-  /** Take both as they are, with free velocities zero. Only bodies welded to ground are moved, to
-   *  where the welds hold them. */
+  /** Accept the given configuration and velocities; free velocities are zero. Only bodies welded to
+   *  ground are moved, to the poses that the welds determine. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
@@ -181,14 +185,16 @@ typedef struct baum_simulation_options {
    *  1/6.9 and ida 1/3 of rtol and atol, but not less than 1e-13, so that all methods are about
    *  equally accurate at the same rtol. Default: NaN, not given. */
   double rtol;
-  double atol; /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
+  /** [unit of the coordinate] >= 0, added to rtol times the scale. Default: NaN, none. */
+  double atol;
   /** [s] > 0, longest step of a variable-step integrator. Default: NaN, none. */
   double max_step;
-  double start_time;          /**< [s] Default: 0. */
-  baum_start start;           /**< Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver;         /**< Default: BAUM_SOLVER_AUTO. */
-  bool check_derivatives;     /**< See baum_mechanism_check_derivatives(). Default: true. */
-  int64_t max_steps;          /**< [-] > 0, a call that needs more fails. Default: 1000000000. */
+  double start_time;      /**< [s] Default: 0. */
+  baum_start start;       /**< Default: BAUM_START_ASSEMBLE. */
+  baum_solver solver;     /**< Default: BAUM_SOLVER_AUTO. */
+  bool check_derivatives; /**< See baum_mechanism_check_derivatives(). Default: true. */
+  /** [-] > 0, most steps of a call; a call that needs more fails. Default: 1000000000. */
+  int64_t max_steps;
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
   void *user;                 /**< Passed to progress, not owned. Default: NULL. */
@@ -209,10 +215,10 @@ typedef struct baum_simulation_options {
   const double *row_gains;
   int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
   /** Estimate the error of the motion from the start by a second integration, and warn if it is
-   *  large; see counters.error_estimate. The second integration is rk8 at rtol 1e-8 beside a fixed
-   *  step, and the same method at 0.03 rtol beside a variable step, which at least doubles the
-   *  cost. Without this option, fixed-step runs are checked as soon as their error may matter.
-   *  Default: false. */
+   *  large; see counters.error_estimate. The second integration is rk8 at rtol 1e-8 for a run with
+   *  a fixed step, and the same method at 0.03 rtol for a run with variable steps; it at least
+   *  doubles the cost. Without this option, fixed-step runs are checked as soon as their error may
+   *  matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 
@@ -236,11 +242,11 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *  @param[out] out        receives the run, NULL on failure; release it with
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
- *           BAUM_ERR_UNSUPPORTED (integrator and formulation do not go together; not in this build;
- *  kinematics for a mechanism with degrees of freedom, or with an energy account; the method has no
- *  gains by this rule; a mechanism that RATTLE or blocks do not suit), BAUM_ERR_INCONSISTENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
- *           BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR */
+ *           BAUM_ERR_UNSUPPORTED (the integrator does not offer the formulation, has no gains by
+ *           this rule, or is not in this build; kinematics for a mechanism with degrees of freedom
+ *           or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle the mechanism),
+ *           BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
+ *           BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
                                             const baum_simulation_options *options,
                                             baum_simulation **out);
@@ -261,7 +267,7 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *           BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
-/** Take whole steps forward; the run then stands at the end of the last one.
+/** Take whole steps forward, up to the end of the last one.
  *  @param simulation  the run
  *  @param count       [-] > 0
  *  @return  as baum_simulation_advance_to() */
@@ -286,10 +292,11 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
 
-/** Continue from where another run stands, even one that has failed. Time, state, inputs and laws
- *  of drivers come from that run; options, counters and warnings stay. Another integrator,
- *  formulation, tolerance or solver thus takes over from the last good step. Unless the option
- *  `start` is BAUM_START_AS_GIVEN, q and v change by the least amount that fulfils the constraints.
+/** Continue from the present state of another run, even one that has failed. Time, state, inputs
+ *  and laws of drivers come from that run; options, counters and warnings are those of this run.
+ *  Another integrator, formulation, tolerance or solver can thus take over from the last good step.
+ *  Unless the option `start` is BAUM_START_AS_GIVEN, q and v change by the least amount that
+ *  fulfils the constraints.
  *  @param simulation  unchanged on failure
  *  @param from        of the same mechanism, or of one with the same elements and numbers
  *  @return  as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism,
@@ -321,12 +328,13 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  is s + ds (t - t0) + dds (t - t0)^2 / 2, until it is set again. Variable-step methods restart
  *  (counters.restarts).
  *
- *  The state does not change. If s or ds differ from it, the difference is a constraint violation,
- *  and the formulation decides what happens. PROJECTION jumps at the end of the next step, GGL and
- *  INDEX3 within it. INDEX2 corrects ds but keeps the difference in s. BAUMGARTE moves there as
- *  fast as its gains say; after a jump in s, gains of 1/h cause velocities of about s/h.
- *  UNSTABILIZED keeps the difference. Kinematics takes the nearest configuration on its branch and
- *  fails if none is near. So continue from the present coordinate, and change only dds, or ds.
+ *  The state does not change. If s or ds differ from the present coordinate and velocity, the
+ *  difference is a constraint violation, and the formulation decides what happens. With PROJECTION
+ *  the state jumps at the end of the next step, with GGL and INDEX3 within it. INDEX2 corrects ds
+ *  but keeps the difference in s. With BAUMGARTE the difference decays at the rate of the gains;
+ *  after a jump in s, gains of 1/h cause velocities of about s/h. UNSTABILIZED keeps the
+ *  difference. Kinematics takes the nearest configuration on its branch and fails if none is near.
+ *  To avoid jumps, start s at the present coordinate, and change only dds, or ds.
  *  @param simulation  unchanged on failure
  *  @param driver      one of the mechanism
  *  @param s           [rad or m] finite
@@ -346,8 +354,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  Integrator history and pivots are not saved. Saving discards them just as restoring does, so
  *  both runs continue identically, bit for bit. Multistep and variable-step methods therefore
  *  restart here (counters.restarts), and KLU chooses new pivots, which may allocate in the next
- *  step. One-step methods with a fixed step lose nothing; with blocks, the run continues as if it
- *  had not been saved. Saving allocates nothing.
+ *  step. One-step methods with a fixed step lose nothing; with the block solver, the run continues
+ *  as if it had not been saved. Saving allocates nothing.
  *
  *  The buffer contains no pointers. You may copy it, keep it in a file and restore it in another
  *  process. It contains a format version, its size, a checksum, and fingerprints of the mechanism
@@ -355,9 +363,9 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param      simulation  the run
  *  @param[out] buffer      (capacity) of any alignment. NULL: only size is written, and the run
  *                          does not change.
- *  @param      capacity    [byte] at least the size that NULL gives. It is constant during a run,
- *                          plus 32 bytes for each time of a schedule.
- *  @param[out] size        [byte] number of bytes written; with NULL the most that will be
+ *  @param      capacity    [byte] at least the size that NULL gives. This size is constant during a
+ *                          run, plus 32 bytes for each time of a schedule.
+ *  @param[out] size        [byte] number of bytes written; with NULL the largest number needed
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
@@ -393,8 +401,8 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
 
-/** What a channel records; in brackets its number of columns. Units are m, rad, N, N m and s, or
- *  those of user coordinates and rows; a multiplier has J per unit of its row.
+/** What a channel records. The number of columns is in parentheses. Units are m, rad, N, N m and s,
+ *  or those of user coordinates and rows; a multiplier has J per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of (5) at the present
  *  state, without stabilization terms. It is computed only if a channel needs it. */
@@ -404,7 +412,7 @@ typedef enum baum_quantity {
   BAUM_A = 3,        /**< Accelerations (nv). */
   BAUM_LAMBDA = 4,   /**< Multipliers of `joint`, or of all (nc). */
   BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all (nc). */
-  BAUM_PHI_RATE = 6, /**< Its derivative J v - nu, of `joint`, or of all (nc). */
+  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of `joint`, or of all (nc). */
   BAUM_ENERGY = 7,   /**< Kinetic and potential energy [J] (2). */
   /** Planar body: x, y of `point`, angle (3). Spatial body: x, y, z of `point`, quaternion (7).
    *  Other bodies: their q. */
@@ -416,7 +424,7 @@ typedef enum baum_quantity {
   BAUM_JOINT_REACTION = 10,
   /** Coordinate of a joint that has one, and joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
-  BAUM_BODY_ACCELERATION = 12, /**< Their derivatives. */
+  BAUM_BODY_ACCELERATION = 12, /**< The derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] of the driver `joint` on the coordinate it prescribes (1). Times the
    *  joint velocity, it is the power of the driver. */
   BAUM_DRIVE_EFFORT = 13,
@@ -436,6 +444,8 @@ typedef struct baum_channel {
   /** [m] in body axes, for BAUM_BODY_*; z = 0 in the plane. Default: (0, 0, 0), the centre of mass.
    */
   double point[3];
+  /** [-] For BAUM_JOINT_COORDINATE. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
 } baum_channel;
 
 /** Set every field to its default.
@@ -499,7 +509,7 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 
 /** Determine which multipliers are unique at the present state. With redundant rows, joints can
  *  share forces in more than one way. BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then
- *  have the least norm, in rows scaled by M, that meets the constraints, and balance the forces to
+ *  report the multipliers of least norm, in rows scaled by M; they balance the forces to a relative
  *  1e-9.
  *  @param      simulation  the run
  *  @param[out] unique      (nc) per row, true if its multiplier is unique
@@ -520,7 +530,7 @@ BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum
 
 /** Advance through times and record channels at each. A fixed-step method reaches times off its
  *  grid by a shorter step on a copy, so that sampling does not alter the motion. Afterwards the run
- *  stands at the last time, as after baum_simulation_advance_to().
+ *  is at the last time, as after baum_simulation_advance_to().
  *  @param      simulation  the run
  *  @param[in]  times       (n) [s] monotone; the first may be the present time
  *  @param      n           [-] >= 0
@@ -556,14 +566,15 @@ typedef struct baum_counters {
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  /** [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|. Only for both
-   *  Eulers with stable gains of at least 0.1/h, otherwise NaN. */
+  /** [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|. Only for the
+   *  Euler methods with stable gains of at least 0.1/h, otherwise NaN. */
   double predicted_phi;
   double predicted_phi_rate; /**< [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|. */
   /** [J] change of kinetic and potential energy since the start, including the work of drivers,
    *  inputs and dampers. */
   double energy_change;
-  /** [-] largest displacement of the last assembly, relative to the scales. */
+  /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad,
+   *  before drivers are followed to where they begin. */
   double start_change;
   double alpha; /**< [1/s] in use. */
   double beta;  /**< [1/s] in use. */
@@ -606,9 +617,9 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  method, or with the tolerance. If an evaluation fails, the account ends with a warning, and
  *  works and residual are NaN from then on. The account does not change the motion.
  *
- *  The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
- *  3, but 18 with dp5 and 48 with rk8, which subdivide the step for the account. With variable
- *  steps these are 4, or 7 with rk8 including its interpolant. BAUMGARTE adds 2 to 4. */
+ *  The account costs additional evaluations of (7) or (5) in each step: 3 with a fixed step, but 18
+ *  with dp5 and 48 with rk8, which subdivide the step for the account; 4 with variable steps, but 7
+ *  with rk8, including its interpolant. BAUMGARTE adds 2 to 4. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
@@ -655,13 +666,14 @@ typedef enum baum_branch {
 /** An interval in which a run was near a singular configuration. Its pivot is the smallest pivot of
  *  the equations of motion, relative to the largest such value of the run so far. It falls with the
  *  square of the distance from a singular configuration. The run lists an interval after leaving
- *  it, if the pivot was below 1e-3 or so small that the constraint violation explains it. */
+ *  it, if the pivot was below 1e-3, or so small that the constraint violation can have caused
+ *  it. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
-  double t;           /**< [s] time of the smallest pivot, also between steps. */
-  /** [-] smallest pivot, relative to the largest of the run so far; also between steps. */
+  double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
+  /** [-] smallest pivot, relative to the largest of the run so far. */
   double pivot;
   /** [-] difference between the velocity after the interval and the smooth continuation of the
    *  motion before it, relative to the size of the velocity. NaN: unknown. */
@@ -708,11 +720,11 @@ typedef struct baum_warning {
   size_t struct_size;     /**< Set by baum_simulation_warning(). */
   baum_warning_code code; /**< Kind. */
   bool doubts_motion;     /**< The result may be wrong: code >= 100. */
-  baum_joint_id joint;    /**< Joint of the first one; all-zero: none. */
-  double first;           /**< [s] time of the first one. */
-  double last;            /**< [s] time of the last one. */
+  baum_joint_id joint;    /**< Joint of the first warning; all-zero: none. */
+  double first;           /**< [s] time of the first warning. */
+  double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
-  char text[400];         /**< Message of the first one, and the count. */
+  char text[400];         /**< Message of the first warning, and the count. */
 } baum_warning;
 
 /** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first

@@ -3,16 +3,16 @@
  *  Bodies and forces in space.
  *
  *  Axes are right-handed. A spatial body has seven positions: its centre of mass r in ground axes,
- *  and a unit quaternion p (Hamilton's convention, w first) that turns body axes into ground axes.
- *  It has six velocities: r' in ground axes and the angular velocity in body axes. A particle has
- *  three of each.
+ *  and a unit quaternion p (Hamilton's convention, w first) that rotates vectors from body axes
+ *  into ground axes. It has six velocities: r' in ground axes and the angular velocity in body
+ *  axes. A particle has three positions and three velocities.
  *
  *  Points: joints and springs are placed as in planar.h, by `point` in ground axes, or by `point_a`
- *  and `point_b` in the axes of the bodies. Planar bodies and particles may take part in spatial
- *  joints and springs. They stay in the plane z = 0.
+ *  and `point_b` in the axes of the bodies. Spatial joints and springs also connect planar bodies
+ *  and particles, which stay in the plane z = 0.
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b.
+ *  point on body_b. The reaction does not include the effort of a driver of the joint.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H
@@ -31,14 +31,15 @@ typedef struct baum_spatial_body_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  /** [kg m^2] about the centre of mass, body axes: xx, yy, zz, xy, xz, yz, the entries of the
-   *  tensor with their sign (xy = - integral of x y dm). No principal moment is negative or above
-   *  the sum of the two others. One may be 0, that of a slender rod: one below 1e-10 of the largest
-   *  is raised to that. Default: (1, 1, 1, 0, 0, 0). */
+  /** [kg m^2] about the centre of mass, body axes: xx, yy, zz, xy, xz, yz, with the sign of the
+   *  tensor (xy = - integral of x y dm). Principal moments must be >= 0, and none may
+   *  exceed the sum of the two others. One may be 0, as for a slender rod; the library raises
+   *  moments below 1e-10 of the largest one to this value. Default: (1, 1, 1, 0, 0, 0). */
   double inertia[6];
   double position[3]; /**< [m] of the centre of mass, design configuration. Default: (0, 0, 0). */
-  double orientation[4]; /**< [-] unit quaternion w, x, y, z, design configuration; its length may
-                          *   be off by 1e-6. Default: (1, 0, 0, 0). */
+  /** [-] unit quaternion w, x, y, z, design configuration; its norm may differ from 1 by 1e-6.
+   *  Default: (1, 0, 0, 0). */
+  double orientation[4];
   double velocity[3]; /**< [m/s] of the centre of mass at start, ground axes. Default: NaN, free. */
   double angular_velocity[3]; /**< [rad/s] at start, body axes. Default: NaN, free. */
   bool held; /**< Assembly keeps the design position and orientation. Default: false. */
@@ -102,22 +103,23 @@ BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechani
 /* ---- spring and damper ----------------------------------------------------------------------- */
 
 /** A spring and a damper in parallel between two points. Tension (positive pulls the points
- *  together): stiffness (length - free_length) + damping (rate of length), or the law of the user.
- *  No force where the length is 0. */
+ *  together): stiffness (length - free_length) + damping (d/dt length), or a law of your own.
+ *  The force is zero where the length is 0. */
 typedef struct baum_spatial_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3];   /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, in its axes. Default: NaN, not given. */
   double stiffness;    /**< [N/m] >= 0. Default: 0. */
   double damping;      /**< [N s/m] >= 0. Default: 0. */
-  double free_length;  /**< [m] >= 0. Default: NaN, that of the design configuration. */
-  baum_spring_fn *law; /**< Tension [N] instead of the three numbers above. Default: NULL. */
+  double free_length;  /**< [m] >= 0. Default: NaN, the value in the design configuration. */
+  baum_spring_fn *law; /**< Tension [N]; replaces the three numbers above. Default: NULL. */
   void *user;          /**< For law. Default: NULL. */
-  /** false: law does not read the rate, which rattle requires. Default: true. */
+  /** false: the law ignores the rate of the length; rattle requires this. Default: true. */
   bool depends_on_velocity;
 } baum_spatial_spring_def;
 
@@ -145,17 +147,18 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body and a moment on it. With an input both are multiplied by its
- *  value. */
+/** A force at a point of a body and a moment on it. The value of `input`, if set, multiplies
+ *  both. */
 typedef struct baum_spatial_load_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;   /**< Default: none, must be set; not ground. */
-  double point[3];     /**< [m] on the body, its axes. Default: (0, 0, 0). */
+  baum_body_id body;   /**< Default: none, must be set; must not be ground. */
+  double point[3];     /**< [m] in the axes of the body. Default: (0, 0, 0). */
   double force[3];     /**< [N]. Default: (0, 0, 0). */
   double moment[3];    /**< [N m] about the point; zero on a particle. Default: (0, 0, 0). */
   baum_input_id input; /**< Default: none. */
-  bool follows_body; /**< Force and moment are in body axes, else in ground axes. Default: false. */
+  /** True: force and moment are in body axes. False: in ground axes. Default: false. */
+  bool follows_body;
 } baum_spatial_load_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Joints in space. What spatial.h says of placing and reactions holds here.
+ *  Joints in space. spatial.h explains points and reactions.
  *
- *  axis: with `point` in ground axes of the design configuration, else in the axes of body_a.
- *  axis_b: the same axis on body_b, with `point` in ground axes, else in the axes of body_b; where
- *  it is not given it coincides with axis in the design configuration. Assembly refuses axes that
- *  come to lie opposite to each other.
+ *  `axis` is an axis of the joint on body_a, and `axis_b` the corresponding axis on body_b. If
+ *  `point` is given, both axes are in ground axes, for the design configuration; otherwise each is
+ *  in the axes of its body. By default, `axis_b` coincides with `axis` in the design configuration.
+ *  Assembly refuses parallel axes that point in opposite directions.
+ *
+ *  Runs count the revolutions of angles. Workspaces use angles between -pi and pi.
  */
 #ifndef BAUM_SPATIAL_JOINTS_H
 #define BAUM_SPATIAL_JOINTS_H
@@ -18,15 +20,16 @@ extern "C" {
 
 /* ---- spherical joint ------------------------------------------------------------------------- */
 
-/** A ball joint: both points coincide. Three rows [m]. */
+/** A ball joint: the points of both bodies coincide. Three rows [m]. */
 typedef struct baum_spatial_spherical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
 } baum_spatial_spherical_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -55,20 +58,21 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
 /* ---- revolute joint -------------------------------------------------------------------------- */
 
 /** A hinge about an axis. Five rows: points coincide [m], axes are parallel [-]. Its coordinate is
- *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration. A
- *  run counts its revolutions. Calls of a workspace give the angle between -pi and pi. */
+ *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration. */
 typedef struct baum_spatial_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
-   *  design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, coincides with `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_revolute_def;
 
@@ -97,20 +101,24 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
 
 /* ---- universal joint ------------------------------------------------------------------------- */
 
-/** Hooke's joint: points coincide [m] and the axes, one of each body, stay perpendicular [-]. Four
- *  rows. axis_b must be given. */
+/** Hooke's joint: points coincide [m], and `axis` of body_a and `axis_b` of body_b stay
+ *  perpendicular [-]. Four rows. The axes must not be parallel in the design configuration. Its
+ *  coordinates are the angle of the cross about the axis of body_a, and angle_b of body_b relative
+ *  to the cross about axis_b [rad], both 0 in the design configuration. */
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, must be
-   *  set. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, must be set. */
   double axis_b[3];
 } baum_spatial_universal_def;
 
@@ -140,20 +148,22 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
 /* ---- cylindrical joint ----------------------------------------------------------------------- */
 
 /** body_b slides along an axis of body_a and rotates about it. Four rows: axes are parallel [-],
- *  points on one line [m]. Its coordinate is the displacement of body_b's point along the axis
- *  [m]. */
+ *  points on one line along the axis [m]. Its coordinates are the displacement of body_b's point
+ *  along the axis [m] and the angle about the axis [rad], 0 in the design configuration. */
 typedef struct baum_spatial_cylindrical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
-   *  design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, coincides with `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_cylindrical_def;
 
@@ -182,21 +192,23 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
 
 /* ---- prismatic joint ------------------------------------------------------------------------- */
 
-/** body_b slides along an axis of body_a and does not rotate. Five rows: axes are parallel [-],
- *  points on one line [m], no rotation about it [-]. Its coordinate is the displacement of
- *  body_b's point along the axis [m]. */
+/** body_b slides along an axis of body_a and does not rotate relative to body_a. Five rows: axes
+ *  are parallel [-], points on one line along the axis [m], no rotation about the axis [-]. Its
+ *  coordinate is the displacement of body_b's point along the axis [m]. */
 typedef struct baum_spatial_prismatic_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
-   *  design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, coincides with `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_prismatic_def;
 
@@ -225,21 +237,29 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
 
 /* ---- planar joint ---------------------------------------------------------------------------- */
 
-/** body_b moves in a plane of body_a. Three rows: normals are parallel [-], point in the plane
- *  [m]. The axis is the normal. */
+/** body_b moves in a plane of body_a, whose normal is the axis. Three rows: normals are parallel
+ *  [-], body_b's point is in the plane [m]. Its coordinates are the displacements x and y of
+ *  body_b's point in the plane [m], y perpendicular to x, and the angle about the normal [rad], 0
+ *  in the design configuration. */
 typedef struct baum_spatial_planar_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes with `point`, otherwise in body_b's. Default: NaN, axis in the
-   *  design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, coincides with `axis` in the design configuration. */
   double axis_b[3];
+  /** [-] direction of x; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: NaN, along the ground x axis in the design configuration, or along the ground y axis
+   *  if the normal is along x. */
+  double x_axis[3];
 } baum_spatial_planar_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -266,16 +286,17 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
 
 /* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
-/** Points coincide and the relative orientation stays that of the design configuration. Six rows:
+/** Points coincide, and the relative orientation is that of the design configuration. Six rows:
  *  three [m], three [-]. */
 typedef struct baum_spatial_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
 } baum_spatial_fixed_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -301,17 +322,18 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 
 /* ---- distance joint (massless rod) ----------------------------------------------------------- */
 
-/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length) with d from
- *  body_a's point to body_b's. */
+/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length), where d is
+ *  the vector from body_a's point to body_b's point. */
 typedef struct baum_spatial_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double length;       /**< [m] > 0. Default: NaN, that of the design configuration. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double length;     /**< [m] > 0. Default: NaN, the distance in the design configuration. */
 } baum_spatial_distance_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -339,17 +361,19 @@ BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechani
 
 /* ---- point on a line ------------------------------------------------------------------------- */
 
-/** body_b's point stays on a line of body_a through its point. Two rows [m]. Its coordinate is the
- *  displacement along the line [m]. body_b may be a particle. */
+/** body_b's point stays on a line that is fixed in body_a and passes through body_a's point. Two
+ *  rows [m]. Its coordinate is the displacement along the line [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_line_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_line_def;
 
@@ -377,17 +401,19 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
 
 /* ---- point on a plane ------------------------------------------------------------------------ */
 
-/** body_b's point stays in a plane of body_a through its point; axis is the normal. One row [m].
- *  body_b may be a particle. */
+/** body_b's point stays in a plane that is fixed in body_a and contains body_a's point; axis is the
+ *  normal. One row [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_plane_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
-  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes with `point`, otherwise in body_a's. Default: (0, 0, 1). */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_plane_def;
 

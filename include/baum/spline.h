@@ -25,6 +25,7 @@ typedef struct baum_spline_driver_def {
   const double *values;
   int32_t count; /**< [-] >= 3. Default: 0, must be set. */
   bool periodic; /**< Repeats; first and last value must be equal. Default: false, natural. */
+  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
 } baum_spline_driver_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -3,7 +3,7 @@
  *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and their stability
  *  with each integrator.
  *
- *  The integrator applies to Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) as it does to the motion.
+ *  The integrator treats Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) in the same way as the motion.
  *  Whether a violation decays therefore depends on the method and on (alpha h, beta^2 h^2). The
  *  functions below compute it. They need no mechanism, allocate nothing and may be called from any
  *  thread.
@@ -29,19 +29,19 @@ typedef struct baum_integrator baum_integrator;
 
 /** How gains are chosen. */
 typedef enum baum_gain_rule {
-  /** DEADBEAT for the Eulers, BEST_DAMPING for AB2 to AB4, otherwise AUTO. */
+  /** DEADBEAT for the Euler methods, BEST_DAMPING for AB2 to AB4, otherwise AUTO. */
   BAUM_GAINS_DEFAULT = 0,
   BAUM_GAINS_FIXED = 1,     /**< alpha, beta [1/s]. */
   BAUM_GAINS_SCALED = 2,    /**< alpha h, beta^2 h^2 [-]; fixed step only. */
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
-  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero; fixed step only. */
+  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots z are zero; fixed step only. */
   /** alpha = beta in proportion to the angular velocity of the motion, with an upper limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Least spectral radius; fixed step only. */
 } baum_gain_rule;
 
-/** A rule with its numbers. One of the functions below makes it. All-zero is BAUM_GAINS_DEFAULT. */
+/** A rule with its numbers. The functions below return it. All-zero is BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
@@ -53,10 +53,10 @@ typedef struct baum_gains {
 
 /** Given gains. A fixed-step method is stable if (alpha h, beta^2 h^2) lies in its region, a
  *  variable-step method if alpha >= 0.618 beta. With alpha = beta a violation decays as exp(-alpha
- *  t). The steps keep adding violations. With Euler these are |Phi'| of about h |gamma| / 2 and
- *  |Phi| of about h |gamma| / alpha; with other methods they fall with h at the order of the
+ *  t). Each step adds violations. With the Euler methods these are |Phi'| of about h |gamma| / 2
+ *  and |Phi| of about h |gamma| / alpha; with other methods they fall with h at the order of the
  *  method. The method keeps its order, because the gains do not grow as h shrinks. Up to alpha h =
- *  0.3 the gains cost nothing; beyond, the cost of an explicit variable-step method grows in
+ *  0.3 the gains cost nothing; above, the cost of an explicit variable-step method grows in
  *  proportion to alpha.
  *  @param alpha,beta  [1/s] >= 0
  *  @return  the rule */
@@ -71,9 +71,9 @@ BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 
 /** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With
- *  explicit Euler the roots lie on the unit circle (marginal: violations stay), with semi-implicit
- *  Euler and AB2 to AB4 outside (refused). With RK2 these gains are dead-beat; with RK3 and RK4 the
- *  spectral radius is 0.47 and 0.37. The accuracy is that of baum_gains_deadbeat().
+ *  explicit Euler the roots lie on the unit circle (marginal: violations remain), with
+ *  semi-implicit Euler and AB2 to AB4 outside (refused). With RK2 these gains are dead-beat; with
+ *  RK3 and RK4 the spectral radius is 0.47 and 0.37. The accuracy is that of baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
@@ -84,7 +84,7 @@ BAUM_API baum_gains baum_gains_taylor(void);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Both roots at zero, the fastest possible decay: a violation is gone after two steps at most.
+/** Both roots z are zero, the fastest possible decay: a violation vanishes after at most two steps.
  *  Explicit Euler: alpha = beta = 1/h. Semi-implicit Euler: alpha = 1/(2h), beta = 1/h. RK2: alpha
  *  = 1/h, beta = sqrt(2)/h. Other Runge-Kutta methods: a zero of their stability polynomial. Both
  *  Eulers leave |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma| (semi-implicit: half of it).
@@ -102,18 +102,17 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  Factor on that angular velocity if degrees of freedom are left: 0.35 at a fixed step (RK2 0.05
  *  to keep its order; the Eulers and Adams-Bashforth 0.2), 0.25 for CVODE and IDA, 0.1 for explicit
  *  variable-step methods, whose steps are longer. If drivers prescribe the whole motion: 0.6 at a
- *  fixed step, 2 at variable steps, 40 for CVODE and IDA, whose matrix contains the stiffness of
- *  the gains.
+ *  fixed step, 2 at variable steps, 40 for CVODE and IDA, whose matrices include the gains.
  *
  *  Limit: alpha h is at most 0.3 and at most half of the method's stability limit, so the gains are
  *  stable. Violations stay at about the local error of a step and decay over some radians. The
  *  method keeps its order, and the cost is that of a run without gains.
  *
  *  The angular velocity comes from a pilot run of 5 steps and 14 evaluations when the run is
- *  created; the counters include it. With degrees of freedom left it is at least sqrt(g/L), at
- *  which gravity swings the mechanism. If the pilot run fails, its part before the failure is used.
- *  A mechanism at rest in equilibrium gets sqrt(g/L). Without gravity it gets alpha = 0.01/h, or 1
- *  1/s at variable steps, which only suits machines with time scales of seconds.
+ *  created; the counters include it. With degrees of freedom left it is at least sqrt(g/L), the
+ *  angular frequency of a pendulum of length L. If the pilot run fails, its part before the failure
+ *  is used. A mechanism at rest in equilibrium gets sqrt(g/L). Without gravity it gets alpha =
+ *  0.01/h, or 1 1/s at variable steps, which only suits machines with time scales of seconds.
  *  docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);

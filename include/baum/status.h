@@ -5,11 +5,10 @@
  *  Every call that can fail returns a baum_status; results come through pointers. 0: done. 1 to 9:
  *  stopped as asked. 10 and up: reached the end with warnings. Below 0: failed.
  *
- *  On failure, outputs are NULL or not written and the object is as before the call. A run keeps
- *  its last good step. The library never prints, exits or aborts.
+ *  On failure, outputs are NULL or not written and the object is unchanged. A run keeps its last
+ *  good step. The library never prints, exits or aborts.
  *
- *  Threads: each thread has its own message. The library has no other state outside objects.
- */
+ *  Threads: each thread has its own message. All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
 #define BAUM_STATUS_H
 

@@ -10,9 +10,9 @@
  *
  *  An *entry* is one setting. A *method* is the set of entries with the same integrator,
  *  formulation and gains, which differ in step or rtol. Errors are differences from a *reference*
- *  at the samples t0 + k (t1 - t0) / n, k = 1 to n. The study computes its own reference or is
- *  given one. No entry is graded better than the reference is known. docs/theory/work-precision.md
- *  explains the details.
+ *  at the samples t0 + k (t1 - t0) / n, k = 1 to n. The study computes its own reference or uses
+ *  one that you give. No error is reported below the uncertainty of the reference.
+ *  docs/theory/work-precision.md explains the details.
  *
  *  Threads: one study is used by one thread at a time, except baum_study_cancel(). baum_study_run()
  *  uses as many threads as the options say and calls user functions, including those of the
@@ -53,8 +53,8 @@ BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t
 /** Release a study. @param study  may be NULL */
 BAUM_API void baum_study_destroy(baum_study *study);
 
-/** Called after each entry and during the reference, by one thread at a time, which may not be that
- *  of the caller.
+/** Called after each entry and during the reference, by one thread at a time, which may differ from
+ *  the calling thread.
  *  @param study  the study
  *  @param done number of known errors plus number of known times
  *  @param total  2 x number of entries
@@ -68,13 +68,13 @@ typedef struct baum_study_options {
   size_t struct_size; /**< Set by the default. Do not write. */
   /** [-] 2 to 1e6, at most 1e8 / (nq + nv + nc); number of samples of the error. Default: 100. */
   int32_t samples;
-  /** [-] 1 to 1024, for errors. Times are always measured one by one. Default: 1. */
+  /** [-] 1 to 1024, threads that compute errors; times are measured one by one. Default: 1. */
   int32_t threads;
   /** [-] 1 to 1e6, largest number of runs that measure the time of an entry; long runs are repeated
    *  less often. Default: 5. */
   int32_t repeats;
-  /** [s] > 0, largest CPU time of a run; may be infinite. The reference may take a
-   *  minute, or five times this limit. Default: 10. */
+  /** [s] > 0, largest CPU time of a run; may be infinite. A run of the reference may take five
+   *  times this limit. Default: 10. */
   double entry_limit;
   /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
   double time_budget;
@@ -109,8 +109,8 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
 
 /* ---- settings -------------------------------------------------------------------------------- */
 
-/** Add one setting. A setting is only checked when it runs; one that cannot run stays as a refused
- *  entry.
+/** Add one setting. A setting is only checked when it runs; if it cannot run, its entry is marked
+ *  as refused.
  *  @param     study    unchanged on failure
  *  @param[in] options  copied; start_time, progress and user are ignored
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
@@ -186,7 +186,9 @@ BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel 
                                           int32_t count, double unit);
 
 /** Give a reference as samples. The option samples is then ignored. NaN entries are not compared.
- *  Call it before the first run.
+ *  Call it before the first run. Revolutions of angles in space are counted from sample to sample;
+ *  where samples are too far apart for that, energies and the channels of baum_study_set_error()
+ *  are not compared.
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
@@ -225,9 +227,9 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  method are skipped. Another call continues after a stop and runs entries added since.
  *
  *  With the option file, every result is appended to the file as a line of text as soon as it is
- *  known, and all are on the disk when this function returns. A study of the same mechanism, span,
- *  samples, error and reference reads its entries from there, even if a line is cut off. User
- *  functions are not compared. Only one process may use the file at a time.
+ *  known, and all results are on the disk when this function returns. A study of the same
+ *  mechanism, span, samples, error and reference reads its entries from the file, even if a line is
+ *  cut off. User functions are not compared. Only one process may use the file at a time.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -236,7 +238,7 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *           the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop; it discards entries that are not finished. A call that adds
+/** Ask baum_study_run() to stop; it discards entries that are not finished. A call that is adding
  *  entries then adds none. May be called from any thread or signal handler.
  *  @param study  may be NULL */
 BAUM_API void baum_study_cancel(baum_study *study);
@@ -303,8 +305,8 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
 
 /** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.
- *  NaN: unknown. error_validated is infinite if the setting fails in the validation. It is unknown
- *  for entries that cost far more than others of the same accuracy. */
+ *  NaN: unknown. error_validated is infinite if the setting fails in the validation, and NaN for
+ *  entries that cost far more than others of the same accuracy. */
 typedef struct baum_study_entry {
   size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
@@ -365,7 +367,8 @@ typedef struct baum_study_reference {
   double uncertainty_lambda; /**< [-] of error_lambda. */
   double uncertainty_energy; /**< [J] of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  const char *text;          /**< Which runs agree to how many digits, or why it is not trusted. */
+  /** Which runs agree to how many digits, or why the reference is not trusted. */
+  const char *text;
 } baum_study_reference;
 
 /** Read how far the reference can be trusted; known after baum_study_run().
@@ -463,7 +466,7 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
  *  @param      cost    how cost is measured
  *  @param[out] out     [- or s]
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method does not reach that error; the message
- *           says what it reaches) */
+ *           states its smallest error) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
 
@@ -480,7 +483,7 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
 /** Find the cheapest setting for an error. Its step or rtol may lie between those of entries. The
  *  choice includes a margin and the errors of the validation (error_validated), so that it holds
  *  for similar starts and for twice the span. If no entry reaches the error with that margin, the
- *  result is one that reaches it as measured, and `why` says that no margin is left.
+ *  result is a setting whose measured error is small enough, and `why` says that no margin is left.
  *  @param      study        after baum_study_run(); unchanged
  *  @param      error        [-] > 0, wanted; see baum_study_set_error()
  *  @param      cost         how cost is measured
@@ -490,8 +493,8 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *                           NULL.
  *  @param      size         [byte] of why
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
- *           entry is so accurate, or the reference is not known so well), BAUM_ERR_STATE (no entry
- *           is timed) */
+ *           entry is accurate enough, or if the uncertainty of the reference is larger),
+ *           BAUM_ERR_STATE (no entry is timed) */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);
@@ -504,7 +507,7 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
  *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
  *                           NULL.
  *  @param      size         [byte] of why
- *  @return  as baum_study_recommend(); BAUM_ERR_ARGUMENT also if no entry is so fast */
+ *  @return  as baum_study_recommend(); BAUM_ERR_ARGUMENT also if no entry is fast enough */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
                                                  baum_simulation_options *best, size_t caller_size,
                                                  char *why, size_t size);

@@ -5,29 +5,30 @@
 
 #include <stddef.h>
 
-/* Allocate zeroed memory for count elements. It has at least one byte, so NULL always means "out of
- * memory". */
+/* Allocate zeroed memory for count elements. The result has at least one byte, so NULL always means
+ * "out of memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
-/* Grow an array to hold count elements. Its capacity is rounded up to a power of two. On failure
+/* Grow an array to hold count elements. The capacity is rounded up to a power of two. On failure
  * the function returns NULL and the old array stays valid. */
 void *baum_i_grow(void *old, size_t count, size_t size);
 
-/* Grow an array by one element to count elements. It must come from this function or from
- * baum_i_grow(); NULL stands for an empty one. The array moves only when it outgrows a power of
+/* Grow an array by one element to count elements. The array must come from this function or from
+ * baum_i_grow(); NULL stands for an empty array. The array moves only when it outgrows a power of
  * two. */
 void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
-/* Copy count elements; NULL when out of memory. */
+/* Copy count elements. Returns NULL when out of memory. */
 void *baum_i_copy(const void *source, size_t count, size_t size);
 
-/* Copy a string; NULL when out of memory. */
+/* Copy a string. Returns NULL when out of memory. */
 char *baum_i_copy_text(const char *text);
 
-/* Free memory; NULL is fine. The owner may free memory that it holds as const. */
+/* Free memory; NULL is allowed. The argument is const because an owner may hold its memory as
+ * const. */
 void baum_i_free(const void *memory);
 
-/* Remove const, for the few members of constant objects that do change. */
+/* Remove const. Used for the few members of constant objects that change. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

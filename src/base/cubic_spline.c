@@ -9,9 +9,9 @@
  *   h_i-1 c_i-1 + 2 (h_i-1 + h_i) c_i + h_i c_i+1
  *     = 3 ((y_i+1 - y_i) / h_i - (y_i - y_i-1) / h_i-1),
  *
- * which is diagonally dominant and needs no pivoting. A natural spline has c = 0 at both ends. A
- * periodic one adds to it p times the solution z of the homogeneous equations with z = 1 at both
- * ends, so that the equation holds where the ends meet, too.
+ * These equations are diagonally dominant and need no pivoting. A natural spline has c = 0 at both
+ * ends. A periodic spline adds p z, where z solves the homogeneous equations with z = 1 at both
+ * ends. p is chosen so that the equation also holds where the two ends meet.
  *
  *   C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV
  */
@@ -29,7 +29,7 @@ static double slope_after(const baum_i_cubic_spline *spline, int32_t i)
   return (spline->values[i + 1] - spline->values[i]) / length_after(spline, i);
 }
 
-/* Find the natural spline, and z (count). upper (count) is zeroed scratch. */
+/* Find c of the natural spline, and z (count). upper (count) is zeroed scratch memory. */
 static void solve_natural(const baum_i_cubic_spline *spline, double *upper, double *z)
 {
   double *c = spline->bends;

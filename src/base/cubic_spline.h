@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic splines through given values: continuous with their second derivative. */
+/* Cubic splines through given values. Their first and second derivatives are continuous. */
 #ifndef BAUM_I_BASE_CUBIC_SPLINE_H
 #define BAUM_I_BASE_CUBIC_SPLINE_H
 
@@ -12,14 +12,14 @@ typedef struct baum_i_cubic_spline {
   int32_t count;        /* >= 3 */
   const double *times;  /* (count) rising */
   const double *values; /* (count) */
-  double *bends;        /* (count) half the second derivative at each */
+  double *bends;        /* (count) half of each second derivative */
 } baum_i_cubic_spline;
 
-/* Find the second derivatives: zero at both ends, or periodic. Returns BAUM_OK or BAUM_ERR_MEMORY
- * and sets no message. */
+/* Find the second derivatives, which are either zero at both ends or periodic. Returns BAUM_OK or
+ * BAUM_ERR_MEMORY and sets no message. */
 baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool periodic);
 
-/* Evaluate s, s', s'' at a time between the first and the last. */
+/* Evaluate s, s', s'' at a time between the first and the last of the given times. */
 void baum_i_cubic_spline_evaluate(const baum_i_cubic_spline *spline, double time, double s[3]);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Hash of a sequence of bytes. With w the next eight bytes as a number:
+/* Hash of a sequence of bytes. For each group of eight bytes, read as a number w:
  *
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *

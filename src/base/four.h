@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Four numbers in two halves: one vector where the processor has it, otherwise two pairs.
- * Operations within halves take one instruction. Therefore only the functions that join or split
- * halves move numbers between them.
+/* Four numbers in two halves: one vector where the processor has it, otherwise two pairs. Moving
+ * numbers between the halves is slow, so only the functions that join or split halves do so. All
+ * other operations take one instruction.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H
@@ -15,7 +15,7 @@
 
 typedef __m256d baum_i_four;
 
-/* The pairs at two places. */
+/* Load the pair at each of two addresses. */
 BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *high)
 {
   return _mm256_loadu2_m128d(high, low);
@@ -27,7 +27,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_in_turns(double x, double y)
   return _mm256_setr_pd(x, y, x, y);
 }
 
-/* The number at each place, twice. */
+/* Load the number at each of two addresses, and repeat each within its half. */
 BAUM_I_INLINE baum_i_four baum_i_four_spread(const double *low, const double *high)
 {
   return _mm256_blend_pd(_mm256_broadcast_sd(low), _mm256_broadcast_sd(high), 0xc);
@@ -63,21 +63,21 @@ BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
   return x * y;
 }
 
-/* A product that is rounded before it is added, also where the compiler would fuse both. */
+/* Return the product rounded to double, so that the compiler cannot fuse it with an addition. */
 BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
 {
   __asm__("" : "+x"(product));
   return product;
 }
 
-/* (x_0 - y_0, x_1 + y_1) in either half: x plus y rotated by a right angle, if the numbers of y are
- * exchanged. */
+/* (x_0 - y_0, x_1 + y_1) in each half. With y = baum_i_four_exchanged(z) this is the sum of x and
+ * of z rotated by +90 degrees. */
 BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
 {
   return _mm256_addsub_pd(x, y);
 }
 
-/* (x_1, x_0) in either half */
+/* (x_1, x_0) in each half */
 BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
 {
   return _mm256_permute_pd(x, 0x5);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Quasi-random numbers, the same in every run. */
+/* Quasi-random numbers that are the same in every run. */
 #ifndef BAUM_I_BASE_GOLDEN_H
 #define BAUM_I_BASE_GOLDEN_H
 
 #include <math.h>
 
-/* The k-th number in [-1, 1): multiples of the golden ratio fill the interval evenly. */
+/* The k-th quasi-random number in [-1, 1). Multiples of the golden ratio, modulo 1, fill an
+ * interval evenly. */
 static inline double baum_i_golden(int k)
 {
   double turns = 0.6180339887498949 * k;

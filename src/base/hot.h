@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
- * functions, named by BAUM_I_HOT(). An object chooses its table at run time, when it is created.
+ * functions, named by BAUM_I_HOT(). Each object chooses one of the two tables when it is created.
  * The results of the two tables differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
@@ -15,10 +15,10 @@
 #define BAUM_I_HOT(name) name##_plain
 #endif
 
-/* Always inline, so that constant arguments propagate. */
+/* Always inline, so that the compiler can use the values of constant arguments. */
 #define BAUM_I_INLINE static inline __attribute__((always_inline))
 
-/* Whether the wide tables exist and this processor can run them. */
+/* Tell whether this build has the tables for wide vectors and this processor can run them. */
 bool baum_i_hot_is_wide(void);
 
 /* Return the table for this processor. */

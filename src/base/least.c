@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum of a function of one variable by Brent's method: steps to the vertex of the parabola
- * through the three least values so far, as long as the steps halve at least every second time;
- * otherwise a golden section of the larger side.
+/* Minimum of a function of one variable by Brent's method. A step goes to the vertex of the
+ * parabola through the three lowest points so far. If this step would be longer than half of the
+ * step before the last one, the search takes a golden section of the larger side instead.
  *
- * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. Where the
- * function is a parabola at its minimum, about eight values locate it to a millionth of the
- * interval; golden sections alone take thirty.
+ * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. If the function
+ * resembles a parabola near its minimum, about eight evaluations locate the minimum to a millionth
+ * of the interval; golden sections alone take thirty.
  */
 #include "base/least.h"
 
@@ -20,14 +20,15 @@ typedef struct place {
 } place;
 
 typedef struct search {
-  double ends[2];   /* ends of the interval that contains the minimum */
+  double ends[2];   /* of the interval that contains the minimum */
   place least[3];   /* the three lowest points, the lowest first; some may coincide */
   double tolerance; /* of t */
   double step;      /* the last one */
   double before;    /* the step before the last one */
 } search;
 
-/* Step from the least point to the vertex. It is NaN or infinite where the points are collinear. */
+/* Return the step from the lowest point to the vertex of the parabola through the three points. The
+ * step is NaN or infinite if the points are collinear. */
 static double to_vertex(const place p[3])
 {
   double u = p[0].t - p[1].t;
@@ -37,7 +38,7 @@ static double to_vertex(const place p[3])
   return -0.5 * (w * q - u * r) / (q - r);
 }
 
-/* A point next to an end gives no new information. */
+/* False if t is so close to an end that its value gives no new information. */
 static bool is_inside(const search *s, double t)
 {
   return t - s->ends[0] >= 2.0 * s->tolerance && s->ends[1] - t >= 2.0 * s->tolerance;

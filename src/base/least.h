@@ -6,8 +6,9 @@
 typedef double baum_i_function(void *user, double t);
 
 /* Search for the minimum between ends[0] < ends[1]. The search ends when the minimum is located to
- * `tolerance`, or after `most` >= 1 values. Returns the least value seen and writes its place to
- * *at. Of several minima it finds one. Values may be infinite, but not NaN. */
+ * `tolerance`, or after `most` >= 1 evaluations. Returns the least value found and writes its
+ * argument to *at. If there are several minima, the function finds one of them. Values of the
+ * function may be infinite, but not NaN. */
 double baum_i_least(baum_i_function *function, void *user, const double ends[2], double tolerance,
                     int most, double *at);
 

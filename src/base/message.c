@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message behind a status: one fixed buffer per thread. */
+/* The message that explains a status. Each thread has one fixed buffer. */
 #include "base/message.h"
 
 #include <stdarg.h>
@@ -18,7 +18,7 @@ const char *baum_message(void)
 
 baum_status baum_i_fail(baum_status status, const char *format, ...)
 {
-  /* Formatted in a buffer first, because an argument may be the present message. */
+  /* An argument may be the present message, so the new one is formatted in another buffer. */
   char text[BAUM_I_MESSAGE_SIZE];
   va_list arguments;
   va_start(arguments, format);
@@ -49,9 +49,11 @@ baum_status baum_i_fail_memory(void)
   return baum_i_fail(BAUM_ERR_MEMORY, "out of memory");
 }
 
-void baum_i_message_keep(baum_i_kept_message *kept)
+baum_i_kept_message baum_i_message_keep(void)
 {
-  memcpy(kept->text, message, sizeof message);
+  baum_i_kept_message kept;
+  memcpy(kept.text, message, sizeof message);
+  return kept;
 }
 
 baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message behind a status. Each thread has one fixed buffer, the only mutable data outside
- * objects. */
+/* The message that explains a status. Each thread has one fixed buffer, which is the only mutable
+ * data of the library outside objects. */
 #ifndef BAUM_I_BASE_MESSAGE_H
 #define BAUM_I_BASE_MESSAGE_H
 
@@ -12,13 +12,14 @@
 #define BAUM_I_PRINTF(text, first)
 #endif
 
-/* Length of the longest message kept, with its terminating zero. */
+/* Size of the buffer; longer messages are cut. The terminating zero is included. */
 enum { BAUM_I_MESSAGE_SIZE = 1024 };
 
 /* Set this thread's message and return the status, as in `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Return from the function if a call fails. Only for functions that own nothing at that place. */
+/* Return from the function if a call fails. Only for places where the function owns nothing that it
+ * must free. */
 #define BAUM_I_TRY(call)                     \
   do {                                       \
     const baum_status baum_i_tried = (call); \
@@ -27,12 +28,12 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
     }                                        \
   } while (0)
 
-/* For messages of user functions: call the first function before the user function and the second
- * after it. The second returns NULL if the user function set no message. */
+/* Messages of user functions. Call baum_i_listen() before the user function and baum_i_heard()
+ * after it. baum_i_heard() returns the message, or NULL if the user function set none. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
 
-/* Set the message for BAUM_ERR_MEMORY and return it. */
+/* Set the message of BAUM_ERR_MEMORY and return this status. */
 baum_status baum_i_fail_memory(void);
 
 /* BAUM_OK if memory was obtained, else baum_i_fail_memory(). */
@@ -41,13 +42,13 @@ static inline baum_status baum_i_check_memory(const void *memory)
   return memory ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A saved message, for calls whose failure does not matter. */
+/* A saved message. It is restored after calls whose failure does not matter. */
 typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
 } baum_i_kept_message;
 
 /* Save this thread's message. */
-void baum_i_message_keep(baum_i_kept_message *kept);
+baum_i_kept_message baum_i_message_keep(void);
 
 /* Return the status. If it is BAUM_OK, restore the saved message. */
 baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept);

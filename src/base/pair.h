@@ -24,7 +24,7 @@ static inline baum_i_pair baum_i_both(double x)
   return (baum_i_pair){x, x};
 }
 
-/* (-y, x): p rotated by a right angle, k x p. */
+/* (-y, x): p rotated by a right angle, which is k x p for the unit vector k along z. */
 static inline baum_i_pair baum_i_turned(baum_i_pair p)
 {
   return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
@@ -36,14 +36,14 @@ static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
   return (baum_i_pair){p[1], p[0]};
 }
 
-/* The sum stays in a vector register, because extracting single numbers is slow. */
+/* The sum remains in a vector register, because extracting single numbers is slow. */
 static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
 {
   baum_i_pair product = x * y;
   return (product + baum_i_exchanged(product))[0];
 }
 
-/* A matrix of two by two, column by column. */
+/* A 2 x 2 matrix, stored by columns. */
 typedef struct baum_i_square {
   baum_i_pair column[2];
 } baum_i_square;
@@ -59,7 +59,8 @@ static inline void baum_i_store_square(double *to, baum_i_square m)
   baum_i_store(to + 2, m.column[1]);
 }
 
-/* m + x I. Products with zeros and ones avoid setting half a vector, which confuses valgrind. */
+/* m + x I. The products with zeros and ones replace an instruction that sets half a vector, which
+ * valgrind misreports. */
 static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
 {
   return (baum_i_square){

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "base/rotation.h"
 
-/* Below, sin(x) / x is 1 to rounding and a quotient could be 0 / 0. */
+#include <stddef.h>
+#include <string.h>
+
+/* Below this angle sin(x) / x is 1 to rounding, and the quotient could be 0 / 0. */
 static const double TINY = 1e-12;
 
 void baum_i_quaternion_exp(const double rotation[3], double p[4])
@@ -14,13 +17,46 @@ void baum_i_quaternion_exp(const double rotation[3], double p[4])
   }
 }
 
-/* p and -p are the same rotation; the one with w >= 0 has the smaller angle. */
+/* p and -p are the same rotation; with w >= 0 its angle is at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3])
 {
   double sine = sqrt(baum_i_dot3(p + 1, p + 1));
   double factor = sine > TINY ? 2.0 * atan2(sine, fabs(p[0])) / sine : 2.0;
   for (int i = 0; i < 3; i++) {
     rotation[i] = copysign(factor, p[0]) * p[1 + i];
+  }
+}
+
+/* x = c x + s y, y = c y - s x, of three numbers each that are `stride` apart. */
+static void rotate_pair(double c, double s, int stride, double *x, double *y)
+{
+  for (int k = 0; k < 3 * stride; k += stride) {
+    double old = x[k];
+    x[k] = c * old + s * y[k];
+    y[k] = c * y[k] - s * old;
+  }
+}
+
+/* By Jacobi's rotations (1846), of which three sweeps leave rounding. Each puts the smaller moment
+ * first. */
+void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9])
+{
+  static const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  double a[9];
+  memcpy(a, matrix, sizeof a);
+  for (int i = 0; i < 9; i++) {
+    axes[i] = i % 4 == 0;
+  }
+  for (int n = 0; n < 18; n++) {
+    int i = pairs[n % 3][0];
+    int j = pairs[n % 3][1];
+    double angle = 0.5 * atan2(-2.0 * a[3 * i + j], a[4 * j] - a[4 * i]);
+    rotate_pair(cos(angle), sin(angle), 3, a + i, a + j);
+    rotate_pair(cos(angle), sin(angle), 1, a + (ptrdiff_t)3 * i, a + (ptrdiff_t)3 * j);
+    rotate_pair(cos(angle), sin(angle), 1, axes + (ptrdiff_t)3 * i, axes + (ptrdiff_t)3 * j);
+  }
+  for (int i = 0; i < 3; i++) {
+    moments[i] = a[4 * i];
   }
 }
 

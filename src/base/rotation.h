@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors of three, rotation matrices A (by rows) and unit quaternions p in Hamilton's convention,
- * w first. Both turn body axes into ground axes: x = A s. Results must not share memory with
- * arguments.
+/* Vectors in space, rotation matrices A (row-major) and unit quaternions p in Hamilton's
+ * convention, w first. A and p transform body axes into ground axes: x = A s. Results must not
+ * share memory with arguments.
  */
 #ifndef BAUM_I_BASE_ROTATION_H
 #define BAUM_I_BASE_ROTATION_H
@@ -61,8 +61,8 @@ static inline double baum_i_quaternion_length(const double p[4])
   return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
 }
 
-/* What has unit length to rounding stays as it is, so that a state that was read can be set again
- * without a change. */
+/* A quaternion whose length is 1 to rounding is not changed, so that reading a state and setting it
+ * again changes nothing. */
 static inline void baum_i_quaternion_normalize(double p[4])
 {
   double length = baum_i_quaternion_length(p);
@@ -74,7 +74,7 @@ static inline void baum_i_quaternion_normalize(double p[4])
   }
 }
 
-/* A of a unit quaternion. */
+/* The rotation matrix A of a unit quaternion. */
 static inline void baum_i_rotation_of(const double p[4], double axes[9])
 {
   const double w = p[0], x = p[1], y = p[2], z = p[3];
@@ -89,13 +89,18 @@ static inline void baum_i_rotation_of(const double p[4], double axes[9])
   axes[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
-/* The rotation about the axis and by the angle of a vector. */
+/* The unit quaternion of a rotation vector, whose direction is the axis and whose length is the
+ * angle. */
 void baum_i_quaternion_exp(const double rotation[3], double p[4]);
 
-/* The rotation vector of a unit quaternion, of at most pi. */
+/* The rotation vector of a unit quaternion; its length is at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3]);
 
-/* A unit vector orthogonal to the unit vector z, and z x it. */
+/* Principal moments of a symmetric matrix, rising, and their axes: rows of a rotation matrix up to
+ * signs. */
+void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
+
+/* Set x to a unit vector orthogonal to the unit vector z, and y to z x x. */
 void baum_i_complete_axes(const double z[3], double x[3], double y[3]);
 
 #endif

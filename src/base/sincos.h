@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sine and cosine of one angle without branches or tables, so that compilers vectorize loops over
- * angles. The error is below 1 ulp up to 1e6 rad. Beyond that callers use the C library.
+ * angles. The error is below 1 ulp up to 1e6 rad. For larger angles callers use the C library.
  *
  *   x = n pi/2 + r + y,  |r| <= pi/4,  y the tail that r cannot hold
  *
@@ -15,7 +15,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Angles up to here are exact in the first two products. */
+/* Largest angle for which the first two products are exact. */
 static const double baum_i_sincos_limit = 1e6;
 
 /* Return the rounding error of rounded = a - b. */
@@ -55,11 +55,11 @@ static inline double baum_i_cosine_kernel(double r, double y)
   return w + (((1.0 - w) - half) + (z * tail - r * y));
 }
 
-/* Valid for |x| up to the limit; beyond it the results are meaningless. */
+/* Valid for |x| up to the limit above; for larger x the results are meaningless. */
 static inline void baum_i_sincos(double x, double *sine, double *cosine)
 {
   static const double two_over_pi = 0x1.45f306dc9c883p-1;
-  /* adding it leaves the rounded integer in the last bits */
+  /* adding this constant leaves the rounded integer in the last bits */
   static const double to_integer = 0x1.8p52;
   static const double part1 = 1.57079632673412561417e+00;
   static const double part2 = 6.07710050630396597660e-11;

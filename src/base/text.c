@@ -11,7 +11,8 @@ enum { DELETE = 0x7f };
 
 int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
 {
-  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* out of memory: the program's */
+  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* NULL when out of memory; the
+                                                                program's locale is then used */
   locale_t before = plain ? uselocale(plain) : (locale_t)0;
   int length = vsnprintf(text, size, format, arguments);
   if (plain) {

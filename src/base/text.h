@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Formatted texts with a decimal point, whatever the locale of the program is. */
+/* Formatted texts. Numbers have a decimal point in every locale. */
 #ifndef BAUM_I_BASE_TEXT_H
 #define BAUM_I_BASE_TEXT_H
 
@@ -13,8 +13,8 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
   BAUM_I_PRINTF(3, 0);
 int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
-/* Refuse names that break messages: empty names and names with control characters. NULL stands for
- * the default name and is fine. */
+/* Refuse names that break messages: empty names and names with control characters. NULL is allowed
+ * and stands for the default name. */
 baum_status baum_i_check_name(const char *family, int number, const char *name);
 
 /* Append to a zero-terminated text in a buffer of `size` characters, and cut what does not fit. */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism in 7 angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), as
- * in the test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II, p. 530 ff).
- * M, f, g below are those of the test set, term by term; M a + G^T lambda = f. */
+ * in the Bari test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II,
+ * p. 530 ff).
+ * mass(), force() and phi() have the same terms as M, f and g of the test set, where
+ * M a + G^T lambda = f with G = dg/dq. */
 #include "catalog/andrews.h"
 
 #include <math.h>
@@ -55,7 +57,7 @@ static int mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The vector from C, the fixed end of the spring, to D, its end on body 3. */
+/* Computes the vector from C, the fixed end of the spring, to D, the end of the spring on K3. */
 static void along_spring(double gamma, double out[2])
 {
   out[0] = ANDREWS_SD * cos(gamma) + ANDREWS_SC * sin(gamma) + ANDREWS_B[0] - ANDREWS_C[0];
@@ -100,7 +102,7 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The point F where bodies 2, 3, 4 and 6 meet: its position from body 2 minus its position from
+/* Bodies K2, K3, K4 and K6 meet at the point F: computes the position of F on K2 minus that on
  * each of the others. */
 static int phi(double t, const double *q, double *out, void *user)
 {

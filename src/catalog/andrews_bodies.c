@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, read off the equations of the
- * test set:
+/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, derived from the equations of
+ * the Bari test set, where a is the angle of the body in each line:
  *
- *   K1 turns about O = (0, 0), angle beta.            E = rr (cos, sin) beta
- *   K2 at E, angle beta + Theta.                      F = E - d (cos, sin)
- *   K3 turns about B, angle gamma.                    F = B + ss (sin, -cos) gamma
- *                                                     and the spring at (sd, -sc) to C
- *   K5 turns about A, angle delta.                    G = A + zt (cos, sin) delta
- *   K4 at G, angle Phi + delta.                       F = G + e (sin, -cos)
- *   K7 turns about A, angle epsilon.                  H = A + u (sin, -cos) epsilon
- *   K6 at H, angle Omega + epsilon.                   F = H + zf (cos, sin)
+ *   K1 pivots at O = (0, 0), a = beta.                E = rr (cos a, sin a)
+ *   K2 pivots at E, a = beta + Theta.                 F = E - d (cos a, sin a)
+ *   K3 pivots at B, a = gamma.                        F = B + ss (sin a, -cos a)
+ *                                                     spring from (sd, -sc) on K3 to C
+ *   K5 pivots at A, a = delta.                        G = A + zt (cos a, sin a)
+ *   K4 pivots at G, a = Phi + delta.                  F = G + e (sin a, -cos a)
+ *   K7 pivots at A, a = epsilon.                      H = A + u (sin a, -cos a)
+ *   K6 pivots at H, a = Omega + epsilon.              F = H + zf (cos a, sin a)
  *
- * Centres of mass from the mass matrix: K1 ra from O, K2 da from E towards F, K4 e - ea from G
- * towards F, K6 zf - fa from H towards F, K3, K5, K7 at sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2),
- * sqrt(ua^2 + ub^2) from their pivots; without gravity their directions do not matter.
+ * The mass matrix determines the centres of mass: K1 at ra from O, K2 at da from E towards F, K4 at
+ * e - ea from G towards F, K6 at zf - fa from H towards F. Those of K3, K5 and K7 are
+ * sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2), sqrt(ua^2 + ub^2) from the pivots; without gravity, their
+ * directions from the pivots do not affect the motion.
  */
 #include "catalog/andrews.h"
 #include "catalog/catalog.h"
@@ -22,8 +23,7 @@
 
 enum { BETA, MOMENT, STIFFNESS, FREE_LENGTH, COUNT };
 
-/* Points below are in the axes of the body and measured from its pivot (E, G, H for K2, K4, K6).
- * CENTRE is the centre of mass. */
+/* Centres of mass, in the axes of the body, relative to its pivot. */
 static const double CENTRE[7][2] = {
   {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
   {ANDREWS_SB, -ANDREWS_SA}, {0, -(ANDREWS_E - ANDREWS_EA)},
@@ -31,7 +31,7 @@ static const double CENTRE[7][2] = {
   {ANDREWS_UA, -ANDREWS_UB},
 };
 
-/* Returns the angle of body k, or its angular velocity from rates. */
+/* Returns the angle of body k, or its angular velocity if `angles` are joint velocities. */
 static double turned(const double *angles, int k)
 {
   static const int added[7][2] = {{0, -1}, {0, 1}, {2, -1}, {3, 4}, {4, -1}, {5, 6}, {6, -1}};
@@ -39,7 +39,7 @@ static double turned(const double *angles, int k)
   return added[k][1] < 0 ? angle : angle + angles[added[k][1]];
 }
 
-/* Finds the pivot of body k: a fixed point, or a point of the body that carries it. */
+/* Computes the pivot of body k: a fixed point, or a point of the body that carries it. */
 static baum_i_mover find_pivot(const double *angles, const double *rates, int k)
 {
   static const double *const fixed[7] = {ANDREWS_O, ANDREWS_O, ANDREWS_B, ANDREWS_A,
@@ -84,7 +84,7 @@ static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7]
   }
 }
 
-/* Returns the point of body k that is (x, y) from its pivot. */
+/* Returns the point of body k at (x, y) from its pivot, in the axes of the body. */
 static baum_i_spot on(const baum_body_id ids[7], int k, double x, double y)
 {
   return (baum_i_spot){ids[k], {x - CENTRE[k][0], y - CENTRE[k][1]}};

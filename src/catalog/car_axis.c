@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): p = (xl, yl, xr, yr) on
- * two springs over a bump that goes up and down, yb = r sin(w t), xb = sqrt(L^2 - yb^2), with
- * k = eps^2 M / 2:
+/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): the ends of the axis,
+ * q = (xl, yl, xr, yr), stand on springs, the left one on the ground at (0, 0) and the right one on
+ * a moving bump at (xb, yb), yb = r sin(w t), xb = sqrt(L^2 - yb^2). With k = eps^2 M / 2:
  *
  *   k xl'' = (L0 - Ll) xl / Ll              + multipliers          Ll = |(xl, yl)|
  *   k yl'' = (L0 - Ll) yl / Ll - k g        + multipliers
  *   k xr'' = (L0 - Lr) (xr - xb) / Lr       + multipliers          Lr = |(xr - xb, yr - yb)|
  *   k yr'' = (L0 - Lr) (yr - yb) / Lr - k g + multipliers
- *   0 = xl xb + yl yb,  0 = (xl - xr)^2 + (yl - yr)^2 - L^2        (2)
+ *   0 = xl xb + yl yb,  0 = (xl - xr)^2 + (yl - yr)^2 - L^2
  */
 #include "catalog/catalog.h"
 

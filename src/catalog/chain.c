@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chain of uniform rods: link k starts at the tip of link k - 1, the first one at the origin, each
- * at a different angle from the x axis. */
+/* Chain of uniform rods: the first link starts at the origin, every other link at the tip of the
+ * link before it. Angles are measured from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "catalog/catalog.h"
 #include "catalog/data/chain.h"
 
-/* Angles of (90, 90, 45) degrees from the downward vertical. */
+/* The angles are 90, 90 and 45 degrees from the downward vertical. */
 static const double MASS_3[3] = {2.0, 1.0, 0.5};
 static const double LENGTH_3[3] = {1.0, 0.8, 0.6};
 static const double ANGLE_3[3] = {0.0, 0.0, -0.78539816339744831};

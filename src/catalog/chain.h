@@ -12,7 +12,8 @@ typedef struct baum_i_link {
   double rate;   /* [rad/s] at start */
 } baum_i_link;
 
-/* A chain of uniform rods that hangs from the origin. NULL: as in `all`. */
+/* A chain of uniform rods that hangs from the origin. If an array is NULL, every link has the value
+ * in `all`. */
 typedef struct baum_i_chain {
   int links;
   const double *mass;   /* (links) [kg] */

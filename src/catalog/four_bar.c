@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crank-rocker of uniform rods: crank a, coupler b, rocker c, pins of the frame at (0, 0) and
- * (d, 0).
+/* Crank-rocker of uniform rods. Crank, coupler and rocker have the lengths a, b, c and the angles
+ * th1, th2, th3 from the x axis; the pins of the frame are at (0, 0) and (d, 0).
  *
- *   a (cos, sin) th1 + b (cos, sin) th2 - c (cos, sin) th3 - (d, 0) = 0
+ *   a (cos th1, sin th1) + b (cos th2, sin th2) - c (cos th3, sin th3) - (d, 0) = 0
  */
 #include "catalog/catalog.h"
 
@@ -37,7 +37,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_ANY},
 };
 
-/* Computes a body from the angles of crank, coupler and rocker. */
+/* Computes positions and velocities of a body from the angles q of crank, coupler and rocker. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
 {

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* N-four-bar: N + 1 cranks from (k l, 0), which carry N couplers from crank to crank, all uniform
- * rods of length l. While all cranks are parallel at angle th, with masses a and b of cranks and
- * couplers,
+/* N-four-bar: N + 1 cranks with pins at (k l, 0), k = 0 to N, and N couplers between the tips of
+ * neighbouring cranks. All are uniform rods of length l; a and b are the masses of a crank and of a
+ * coupler. While all cranks are parallel at the angle th,
  *
  *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
  *
- * This is the pendulum equation for th + pi / 2. Where the cranks lie flat, each window may change
- * to crossed cranks, and J loses rank N.
+ * This is the pendulum equation for th + pi / 2. When the cranks lie on the x axis, the cranks of
+ * each window (two cranks and a coupler) may change from parallel to crossed, and the rank of J is
+ * lower by N.
  */
 #include "catalog/catalog.h"
 
@@ -46,7 +47,7 @@ static double solution(const double *p, double t, double *q, double *v)
   return off;
 }
 
-/* Crank 0, coupler 0, crank 1, ..., crank N. */
+/* The bodies are in the order crank 0, coupler 0, crank 1, ..., crank N. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
 {

@@ -11,7 +11,7 @@ typedef struct baum_i_parts {
   baum_status status;
 } baum_i_parts;
 
-/* A point on a body, in its axes. */
+/* A point on a body, in the axes of the body. */
 typedef struct baum_i_spot {
   baum_body_id body;
   double point[2];
@@ -23,22 +23,23 @@ typedef struct baum_i_mover {
   double v[2];
 } baum_i_mover;
 
-/* Moves on to the point (x, y) in axes at an angle that turn at an angular velocity. */
+/* Moves by the vector (x, y), given in axes that are at `angle` to the ground and rotate at
+ * `rate`. */
 void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, double y);
 
 /* Gives the positions and velocities of a body with this centre of mass. */
 void baum_i_mover_state(const baum_i_mover *centre, double angle, double rate, double q[3],
                         double v[3]);
 
-/* Finds where circles of radii ra about a and rb about b meet, to the left of the line from a to b,
- * or to the right where side is -1; NaN where they do not meet. */
+/* Finds an intersection of the circles of radius ra about a and rb about b: the one to the left of
+ * the line from a to b, or to the right if side is -1. NaN if they do not intersect. */
 void baum_i_meet(const double a[2], double ra, const double b[2], double rb, double side,
                  double out[2]);
 
 baum_i_parts baum_i_parts_begin(void);
 void baum_i_parts_gravity(baum_i_parts *parts, double downwards);
 baum_body_id baum_i_parts_particle(baum_i_parts *parts, const baum_planar_particle_def *def);
-/* q and v (3) replace those of the definition; NULL: keep them. */
+/* q and v (3) replace q and v of the definition unless they are NULL. */
 baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *def,
                                const double *q, const double *v);
 baum_body_id baum_i_parts_coordinates(baum_i_parts *parts, const baum_coordinates_def *def);
@@ -46,8 +47,8 @@ baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spo
 /* A pin at (xa, 0) of body a and (xb, 0) of body b. */
 baum_joint_id baum_i_parts_hinge(baum_i_parts *parts, const char *name, baum_body_id a, double xa,
                                  baum_body_id b, double xb);
-/* A slider on the line y = height of the ground through its centre of mass; `along` shifts both
- * points of the guide along it. */
+/* Guides a slider along the line y = height of the ground, through the slider's centre of mass.
+ * `along` shifts both points of the guide along this line. */
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,
                         double along);
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,
@@ -56,7 +57,7 @@ void baum_i_parts_driver(baum_i_parts *parts, const baum_driver_def *def);
 void baum_i_parts_constraint(baum_i_parts *parts, const baum_user_constraint_def *def);
 void baum_i_parts_spring(baum_i_parts *parts, const baum_planar_spring_def *def);
 void baum_i_parts_load(baum_i_parts *parts, const baum_planar_load_def *def);
-/* Freezes; on failure *out is NULL. */
+/* Freezes the mechanism. On failure *out is NULL. */
 baum_status baum_i_parts_finish(baum_i_parts *parts, baum_mechanism **out);
 
 #endif

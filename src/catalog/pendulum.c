@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point on a circle. It is a particle on a massless rod; the test problem of the MEBDF codes has
- * a particle and the constraint (x^2 + y^2 - 1) / 2, so that the multipliers agree with theirs.
- * With the angle a from the downward vertical,
+/* A point on a circle. It is a particle on a massless rod. The test problem of the MEBDF codes uses
+ * the constraint (x^2 + y^2 - 1) / 2 instead of a rod, so that the multipliers agree with the
+ * published ones. With the angle a from the downward vertical,
  *
  *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
  */
@@ -152,7 +152,7 @@ const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
   .source = "LLNL/sundials, examples/cvode/serial/cvPendulum_dns.c",
   .defaults = (const double[COUNT]){13.750371636040745, LEVEL, 0.0, 1.0, 1.0},
   .end = 30.0,
-  .samples = 41, /* every 0.75 s: not always at the ends of the swing */
+  .samples = 41, /* every 0.75 s, so that not all are at the ends of the swing */
 };
 
 const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {

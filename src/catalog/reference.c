@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A mechanism, its parameters, and a sample of its reference. */
+/* A mechanism, its parameters, and its reference at one time. */
 typedef struct sample {
   const baum_i_catalog_mechanism *of;
   double p[BAUM_I_CATALOG_PARAMETERS];
@@ -43,7 +43,7 @@ baum_status baum_catalog_times(const char *name, double *times)
   return BAUM_OK;
 }
 
-/* Stored samples hold only for their parameters. */
+/* Stored samples are valid only for the default parameters. */
 static baum_status check_parameters(const sample *at)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -65,8 +65,8 @@ static baum_status resolve(const baum_catalog_choice *choice, sample *at)
   return check_parameters(at);
 }
 
-/* Formulas have rounding errors, too. If their bound is large, the formulas cannot serve as a
- * reference. */
+/* Formulas have rounding errors, too. If the bound of these errors is large, the formula cannot
+ * serve as a reference. */
 static baum_status evaluate_formula(sample *at, double t)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -110,6 +110,17 @@ static int width(const baum_i_catalog_mechanism *of)
   return (int)strlen(of->units);
 }
 
+/* A spatial body has one velocity fewer than coordinates, because of its quaternion ('q'). */
+static bool is_spatial(const baum_i_catalog_mechanism *of)
+{
+  return strchr(of->units, 'q') != NULL;
+}
+
+static int width_v(const baum_i_catalog_mechanism *of)
+{
+  return width(of) - is_spatial(of);
+}
+
 static void state_of(const sample *at, int body, double *q, double *v)
 {
   if (at->of->state) {
@@ -129,7 +140,7 @@ static baum_status check_finite(const sample *at, double t)
   for (int body = 0; body < baum_i_catalog_bodies(at->of, at->p); body++) {
     state_of(at, body, q, v);
     for (int k = 0; k < width(at->of); k++) {
-      if (!isfinite(q[k]) || !isfinite(v[k])) {
+      if (!isfinite(q[k]) || (k < width_v(at->of) && !isfinite(v[k]))) {
         return baum_i_catalog_fail(BAUM_ERR_UNSUPPORTED,
                                    "catalogue: with these parameters \"%s\" has no reference at "
                                    "t = %g s",
@@ -153,6 +164,7 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
   BAUM_I_CATALOG_TRY(resolve(choice, &at));
   BAUM_I_CATALOG_TRY(look_up(&at, t));
   int count = width(at.of);
+  int count_v = width_v(at.of);
   for (int body = 0; body < baum_i_catalog_bodies(at.of, at.p); body++) {
     double body_q[BAUM_I_CATALOG_WIDTH];
     double body_v[BAUM_I_CATALOG_WIDTH];
@@ -161,7 +173,7 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
       memcpy(q + body * count, body_q, (size_t)count * sizeof *q);
     }
     if (v) {
-      memcpy(v + body * count, body_v, (size_t)count * sizeof *v);
+      memcpy(v + body * count_v, body_v, (size_t)count_v * sizeof *v);
     }
   }
   return BAUM_OK;
@@ -186,29 +198,51 @@ typedef struct measure {
   double floor_v;
 } measure;
 
-/* Returns the larger number; a NaN stays. */
+/* Returns the larger number, or NaN if either is NaN. */
 static double most(double a, double b)
 {
   return b > a || isnan(b) ? b : a;
 }
 
-/* q and v hold all coordinates; either may be NULL. */
+/* Finds the displacement of a body between two poses. Quaternions give the rotation vector in body
+ * axes, to first order, whichever signs they have. */
+static void subtract(const baum_i_catalog_mechanism *of, const double *from, const double *to,
+                     double d[BAUM_I_CATALOG_WIDTH])
+{
+  for (int k = 0; k < width(of); k++) {
+    d[k] = to[k] - from[k];
+  }
+  if (is_spatial(of)) {
+    const double *a = from + 3;
+    const double *b = to + 3;
+    double same = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+    for (int i = 0; i < 3; i++) {
+      int j = (i + 1) % 3;
+      int k = (i + 2) % 3;
+      double half = a[0] * b[i + 1] - a[i + 1] * b[0] - a[j + 1] * b[k + 1] + a[k + 1] * b[j + 1];
+      d[3 + i] = copysign(2.0, same) * half;
+    }
+  }
+}
+
+/* q and v contain all bodies; either may be NULL. */
 static measure measure_state(const sample *at, double scale, const double *q, const double *v)
 {
   measure out = {0};
   const baum_i_catalog_mechanism *of = at->of;
   double step_q = pow(10.0, -of->digits_q);
   double step_v = pow(10.0, -of->digits_v);
-  int count = width(of);
+  int count = width_v(of);
   for (int body = 0; body < baum_i_catalog_bodies(of, at->p); body++) {
     double body_q[BAUM_I_CATALOG_WIDTH];
     double body_v[BAUM_I_CATALOG_WIDTH];
+    double d[BAUM_I_CATALOG_WIDTH];
     state_of(at, body, body_q, body_v);
+    subtract(of, body_q, q ? q + body * width(of) : body_q, d);
     for (int k = 0; k < count; k++) {
       double unit = of->units[k] == 'm' ? scale : 1.0;
-      int column = body * count + k;
-      out.q = most(out.q, q ? fabs(q[column] - body_q[k]) / unit : (double)NAN);
-      out.v = most(out.v, v ? fabs(v[column] - body_v[k]) / unit : (double)NAN);
+      out.q = most(out.q, q ? fabs(d[k]) / unit : (double)NAN);
+      out.v = most(out.v, v ? fabs(v[body * count + k] - body_v[k]) / unit : (double)NAN);
       out.size_v = most(out.size_v, fabs(body_v[k]) / unit);
       out.floor_q = most(out.floor_q, step_q * fmax(1.0, fabs(body_q[k])) / unit);
       out.floor_v = most(out.floor_v, step_v * fmax(1.0, fabs(body_v[k])) / unit);
@@ -217,7 +251,8 @@ static measure measure_state(const sample *at, double scale, const double *q, co
   return out;
 }
 
-/* Finds, over all samples, the size of velocities that scales their errors, and the floors. */
+/* Finds, over all samples, the largest velocity, by which errors of velocities are divided, and the
+ * largest uncertainties (floors). */
 static baum_status measure_reference(sample *at, double scale, measure *out)
 {
   *out = (measure){0};
@@ -228,7 +263,7 @@ static baum_status measure_reference(sample *at, double scale, measure *out)
     out->floor_q = most(out->floor_q, one.floor_q);
     out->floor_v = most(out->floor_v, one.floor_v);
   }
-  /* Without motion velocities are compared with 1 m/s of 1 m, and 1 rad/s. */
+  /* If nothing moves, errors of velocities are divided by `scale` per second and 1 rad/s. */
   out->size_v = out->size_v > 0.0 ? out->size_v : 1.0;
   return BAUM_OK;
 }
@@ -257,12 +292,14 @@ static baum_status compare_all(sample *at, double scale, const double *times, in
                                const double *q, const double *v, baum_catalog_error *error)
 {
   measure whole;
-  size_t nq = (size_t)baum_i_catalog_bodies(at->of, at->p) * (size_t)width(at->of);
+  size_t bodies = (size_t)baum_i_catalog_bodies(at->of, at->p);
+  size_t nq = bodies * (size_t)width(at->of);
+  size_t nv = bodies * (size_t)width_v(at->of);
   BAUM_I_CATALOG_TRY(measure_reference(at, scale, &whole));
   for (int64_t i = 0; i < n; i++) {
-    size_t first = (size_t)i * nq;
+    size_t row = (size_t)i;
     BAUM_I_CATALOG_TRY(look_up(at, times[i]));
-    measure one = measure_state(at, scale, q + first, v ? v + first : NULL);
+    measure one = measure_state(at, scale, q + row * nq, v ? v + row * nv : NULL);
     error->q_final = one.q;
     error->v_final = one.v / whole.size_v;
     keep_worst(error->q_final, times[i], &error->q, &error->q_time);

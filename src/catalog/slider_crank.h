@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank in two halves, between which other elements may be added. */
+/* Adds a slider-crank in two steps, bodies and joints, between which other elements may be
+ * added. */
 #ifndef BAUM_I_CATALOG_SLIDER_CRANK_H
 #define BAUM_I_CATALOG_SLIDER_CRANK_H
 
@@ -26,7 +27,7 @@ typedef struct baum_i_slider_crank_bodies {
   baum_body_id id[3];
 } baum_i_slider_crank_bodies;
 
-/* Data of the source, with an eccentricity. */
+/* Parameters of the source (see slider_crank.c), with an eccentricity of our choice. */
 extern const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT];
 
 /* Computes position and velocity of body 0 to 2 from the angle q[0] and the angular velocity v[0]
@@ -34,10 +35,10 @@ extern const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT];
 void baum_i_slider_crank_state(const double *p, const double *q, const double *v, int body,
                                double *body_q, double *body_v);
 
-/* Adds the bodies at the start; the only velocity given is the crank's. */
+/* Adds the bodies in the initial configuration. Only the crank is given a velocity. */
 baum_i_slider_crank_bodies baum_i_slider_crank_add_bodies(baum_i_parts *parts, const double *p);
 
-/* Pins A on the frame, B, C, the guide, and the motor if driven. */
+/* Adds the pins A (on `frame`), B and C, the guide, and the motor if `driven`. */
 void baum_i_slider_crank_add_joints(baum_i_parts *parts, const double *p,
                                     const baum_i_slider_crank_bodies *bodies, baum_body_id frame,
                                     bool driven);

@@ -24,7 +24,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [FORCE] = {"force", "N", "on the end of the rod, to the right", BAUM_I_ANY},
 };
 
-/* Computes a body from the angle of the crank; the centre of the rod, 1 m from pin B, is on y = 0.
+/* Computes the state of a body from the angle of the crank. The centre of the rod, 1 m from pin B,
+ * is on y = 0.
  */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)

@@ -6,9 +6,10 @@
  *   (n + 1) (n + 2) x_{n+2} = -k S_n
  *
  * The nearest singularities in complex time are at least (pi / 2) / sqrt(k) away, or 2 / |x'| in
- * fast rotation: with w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is
- * below (1/8)^24 = 2e-22 of the first. The increments of the steps are small compared with the
- * angle, so compensated sums keep the rounding of many steps below the rounding of the result.
+ * fast rotation. Steps of 1 / (4 w), with w = sqrt(x'^2 + 4 abs(k)), are at most 1/8 of this
+ * distance, so the last of 25 terms is below (1/8)^24 = 2e-22 of the first. The increments of the
+ * steps are small compared with the angle, so compensated sums keep the rounding of many steps
+ * below the rounding of the result.
  */
 #include "catalog/swing.h"
 
@@ -16,9 +17,9 @@
 
 enum { TERMS = 25, MOST_STEPS = 100000 };
 
-/* Relative rounding of each step; the errors of steps add up like a random walk. Compared with
- * 80-bit arithmetic, motions over the top have errors of 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30,
- * 100 s; the bounds are 8e-13, 8e-12, 1.4e-11. */
+/* Relative rounding of each step; the errors of steps add up like a random walk. In rotations over
+ * the top, the errors against 80-bit arithmetic are 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30, 100
+ * s; the returned bounds are 8e-13, 8e-12, 1.4e-11 rad. */
 static const double ROUNDING = 5e-16;
 
 /* A sum and its rounding error. */
@@ -72,7 +73,7 @@ static void integrate(double k, double h, long steps, double *angle, double *rat
 
 double baum_i_swing(double k, double t, double *angle, double *rate)
 {
-  /* The distance to a neighbouring motion at the end shows how rounding errors grow. */
+  /* A second motion starts `beside` the first; their distance at the end shows how errors grow. */
   const double beside = 1e-9;
   double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
   double steps = ceil(4.0 * fabs(t) * fast) + 1.0;

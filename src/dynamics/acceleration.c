@@ -4,28 +4,27 @@
  *   [ M  J^T ] [ a      ]   [ g                                   ]
  *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]
  *
- * Flores et al. 2008 (7); (5) with alpha = beta = 0. Projections solve the same matrix with other
- * right sides.
+ * This is (7) of Flores et al. 2008, and (5) if alpha = beta = 0. Projections solve systems with
+ * the same matrix and other right sides.
  *
- * Rows that permanently depend on others are omitted. Their multipliers are then zero, which is one
- * of many solutions. Users receive the solution of least norm (least_multipliers.c).
+ * Rows that permanently depend on other rows are omitted. The multipliers of omitted rows are zero,
+ * which is one of many solutions. Users receive the solution of least norm (least_multipliers.c).
  */
 #include <string.h>
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Without a solution, only the largest right side can point to a joint. It is a hint, not a
- * proof. */
+/* Name the row with the largest right side. Without a solution this is the only hint at the joint
+ * that causes the singularity, and it may be wrong. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
-    "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
-    "matrix is not positive where the constraints leave freedom); largest right side in "
-    "%s",
+    "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass matrix is not "
+    "positive for motions that the constraints allow); the right side is largest in %s",
     w->point.t, baum_i_row_label(w->mechanism, row, label));
 }
 
@@ -40,14 +39,14 @@ static baum_status fail_blocks(const baum_workspace *w)
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the pivots of the block solver are too small, the smallest in %s: the "
-    "configuration is close to a singular one, or the masses are too uneven; the solver auto "
-    "continues with klu and qr",
+    "configuration is close to a singular one, or the masses are too uneven; choose the "
+    "solver auto, which then takes klu and qr",
     w->point.t, label);
 }
 
 /* ---- the solver of the whole system ---- */
 
-/* Evaluate the terms of the right side. Without forces, gamma is not evaluated. */
+/* Evaluate the terms of the right side. gamma is evaluated only together with forces. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -62,7 +61,7 @@ static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, 
   return baum_i_evaluate_mass(w);
 }
 
-/* A copy of `right`, so that the compiler keeps its members in registers. */
+/* `right` is passed by value, so that the compiler keeps its members in registers. */
 static void set_right_side(const baum_workspace *w, baum_i_right_side right)
 {
   for (int i = 0; i < w->mechanism->nc; i++) {
@@ -163,7 +162,7 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* Without blocks a solution costs little more than its factors, so it is computed. */
+/* Without blocks, a whole solution is computed, because it costs little more than its factors. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: find a configuration and velocities that fulfil the constraints, by the least change in
- * the metric of M.
+/* Assembly: find a configuration and velocities that fulfil the constraints, with the least change
+ * in the metric of M.
  *
  *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
  *
- * For held coordinates the columns of J and the coupling in M are cleared, so they do not move. The
- * small S (Levenberg, Marquardt) permits redundant rows. With S, contradicting rows become a
- * least-squares problem. Its remaining violation lies only in the conflicting rows, which
- * identifies them. Steps are limited, and halved until the violation decreases. Violations are
- * compared as displacements |Phi_i| / d_i, with d_i the norm of row i of J times the scales.
+ * The columns of held coordinates in J, and their coupling in M, are cleared, so these coordinates
+ * do not move. The small S (Levenberg, Marquardt) permits redundant rows. If rows contradict each
+ * other, the system with S is a least-squares problem. The violation that it leaves is in the
+ * conflicting rows only, and so identifies them. Steps are limited, and halved until the violation
+ * decreases. Violations are compared as displacements |Phi_i| / d_i, where d_i is the norm of row i
+ * of J after each column has been multiplied by the scale of its coordinate.
  */
 #include <math.h>
 #include <string.h>
@@ -20,27 +21,27 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU = 1e-10; /* relative size of S, and the convergence factor that it costs */
+static const double MU = 1e-10; /* relative size of S; convergence slows to this factor per step */
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
-static const double CONVERGED =
-  1e-11;                              /* a Newton step of this size leaves an error of its square */
-static const double ROUNDING = 1e-13; /* violation, as a displacement, that counts as zero */
+static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
+static const double ROUNDING = 1e-13;  /* displacement below which a violation is zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
-/* Velocities below this, in scales per unit of time, are rounded zeros and contradict nothing; also
- * below this share of the rate at which gravity swings the mechanism. */
+/* Scaled velocities below either limit are rounding errors and contradict nothing. NO_RATE is in
+ * 1/s; NO_SWING is relative to the rate at which gravity swings the mechanism. */
 static const double NO_RATE = 1e-14;
 static const double NO_SWING = 1e-12;
 
 /* Memory of one assembly. */
 typedef struct assembly {
   baum_workspace *w;
-  const bool *held; /* (nv) or NULL */
+  const bool *held;   /* (nv) or NULL */
+  const double *left; /* (nc) violations that stay, or NULL */
   double t;
   double *q;        /* (nq) present configuration */
   double *trial;    /* (nq) */
   double *distance; /* (nc) d_i */
-  bool fits;        /* the last violation at q was only rounding */
+  bool fits;        /* the last violation found at q was only rounding */
 } assembly;
 
 static bool is_held(const bool *held, int i)
@@ -50,16 +51,33 @@ static bool is_held(const bool *held, int i)
 
 /* ---- the matrix ---- */
 
+/* Clears the columns of held coordinates in a row. What is left is cleared, too, if it is only
+ * rounding, such as that of a driver whose body has a given angular velocity about the axis. */
+static void clear_held_entries(const baum_workspace *w, const bool *held,
+                               const baum_i_row_block *block, double *row)
+{
+  double all = 0.0;
+  double kept = 0.0;
+  for (int j = 0; j < block->cols; j++) {
+    double size = row[j] * w->mechanism->scale[block->col[j]];
+    all += size * size;
+    if (is_held(held, block->col[j])) {
+      row[j] = 0.0;
+    } else {
+      kept += size * size;
+    }
+  }
+  if (kept <= ROUNDING * ROUNDING * all) {
+    memset(row, 0, (size_t)block->cols * sizeof *row);
+  }
+}
+
 static void clear_held_columns(baum_workspace *w, const bool *held)
 {
   for (int k = 0; k < w->structure.row_block_count; k++) {
     const baum_i_row_block *block = &w->structure.row_blocks[k];
     for (int i = 0; i < block->rows; i++) {
-      for (int j = 0; j < block->cols; j++) {
-        if (is_held(held, block->col[j])) {
-          w->jacobian[block->value + i * block->cols + j] = 0.0;
-        }
-      }
+      clear_held_entries(w, held, block, w->jacobian + block->value + i * block->cols);
     }
   }
 }
@@ -79,7 +97,7 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* Set S by the present J and M. */
+/* Compute S from the present J and M. */
 static void find_shift(baum_workspace *w)
 {
   baum_i_row_mobilities(w, w->shift);
@@ -110,7 +128,7 @@ static baum_status factor(const assembly *s)
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
-/* Set w->a to the least change that changes the rows by rhs. */
+/* Set w->a to the least change of the coordinates that changes the rows by rhs. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -135,7 +153,7 @@ static double worst_displacement(const assembly *s, const double *rows)
   return worst;
 }
 
-/* Fail, naming the joints whose rows keep at least a tenth of the worst violation. */
+/* Fail and name the joints whose violations are at least a tenth of the largest. */
 static baum_status fail_inconsistent(const assembly *s, const double *rows, const char *what,
                                      const char *unit)
 {
@@ -161,6 +179,14 @@ static baum_status fail_inconsistent(const assembly *s, const double *rows, cons
 
 /* ---- positions ---- */
 
+/* Count in w->phi only what shall vanish. */
+static void leave(const assembly *s)
+{
+  for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {
+    s->w->phi[i] -= s->left[i];
+  }
+}
+
 static double merit(const assembly *s, const double *phi)
 {
   double sum = 0.0;
@@ -171,7 +197,7 @@ static double merit(const assembly *s, const double *phi)
   return sum;
 }
 
-/* Limit the step in w->a. Returns its scaled size before the limit. */
+/* Shorten the step in w->a to STEP_LIMIT. Returns its scaled size before that. */
 static double limit_step(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
@@ -182,7 +208,8 @@ static double limit_step(const assembly *s)
   return size;
 }
 
-/* Take the step in w->a, halved until the violation decreases; *fell tells whether it did. */
+/* Take the step in w->a, halved until the violation decreases; *fell tells whether the violation
+ * decreased. */
 static baum_status search_along_step(assembly *s, double before, bool *fell)
 {
   baum_workspace *w = s->w;
@@ -195,6 +222,7 @@ static baum_status search_along_step(assembly *s, double before, bool *fell)
     if (status != BAUM_OK && !w->point.retry) {
       return status;
     }
+    leave(s);
     *fell = status == BAUM_OK && merit(s, w->phi) < before;
     fraction *= 0.5;
   }
@@ -208,6 +236,7 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
 {
   baum_workspace *w = s->w;
   BAUM_I_TRY(baum_i_position_stage(w, s->t, s->q));
+  leave(s);
   clear_held_columns(w, s->held);
   baum_i_row_displacements(w, s->distance);
   s->fits = worst_displacement(s, w->phi) <= ROUNDING;
@@ -235,13 +264,14 @@ static baum_status assemble_positions(assembly *s)
     }
   }
   BAUM_I_TRY(baum_i_position_stage(s->w, s->t, s->q));
+  leave(s);
   return worst_displacement(s, s->w->phi) <= CONSISTENT
            ? BAUM_OK
            : fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
                                "left");
 }
 
-/* Rows also hold where axes are opposite instead of parallel. */
+/* Refuse axes that have become opposite instead of parallel, because the rows hold for both. */
 static baum_status check_sides(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
@@ -260,7 +290,8 @@ static baum_status check_sides(const assembly *s)
 
 /* ---- velocities ---- */
 
-/* Set the right side to -Phi' at v, and *worst to the largest Phi' as a displacement per time. */
+/* Set the right side to -Phi' at v, and *worst to the largest Phi', as a displacement per unit of
+ * time. */
 static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;
@@ -283,8 +314,8 @@ static baum_status correct_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* Complete velocities: given ones are held, free ones start at zero. The matrix is evaluated once,
- * at the assembled configuration. */
+/* Complete the velocities: given velocities are held, free ones start at zero. The matrix is
+ * evaluated once, at the assembled configuration. */
 static baum_status assemble_velocities(const assembly *s, double *v)
 {
   double last = (double)INFINITY;
@@ -303,7 +334,8 @@ static baum_status assemble_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* v (nv) has given velocities, or NaN for free ones, which are then completed. */
+/* Replace the NaN in v (nv), which stand for free velocities, by velocities that fulfil the
+ * constraints. */
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {
   baum_workspace *w = s->w;
@@ -329,8 +361,8 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
 
 /* ---- assembly ---- */
 
-baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
-                            const bool *held)
+static baum_status assemble(baum_workspace *workspace, double t, double *q, double *v,
+                            const bool *held, const double *left)
 {
   size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
@@ -342,7 +374,7 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
     baum_i_free(given);
     return baum_i_fail_memory();
   }
-  assembly s = {.w = workspace, .held = held, .t = t, .q = memory};
+  assembly s = {.w = workspace, .held = held, .left = left, .t = t, .q = memory};
   s.trial = memory + nq;
   s.distance = memory + 2 * nq + nv;
   double *velocity = memory + 2 * nq;
@@ -366,4 +398,16 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
   baum_i_free(memory);
   baum_i_free(given);
   return status;
+}
+
+baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
+                            const bool *held)
+{
+  return assemble(workspace, t, q, v, held, NULL);
+}
+
+baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
+                                    const bool *held, const double *left)
+{
+  return assemble(workspace, t, q, NULL, held, left);
 }

@@ -9,19 +9,19 @@
 #include "base/hot.h"
 #include "base/message.h"
 
-/* Along chains rounding errors grow even without small pivots, at worst in proportion to the number
- * of nodes. Up to this number it stays below 5e-13; above it every evaluation checks the
- * residual. */
+/* In chains rounding errors grow even without small pivots, at worst in proportion to the number of
+ * nodes. Up to FEW_NODES nodes the error stays below 5e-13. With more nodes every evaluation checks
+ * the residual. */
 enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
 
-/* Largest relative changes of the multipliers by a refinement: if converged, and if still
- * acceptable. */
+/* Relative change of the multipliers by a refinement. Below SETTLED it has converged; up to
+ * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
-/* If inverse masses differ by more than the first factor, and a0 of a light body exceeds all of a
- * by more than the second, a = a0 - W J^T lambda has cancelled so much that the residual is
- * checked. */
+/* The residual is checked if inverse masses differ by more than the factor UNEVEN and the largest
+ * a0 exceeds the largest a by more than the factor CANCELLED, because then digits have cancelled in
+ * a = a0 - W J^T lambda. */
 static const double UNEVEN = 1e3;
 static const double CANCELLED = 2048.0;
 
@@ -32,7 +32,7 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* Structure of bodies, joints and rows for the solver. */
+/* Properties of bodies, joints and rows that the solver needs. */
 typedef struct traits {
   baum_i_block_pin *pins;
   unsigned char *diagonal;
@@ -88,7 +88,7 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   return status;
 }
 
-/* Copy the points of pins in the solver's order, and mark these joints as done. */
+/* Copy the points of pins in the solver's order, and mark their joints as done. */
 static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
                                 unsigned char *is_done)
 {
@@ -179,7 +179,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   return BAUM_OK;
 }
 
-/* Find the first body whose M has no factor L L^T, or 0. */
+/* Find the number, from 1, of the first body whose M has no factorization L L^T, or 0. */
 static int find_massless(const baum_workspace *w, const baum_i_block *block)
 {
   for (int i = 0; i < block->dense_count; i++) {
@@ -194,7 +194,7 @@ static int find_massless(const baum_workspace *w, const baum_i_block *block)
   return 0;
 }
 
-/* Invert constant masses. Returns BAUM_ERR_SINGULAR where M is not positive definite. */
+/* Invert constant masses. Returns BAUM_ERR_SINGULAR if M is not positive definite. */
 static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdict,
                                   baum_i_block_path *path)
 {
@@ -210,7 +210,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Smallest positive number and largest number so far. */
+/* The smallest positive number and the largest number that were included. */
 typedef struct range {
   double least;
   double most;
@@ -222,9 +222,9 @@ static void include(range *r, double x)
   r->most = x > r->most ? x : r->most;
 }
 
-/* Whether joints may connect a light body to a heavy one. The criteria are the inverse masses w_0 +
- * w_2 |p|^2 at both sides of pins, and the inverse inertias of bodies connected by other joints.
- * Mechanisms with dense bodies count as uneven. */
+/* Tell whether joints may connect a light body to a heavy one. The function compares the inverse
+ * masses w_0 + w_2 |p|^2 at both sides of all pins, and the inverse inertias of all bodies that
+ * other joints connect. It returns true for every mechanism with dense bodies. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;
@@ -323,7 +323,7 @@ void baum_i_paths_destroy(const baum_i_paths *paths)
 
 /* ---- solve ---- */
 
-/* If `bending` is 0, gamma is set to zero, because old values may be infinite. */
+/* If `bending` is 0, set gamma to zero, because its old values may be infinite. */
 static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path, bool bending)
 {
   const baum_i_rows rows = {
@@ -384,7 +384,7 @@ static void add_row_gain(const baum_workspace *w, baum_i_block *block,
   block->nodes[node].lambda[slot] += more; /* J a0 - r */
 }
 
-/* Correct nodes that were set with equal gains for all rows. */
+/* Apply the gains of single rows to nodes that were set with equal gains for all rows. */
 static void add_row_gains(const baum_workspace *w, baum_i_block *block,
                           const baum_i_right_side *right)
 {
@@ -425,10 +425,10 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
   set_omitted_rates(w, path, v);
 }
 
-/* Refine the solution. Unless pivots are bad, every refinement gains six digits at least. Close to
- * a singular configuration J a may be right while the multipliers are wrong, and the residual does
- * not show it. Therefore weak pivots are always refined, and good ones only if the residual is
- * large. */
+/* Refine the solution. Unless pivots are bad, every refinement gains at least six digits. Close to
+ * a singular configuration the multipliers may be wrong although the residual of J a is small.
+ * Therefore solutions with weak pivots are always refined, and those with good pivots only if the
+ * residual is large. */
 static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
 {
   bool done = path->kernel->check(path->block) && pivots == BAUM_I_PIVOTS_GOOD;
@@ -442,7 +442,7 @@ static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Whether a is small against a0. */
+/* Tell whether a is small compared with a0. */
 static bool has_cancelled(const baum_i_block *block)
 {
   double before = 0.0;
@@ -464,7 +464,7 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* last: no later solution corrects this one, so the residual must be checked. */
+/* `last` means that no later solution corrects this one, so the residual must be checked. */
 static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 {
   const baum_i_block_kernel *kernel = path->kernel;
@@ -484,13 +484,13 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
   return status;
 }
 
-/* Evaluate joints, masses and forces at a state, and set the block by them. */
+/* Evaluate joints, masses and forces at a state, and write them to the block. */
 static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
                              const double *q, const double *v, const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
-  w->jacobian_ready = false; /* a failing function leaves it partly overwritten */
+  w->jacobian_ready = false; /* if a function fails, J is partly overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
   BAUM_I_TRY(evaluate_masses(w, path));
   BAUM_I_TRY(evaluate_forces(w, path, right->force));
@@ -517,7 +517,8 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 {
   w->solved_by = path;
   BAUM_I_TRY(set_state(w, path, t, q, v, right));
-  /* Projection of positions repeats the solution; projection of velocities does not. */
+  /* The projection of velocities solves once; the projection of positions repeats the solution and
+   * so corrects it. */
   BAUM_I_TRY(solve(w, path, v && !right->force));
   bool finite = path->kernel->read_motion(path->block, w->a);
   for (int i = 0; i < path->omitted_count; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations by blocks, the path of most evaluations.
+/* Accelerations by the block solver, which most evaluations use.
  *
  * Revolute joints enter the solver directly from frames (pins.h); other joints enter as blocks of
  * J. Constant masses and forces are set once. If the path cannot solve a system reliably, it gives
@@ -12,11 +12,11 @@
 #include "dynamics/pins.h"
 #include "linear/block.h"
 
-/* An omitted row. No node of the block sets its rate and multiplier. */
+/* An omitted row. No node of the block sets its Phi' and its multiplier. */
 typedef struct baum_i_omitted_row {
   int row;
-  int value;          /* where its values begin in J */
-  int count;          /* of them */
+  int value;          /* index of its first value in J */
+  int count;          /* number of values */
   const int *columns; /* (count) */
 } baum_i_omitted_row;
 
@@ -26,17 +26,17 @@ struct baum_i_block_path {
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
   double *points;              /* (even pin_count x 4) */
-  int group_count;             /* joints that are not pins of the block */
+  int group_count;             /* groups of joints that are not pins of the block */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* memory of the groups */
   int omitted_count;
   baum_i_omitted_row *omitted; /* (omitted_count) */
-  double *constant_force;      /* (nv) of the bodies with a constant force */
+  double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* many nodes, so the residual is always checked */
-  bool uneven;       /* uneven masses: the residual is checked if a is small compared with a0 */
-  int fixed_count;   /* fixed bodies that are not solved for */
+  bool always_check; /* the mechanism has many nodes: always check the residual */
+  bool uneven;       /* masses are uneven: check the residual if a is small compared with a0 */
+  int fixed_count;   /* number of fixed bodies that are not solved for */
   int64_t factorizations;
   int64_t refinements;
 };
@@ -46,10 +46,10 @@ struct baum_i_block_path {
  * reason in *verdict. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
-void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
+void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
 
-/* The paths of a workspace: for all bodies, and for the motion, which is the same path where no
- * body is fixed. *verdict belongs to the first. */
+/* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
+ * They are the same path if no body is fixed. *verdict describes the first. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -59,19 +59,20 @@ baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict 
                                 baum_i_paths *out);
 void baum_i_paths_destroy(const baum_i_paths *paths);
 
-/* Right side of the rows: bending gamma - damping Phi' - stiffness Phi. Right side of the bodies: g
- * or zero. */
+/* Right side of the system. The right side of the rows is bending gamma - damping Phi' - stiffness
+ * Phi. The right side of the bodies is g if `force`, otherwise zero. */
 typedef struct baum_i_right_side {
   double bending;
   double damping;
   double stiffness;
   bool force;
-  /* (nc) factors f on gains: damping f Phi' and stiffness f^2 Phi; NULL: 1 */
+  /* (nc) factors f of single rows, which make the terms damping f Phi' and stiffness f^2 Phi; NULL:
+   * 1 */
   const double *row_gains;
 } baum_i_right_side;
 
 /* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints that are not pins. v may be
- * NULL if the right side does not need it. BAUM_ERR_SINGULAR: the path gives up. */
+ * NULL if the right side does not need it. BAUM_ERR_SINGULAR means that the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
@@ -82,10 +83,17 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 
-/* Set the message for a status of the workspace's solver; returns the status. */
+/* The forces (nv) of the last acceleration. */
+static inline const double *baum_i_solved_force(const baum_workspace *w)
+{
+  const baum_i_block_path *path = w->solved_by;
+  return path && path->force_is_constant ? path->constant_force : w->force;
+}
+
+/* Set the message for a status of the workspace's solver, and return the status. */
 baum_status baum_i_report_constraints(const baum_workspace *workspace, baum_status status);
 
-/* Compute the pivots only, even if they are bad. */
+/* Factor the matrix to find its pivots, even if they are bad. */
 baum_status baum_i_block_path_factor(baum_workspace *workspace, baum_i_block_path *path, double t,
                                      const double *q);
 

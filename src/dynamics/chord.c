@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's method with the matrix of one configuration held (a chord in place of the tangents):
+/* Newton's method with the matrix of one configuration for all iterations (the chord method):
  *
  *   [ M   J^T ] [ dq     ]   [  0      ]
- *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M and J of another configuration than q
+ *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M, J: of a configuration other than q
  *
- * and the half step of velocities that ends with J v = nu:
+ * The velocity step of length 1/rate that ends with J v = nu solves
  *
  *   [ M   J^T ] [ a      ]   [ g         ]
  *   [ J   0   ] [ lambda ] = [ -rate Phi' ]
  *
- * Blocks come first; where they give up, the solver of the whole system takes over.
+ * Both use the block solver; if it gives up, the solver of the whole system takes over.
  */
 #include "dynamics/chord.h"
 
@@ -72,9 +72,12 @@ baum_status baum_i_chord_change(baum_workspace *w, const baum_i_chord *chord, do
 /* ---- velocities ---- */
 
 baum_status baum_i_hold_velocities(baum_workspace *w, double t, const double *q, const double *v,
-                                   double rate)
+                                   const double *moments, double rate)
 {
   const baum_i_right_side right = {.damping = rate, .force = true};
   w->evaluations++;
-  return baum_i_solve_motion(w, t, q, v, &right);
+  w->point.moments = moments;
+  baum_status status = baum_i_solve_motion(w, t, q, v, &right);
+  w->point.moments = NULL;
+  return status;
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes along the constraint forces of one configuration, for methods that keep Phi = 0 and
- * J v = nu by forces -J^T lambda of that configuration.
+/* Corrections for methods that keep Phi = 0 and J v = nu. All corrections are caused by constraint
+ * forces -J^T lambda with J of one configuration.
  */
 #ifndef BAUM_I_DYNAMICS_CHORD_H
 #define BAUM_I_DYNAMICS_CHORD_H
 
 #include "dynamics/dynamics.h"
 
-/* Factors of M and J of one configuration. Any other solution with the workspace ends them. */
+/* Factors of the matrix of M and J at one configuration. Any other solution with the workspace
+ * overwrites them. */
 typedef struct baum_i_chord {
-  baum_i_block_path *path; /* block path that has the factors; NULL: kkt */
+  baum_i_block_path *path; /* block path that holds the factors; NULL: kkt does */
 } baum_i_chord;
 
 /* Factor at a configuration. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
@@ -21,9 +22,10 @@ baum_status baum_i_chord_begin(baum_workspace *workspace, double t, const double
 baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *chord, double t,
                                 const double *q);
 
-/* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). Also
- * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+/* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). moments (nv)
+ * replace the gyroscopic moments of rigid bodies, unless NULL. Also BAUM_ERR_SINGULAR,
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_hold_velocities(baum_workspace *workspace, double t, const double *q,
-                                   const double *v, double rate);
+                                   const double *v, const double *moments, double rate);
 
 #endif

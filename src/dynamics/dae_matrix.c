@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements. The
- * variables are displacements of velocity size instead of q, and the rows of q' - N v are N^+ times
- * those of the residual. So the matrix has nv rows and columns of q:
+/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements. Its
+ * variables are displacements of length nv in place of q, and the rows of q' - N v are multiplied
+ * by N^+. The matrix therefore has nv rows and columns for q:
  *
  *          q                                             v                       lambda
  *   q      c I - N^+ (N v)_q N                           -I
@@ -11,37 +11,33 @@
  *          index 2: (J v)_q - nu_q                       J                       0
  *          index 3: J                                    0                       0
  *
- * GGL has the rows of index 2, and
+ * GGL has the rows of index 2, and with u = v - W^-1 J^T mu
  *
  *          q                                             v                       lambda  mu
- *   q      c I - N^+ (N v)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
+ *   q      c I - N^+ (N u)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
- * With gains alpha_i, beta_i of single rows, (J w)_q belongs to w = v' + 2 alpha v, and a second
- * linearization adds 2 (alpha_i - alpha) (J v)_q.
+ * If row i has gains alpha_i, beta_i of its own, (J w)_q is still computed with w = v' + 2 alpha v,
+ * and a second linearization adds 2 (alpha_i - alpha) (J v)_q.
  *
- * A walk over all blocks emits entries in a fixed order. The first walk finds the pattern; later
- * walks add values to the slots found then. An omitted row has 1 on its diagonal.
+ * A loop over all blocks, called a walk, emits entries in a fixed order. The first walk finds the
+ * pattern and the slot of each entry; later walks add values to these slots. An omitted row has 1
+ * on its diagonal.
  */
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/dynamics.h"
-#include "linear/compress.h"
 
 struct baum_i_residual_matrix {
-  baum_residual index;
-  int size;
-  int32_t *slot;    /* (entries of a walk) */
-  int32_t *columns; /* (size + 1) */
-  int32_t *rows;    /* (columns[size]) */
+  baum_i_compressed pattern; /* its slots belong to the entries of a walk */
 };
 
 /* Destination of the entries of a walk. */
 typedef struct sink {
-  baum_i_places *places; /* learning, else NULL */
-  const int32_t *slot;   /* filling: of the next entry */
+  baum_i_places *places; /* when finding the pattern, else NULL */
+  const int32_t *slot;   /* when filling: slot of the next entry */
   double *values;
 } sink;
 
@@ -54,7 +50,7 @@ static void emit(sink *s, int row, int col, double value)
   }
 }
 
-/* Factors of the blocks in a walk. */
+/* Data of a walk over the blocks. */
 typedef struct factors {
   const baum_workspace *w;
   const baum_dae *dae;
@@ -128,7 +124,7 @@ static void walk_multipliers(const factors *f, const baum_i_joint *joint, sink *
   }
 }
 
-/* W^-1 J^T mu in the rows of q. */
+/* Emit the derivatives of W^-1 J^T mu in the rows of q. */
 static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s)
 {
   const baum_workspace *w = f->w;
@@ -146,7 +142,7 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
   }
 }
 
-/* Emit an entry of a row: derivatives of Phi'' with gains, of Phi', of Phi. */
+/* Emit an entry of a row: the derivatives of Phi'' with gains, of Phi', or of Phi. */
 
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
@@ -230,58 +226,22 @@ static void walk(const factors *f, sink *s)
 
 /* ---- the pattern ---- */
 
-/* Count the entries of a walk. */
-static size_t count_entries(const baum_mechanism *m, baum_residual index)
-{
-  size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1; /* of multipliers */
-  /* columns of q and of v in the rows of lambda */
-  size_t columns = index == BAUM_RESIDUAL_INDEX3 ? 1 : 2;
-  size_t jacobians = kinds + columns + (kinds - 1); /* J^T, and J in the rows of constraints */
-  size_t blocks = m->flat ? 2 : 3;                  /* of bodies */
-  return 2 * ((size_t)m->nv + (size_t)m->force_square_size) + blocks * (size_t)m->mass_size +
-         jacobians * (size_t)m->jacobian_size +
-         kinds * ((size_t)m->joint_square_size + (size_t)m->nc);
-}
-
-static baum_status compress(baum_i_residual_matrix *matrix, const baum_i_places *places)
-{
-  matrix->slot = baum_i_alloc(places->count, sizeof *matrix->slot);
-  matrix->rows = baum_i_alloc(places->count, sizeof *matrix->rows);
-  matrix->columns = baum_i_alloc((size_t)matrix->size + 1, sizeof *matrix->columns);
-  if (!matrix->slot || !matrix->rows || !matrix->columns) {
-    return BAUM_ERR_MEMORY;
-  }
-  return baum_i_compress(places, matrix->size, matrix->columns, matrix->rows, matrix->slot);
-}
-
-static baum_status find_pattern(baum_i_residual_matrix *matrix, const factors *f)
-{
-  baum_i_places places;
-  baum_status status = baum_i_places_create(count_entries(f->w->mechanism, matrix->index), &places);
-  if (status == BAUM_OK) {
-    sink s = {.places = &places};
-    walk(f, &s);
-    status = compress(matrix, &places);
-  }
-  baum_i_places_clear(&places);
-  return status == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
-}
-
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
                                           baum_i_residual_matrix **out)
 {
   *out = NULL;
   baum_i_residual_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
   BAUM_I_TRY(baum_i_check_memory(matrix));
+  const baum_mechanism *m = workspace->mechanism;
   const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
-  matrix->index = index;
-  matrix->size = baum_i_residual_size(workspace->mechanism, index) - workspace->mechanism->nq +
-                 workspace->mechanism->nv;
-  baum_status status = find_pattern(matrix, &f);
-  if (status != BAUM_OK) {
-    baum_i_residual_matrix_destroy(matrix);
-    return status;
+  baum_i_places places = {0};
+  sink s = {.places = &places};
+  walk(&f, &s);
+  int size = baum_i_residual_size(m, index) - m->nq + m->nv;
+  if (baum_i_compress(&places, size, &matrix->pattern) != BAUM_OK) {
+    baum_i_free(matrix);
+    return baum_i_fail_memory();
   }
   *out = matrix;
   return BAUM_OK;
@@ -290,36 +250,19 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
 void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix)
 {
   if (matrix) {
-    baum_i_free(matrix->slot);
-    baum_i_free(matrix->columns);
-    baum_i_free(matrix->rows);
+    baum_i_compressed_clear(&matrix->pattern);
     baum_i_free(matrix);
   }
 }
 
-int baum_i_residual_matrix_size(const baum_i_residual_matrix *matrix)
+const baum_i_compressed *baum_i_residual_matrix_pattern(const baum_i_residual_matrix *matrix)
 {
-  return matrix->size;
-}
-
-int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix)
-{
-  return matrix->columns[matrix->size];
-}
-
-const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix)
-{
-  return matrix->columns;
-}
-
-const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix)
-{
-  return matrix->rows;
+  return &matrix->pattern;
 }
 
 /* ---- the values ---- */
 
-/* Set the vector that J of the constraint rows is multiplied with. */
+/* Set the vector w or v of (J w)_q or (J v)_q in the rows of lambda. */
 static void choose_direction(const baum_dae *dae, int nv, const double *v, const double *dv,
                              double *direction)
 {
@@ -329,14 +272,15 @@ static void choose_direction(const baum_dae *dae, int nv, const double *v, const
   }
 }
 
-/* Set (J v)_q. The main linearization overwrites the other blocks. */
+/* Set (J v)_q. The other blocks that this call sets are overwritten by the main linearization. */
 static baum_status linearize_rates(baum_workspace *w, const double *v, const double *lambda)
 {
   const baum_i_joint_blocks blocks = {w->jv_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
   return baum_i_mechanism_linearize_joints(&w->point, v, lambda, &blocks);
 }
 
-/* Linearize with mu first, because the blocks with lambda overwrite the others. */
+/* Linearize with mu first, because the linearization with lambda has to overwrite the common
+ * blocks. */
 static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, const double *v,
                                     const double *dv)
 {
@@ -365,7 +309,11 @@ static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, c
   const baum_i_force_blocks forces = {w->force_q, w->force_v};
   BAUM_I_TRY(baum_i_velocity_stage(w, t, y, v));
   if (!w->mechanism->flat) {
-    baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
+    bool corrected = dae->index == BAUM_RESIDUAL_GGL;
+    const double *mu = v + w->mechanism->nv + w->mechanism->nc;
+    baum_i_linearize_rate(w->mechanism, w->point.q,
+                          corrected ? baum_i_corrected_velocities(w, v, mu) : v, w->rate_q,
+                          w->work_q);
   }
   BAUM_I_TRY(baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies));
   BAUM_I_TRY(linearize_joints(w, dae, v, dv));
@@ -377,9 +325,9 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         double t, const double *y, const double *dy, double *values)
 {
   BAUM_I_TRY(linearize(workspace, dae, t, y, dy));
-  memset(values, 0, (size_t)matrix->columns[matrix->size] * sizeof *values);
+  memset(values, 0, (size_t)matrix->pattern.start[matrix->pattern.n] * sizeof *values);
   const factors f = {.w = workspace, .dae = dae, .c = c};
-  sink s = {.slot = matrix->slot, .values = values};
+  sink s = {.slot = matrix->pattern.slot, .values = values};
   walk(&f, &s);
   return BAUM_OK;
 }

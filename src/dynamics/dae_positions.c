@@ -1,22 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The Jacobian dF/dy + c dF/dy' by q itself, from the matrix T of dae_matrix.c, whose variables are
- * displacements dx of velocity size. Where q is no vector, dx = N^+ dq. Off the manifold only the
- * rows of q change. So the Jacobian is
+/* The Jacobian dF/dy + c dF/dy' with respect to q itself. It is computed from the matrix T of
+ * dae_matrix.c, whose variables are displacements dx = N^+ dq of length nv. Changes dq off the
+ * manifold affect only the rows of q. So the Jacobian is
  *
  *   L T R + B,   L = diag(N, I),   R = diag(N^+, I),
  *   B = c I - (N u)_q - N (c I - N^+ (N v)_q N) N^+   in the rows and columns of q
  *
- * with u = v, for GGL v - W^-1 J^T mu. N and B consist of blocks of bodies.
+ * with u = v, or u = v - W^-1 J^T mu for GGL. N and B consist of one block per body.
  */
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/dynamics.h"
-#include "linear/compress.h"
 
-/* Step of a body's q, in relevant changes. N is mostly linear in q; then the step does not
- * matter. */
+/* Step of q in the central differences of N u, relative to the scale of q. Where N is linear in q,
+ * which is usual, its length does not matter. */
 static const double STEP = 1e-5;
 
 /* The matrix while it is computed. */
@@ -27,23 +26,21 @@ typedef struct widening {
   double c;
   int widest;            /* largest nq of a body */
   double *memory;        /* of all arrays below */
-  double *rate;          /* (nv x widest) N: row j is column j of its body's */
-  double *inverse;       /* (nv x widest) N^+: row j is row j of its body's */
-  double *bend;          /* (nq x widest) (N u)_q likewise, by rows */
+  double *rate;          /* (nv x widest) column j of N, without zeros */
+  double *inverse;       /* (nv x widest) row j of N^+, without zeros */
+  double *bend;          /* (nq x widest) rows of (N u)_q, without zeros */
   double *unit;          /* (nq) */
   double *room;          /* (4 nq) */
-  baum_i_places *places; /* learning, else NULL */
-  const int32_t *slot;   /* filling: of the next entry */
+  baum_i_places *places; /* when finding the pattern, else NULL */
+  const int32_t *slot;   /* when filling: slot of the next entry */
   double *values;
-  size_t count; /* entries so far */
 } widening;
 
 static void emit(widening *x, int row, int column, double value)
 {
-  x->count++;
   if (x->places) {
     baum_i_places_add(x->places, row, column);
-  } else if (x->slot) {
+  } else {
     x->values[*x->slot++] += value;
   }
 }
@@ -108,7 +105,7 @@ static void set_bends(const widening *x)
 
 /* ---- the walk ---- */
 
-/* The rows or columns that a row or column of T contributes to, and the factors. */
+/* The rows (or columns) to which a row (or column) of T contributes, and its factors in them. */
 typedef struct image {
   int first;
   int count;
@@ -157,12 +154,10 @@ static double own_entry(const widening *x, const baum_i_body *body, int r, int s
 static void walk(widening *x, const baum_i_residual_matrix *narrow, const double *values)
 {
   const baum_mechanism *m = x->w->mechanism;
-  const int32_t *columns = baum_i_residual_matrix_columns(narrow);
-  const int32_t *rows = baum_i_residual_matrix_rows(narrow);
-  x->count = 0;
-  for (int j = 0; j < baum_i_residual_matrix_size(narrow); j++) {
-    for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
-      walk_entry(x, rows[k], j, values[k]);
+  const baum_i_compressed *columns = baum_i_residual_matrix_pattern(narrow);
+  for (int j = 0; j < columns->n; j++) {
+    for (int32_t k = columns->start[j]; k < columns->start[j + 1]; k++) {
+      walk_entry(x, columns->row[k], j, values[k]);
     }
   }
   for (int k = 1; k <= m->body_count; k++) {
@@ -207,56 +202,32 @@ static bool prepare(widening *x, const baum_dae *dae, const double *y)
   return true;
 }
 
-/* Find the pattern of a walk, into arrays of the caller. */
-static baum_status find_pattern(widening *x, const baum_i_residual_matrix *narrow,
-                                const double *values, int n, baum_sparse *pattern, int32_t *slot)
-{
-  baum_i_places places;
-  BAUM_I_TRY(baum_i_places_create(x->count, &places));
-  x->places = &places;
-  walk(x, narrow, values);
-  x->places = NULL;
-  baum_status status = baum_i_compress(&places, n, pattern->columns, pattern->rows, slot);
-  pattern->nonzeros = status == BAUM_OK ? pattern->columns[n] : 0;
-  baum_i_places_clear(&places);
-  return status;
-}
-
-static void give(const baum_sparse *pattern, int n, baum_sparse *out)
-{
-  out->nonzeros = pattern->nonzeros;
-  if (out->columns) {
-    memcpy(out->columns, pattern->columns, ((size_t)n + 1) * sizeof *out->columns);
-  }
-  if (out->rows) {
-    memcpy(out->rows, pattern->rows, (size_t)pattern->nonzeros * sizeof *out->rows);
-  }
-}
-
 static baum_status widen(widening *x, const baum_i_residual_matrix *narrow, const double *values,
                          int n, baum_sparse *out)
 {
+  baum_i_places places = {0};
+  baum_i_compressed pattern;
+  x->places = &places;
   walk(x, narrow, values);
-  baum_sparse pattern = {.columns = baum_i_alloc((size_t)n + 1, sizeof *pattern.columns),
-                         .rows = baum_i_alloc(x->count, sizeof *pattern.rows)};
-  int32_t *slot = baum_i_alloc(x->count, sizeof *slot);
-  baum_status status = BAUM_ERR_MEMORY;
-  if (pattern.columns && pattern.rows && slot) {
-    status = find_pattern(x, narrow, values, n, &pattern, slot);
+  if (baum_i_compress(&places, n, &pattern) != BAUM_OK) {
+    return baum_i_fail_memory();
   }
-  if (status == BAUM_OK) {
-    give(&pattern, n, out);
+  out->nonzeros = pattern.start[n];
+  if (out->columns) {
+    memcpy(out->columns, pattern.start, ((size_t)n + 1) * sizeof *out->columns);
   }
-  if (status == BAUM_OK && out->values) {
-    memset(out->values, 0, (size_t)pattern.nonzeros * sizeof *out->values);
+  if (out->rows) {
+    memcpy(out->rows, pattern.row, (size_t)out->nonzeros * sizeof *out->rows);
+  }
+  if (out->values) {
+    memset(out->values, 0, (size_t)out->nonzeros * sizeof *out->values);
+    x->places = NULL;
     x->values = out->values;
-    x->slot = slot;
+    x->slot = pattern.slot;
     walk(x, narrow, values);
   }
-  baum_i_free(pattern.columns);
-  baum_i_free(pattern.rows);
-  baum_i_free(slot);
-  return status == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
+  baum_i_compressed_clear(&pattern);
+  return BAUM_OK;
 }
 
 static baum_status make_wide(baum_workspace *w, const baum_dae *dae, double c, const double *y,
@@ -277,7 +248,8 @@ baum_status baum_i_residual_jacobian(baum_workspace *w, const baum_dae *dae, dou
 {
   baum_i_residual_matrix *matrix = NULL;
   BAUM_I_TRY(baum_i_residual_matrix_create(w, dae->index, &matrix));
-  double *values = baum_i_alloc((size_t)baum_i_residual_matrix_nonzeros(matrix), sizeof *values);
+  const baum_i_compressed *pattern = baum_i_residual_matrix_pattern(matrix);
+  double *values = baum_i_alloc((size_t)pattern->start[pattern->n], sizeof *values);
   baum_status status = values ? BAUM_OK : baum_i_fail_memory();
   if (status == BAUM_OK && out->values) {
     status = baum_i_residual_matrix_fill(matrix, w, dae, c, t, y, dy, values);

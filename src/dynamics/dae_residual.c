@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual forms of the equations of motion, y = (q, v, lambda), for implicit solvers:
+/* Residual forms of the equations of motion for implicit solvers. With y = (q, v, lambda) they are
  *
- *   q' - N v                                                  N the identity where q is a vector
+ *   q' - N v                                                  N = I where q is a vector
  *   M v' + J^T lambda - g
  *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu
  *   index 3:  Phi
  *
- * and of C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90, of index 2 with y
- * = (q, v, lambda, mu):
+ * The form GGL (C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90) has index
+ * 2, and with y = (q, v, lambda, mu) it is
  *
  *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g

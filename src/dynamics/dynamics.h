@@ -10,8 +10,8 @@
  * Only create functions, assembly and the search for redundancy allocate memory.
  *
  * All functions return BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, and the statuses named
- * beside them. After these two errors, workspace->point.retry tells whether a smaller step may
- * help.
+ * beside them. After BAUM_ERR_CALLBACK and BAUM_ERR_NOT_FINITE, workspace->point.retry tells
+ * whether a smaller step may help.
  */
 #ifndef BAUM_I_DYNAMICS_DYNAMICS_H
 #define BAUM_I_DYNAMICS_DYNAMICS_H
@@ -20,22 +20,23 @@
 
 #include "base/message.h"
 #include "dynamics/row_set.h"
+#include "linear/compress.h"
 #include "linear/kkt.h"
 #include "mechanism/manifold.h"
 
-/* Of least_multipliers.c. */
+/* Memory of least_multipliers.c. */
 typedef struct baum_i_sharing {
   baum_i_kkt *kkt;  /* NULL while no row has been omitted */
   double *weight;   /* (mass_size) block values of W */
   double *mobility; /* (nc) square of the length of row i of J M^-1/2 */
-  double *part;     /* (nc) of multipliers, in the null space of J^T */
+  double *part;     /* (nc) multipliers in the null space of J^T */
   double *work;     /* (4 nc) */
   double *system;   /* (4 (nv + nc)) */
 } baum_i_sharing;
 
 typedef struct baum_i_block_path baum_i_block_path;
 
-/* Whether blocks solve for accelerations, or why not. */
+/* Tells whether the block solver finds accelerations, and if not, why. */
 typedef enum baum_i_blocks {
   BAUM_I_BLOCKS_SUIT,
   BAUM_I_BLOCKS_UNWANTED, /* another solver was chosen */
@@ -47,7 +48,7 @@ typedef enum baum_i_blocks {
 
 typedef struct baum_i_block_verdict {
   baum_i_blocks blocks;
-  int body; /* body of the verdict, from 1; 0: none */
+  int body; /* number of the body that the verdict concerns, from 1; 0: none */
 } baum_i_block_verdict;
 
 struct baum_workspace {
@@ -57,11 +58,12 @@ struct baum_workspace {
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
   baum_i_block_path *path;      /* NULL: kkt solves */
-  baum_i_block_path *motion;    /* for all bodies but fixed ones; the same path if there are none */
+  baum_i_block_path *motion;    /* for all but fixed bodies; = path if there are none */
   baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
-  bool blocks_only;             /* other solvers are not allowed */
+  bool blocks_only;             /* no other solver is allowed */
   baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
-  /* path whose pivots are current, even if another solver gave the solution; NULL: none */
+  /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
+   * none */
   baum_i_block_path *eliminated_by;
   baum_i_row_set rows;
   baum_i_sharing sharing;
@@ -83,7 +85,7 @@ struct baum_workspace {
   double *work_c;          /* (2 nc) */
   double *shift;           /* (nc) regularization of assembly */
   double *inputs;          /* (input_count) present values */
-  const double *row_gains; /* (nc) the run's factors on the gains of rows; NULL: 1 */
+  const double *row_gains; /* (nc) factors of the run on the gains of single rows; NULL: 1 */
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) for rates of q */
@@ -92,16 +94,16 @@ struct baum_workspace {
   double *body_force_q;
   double *body_force_v;
   double *jw_q; /* (jacobian_size) */
-  double *jv_q; /* the same with v, if rows have different gains */
+  double *jv_q; /* (J v)_q, if rows have different gains */
   double *gamma_q;
   double *gamma_v;
   double *nu_q;
   double *jtl_q;   /* (joint_square_size) */
-  double *jtm_q;   /* (joint_square_size) the same with mu */
+  double *jtm_q;   /* (joint_square_size) (J^T mu)_q */
   double *force_q; /* (force_square_size) */
   double *force_v;
 
-  double *unprojected; /* (nq + nv) not owned: state before the last projection; NULL: not kept */
+  double *unprojected; /* (nq + nv) state before the last projection, not owned; NULL: not stored */
 
   int64_t evaluations;   /* solutions and residuals */
   int64_t near_singular; /* solutions in which the matrix was close to singular */
@@ -110,13 +112,13 @@ struct baum_workspace {
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
                                     baum_workspace **out);
 
-/* Use blocks for accelerations from now on, if they suit the mechanism. Call this after the
- * redundant rows are known. Also BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if they do not suit but
- * no other solver is allowed. */
+/* Use the block solver for accelerations from now on, if it suits the mechanism. Call this after
+ * the redundant rows are known. Also BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if the block solver
+ * does not suit but no other solver is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
-/* Describe the solver and the reason for its choice; describe why blocks are not used. Both texts
- * end without a full stop. */
+/* The first function describes the solver and the reason for its choice, the second why the block
+ * solver is not used. Both texts end without a full stop. */
 enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
@@ -125,8 +127,8 @@ void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLV
  * the object in the message. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
-/* A probe of another state in the workspace of a motion. It does not count near-singular solutions,
- * and only its final status leaves a message. */
+/* Evaluations of other states with the workspace of a run. Between begin and end, near-singular
+ * solutions are not counted. A message is kept only if the final status is an error. */
 typedef struct baum_i_probe {
   baum_workspace *workspace;
   int64_t near_singular;
@@ -136,10 +138,11 @@ typedef struct baum_i_probe {
 void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace);
 baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status);
 
-/* Choose pivots again at the next factorizations, so that these do not depend on earlier ones. */
+/* Choose new pivots at the next factorizations, so that results do not depend on earlier
+ * factorizations. */
 void baum_i_workspace_forget(baum_workspace *workspace);
 
-/* Counters of the solvers for accelerations, projection and assembly. */
+/* Return the sums of the counters of all solvers: for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
 
 /* The omitted rows (nc) for solvers; NULL: none. */
@@ -160,45 +163,46 @@ static inline baum_i_kkt_values baum_i_kkt_values_of(const baum_workspace *w)
 baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);
 baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const double *q,
                                   const double *v);
-/* Evaluate M at the present point; a constant M only once. */
+/* Evaluate M at the present point. A constant M is evaluated only once. */
 baum_status baum_i_evaluate_mass(baum_workspace *workspace);
-/* Set Phi and Phi' of rows between fixed bodies, which a motion does not evaluate, to zero. */
+/* Set Phi and Phi' of rows between fixed bodies to zero; baum_i_motion() does not evaluate these
+ * rows. */
 void baum_i_clear_fixed_rows(baum_workspace *workspace);
-/* Phi and Phi' only: cheaper than the velocity stage. */
+/* Evaluate only Phi and Phi', which is cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
-/* Set workspace->a and ->lambda to a and lambda of (7); alpha = beta = 0 gives (5). alpha may be
- * negative (backward in time). J is set only after baum_i_need_jacobian(). Also BAUM_ERR_SINGULAR
- * (the message names a joint), BAUM_ERR_MEMORY. */
+/* Set workspace->a and ->lambda to a and lambda of (7); alpha = beta = 0 gives (5). alpha is
+ * negative for motion backward in time. J is set only after baum_i_need_jacobian(). Also
+ * BAUM_ERR_SINGULAR (the message names a joint), BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* The same for a alone. It is 0 for fixed bodies, which must have the poses that
- * baum_i_place_fixed_bodies() gives them. Their lambda, J and rows may not be set. */
+/* Find only a. It is 0 for fixed bodies, which must have the poses that baum_i_place_fixed_bodies()
+ * gives them. lambda, J, Phi and Phi' of rows between fixed bodies are not always set. */
 baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
                           double alpha, double beta);
-/* Evaluate the blocks of J at the last point, if that evaluation skipped them. */
+/* Evaluate the blocks of J at the last point, if the last evaluation skipped them. */
 baum_status baum_i_need_jacobian(baum_workspace *workspace);
-/* Solve (5) as it is reported to users, with multipliers of least norm if they are not unique. Sets
- * J. */
+/* Find the solution of (5) that users receive. Its multipliers have the least norm if they are not
+ * unique. Sets J. */
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
 /* ---- pivot.c ---- */
 
-/* Below this fraction of the usual pivot a configuration is nearly singular. It corresponds to a
- * seventh of the usual distance from singular configurations. */
+/* A configuration is nearly singular if its smallest pivot is below this fraction of the usual one.
+ * This corresponds to a seventh of the usual distance from singular configurations. */
 #define BAUM_I_NEAR_PIVOT 0.02
 
-/* Distance of the last solution from a singular configuration, as a pivot: 1 without rows, 0 if
- * singular. It falls with the square of the distance. Its size depends on mechanism and solver, so
- * it must be compared with its own usual value. *joint, unless NULL, is the joint of the smallest
- * pivot, or -1. */
+/* Return the smallest pivot of the last solution, which measures the distance from a singular
+ * configuration: 1 without rows, 0 if singular. The pivot falls with the square of the distance.
+ * Its size depends on mechanism and solver, so it must be compared with the usual pivot of the same
+ * mechanism and solver. *joint, unless NULL, is the joint of the smallest pivot, or -1. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
-/* Whether the last elimination by blocks gives the pivot. */
+/* Tell whether baum_i_smallest_pivot() uses the last elimination by blocks. */
 bool baum_i_blocks_tell(const baum_workspace *workspace);
 /* acceleration.c: find the pivot at a state without a solution. a, lambda and evaluated terms are
- * undefined afterwards. Where blocks are used they also give this pivot, so pivots do not jump when
- * another solver takes over. Statuses of baum_i_motion(). */
+ * undefined afterwards. If blocks are used, the pivot is always that of the blocks, so it does not
+ * jump when another solver gives the solution. Statuses of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
 
@@ -206,20 +210,20 @@ baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double 
 
 baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, const double *v,
                           double *kinetic, double *potential);
-/* Number of values of a joint's reaction, and, after a position stage, the values. */
+/* The number of values of a joint's reaction, and the values. Call baum_i_reaction() after a
+ * position stage. */
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
 /* ---- metric.c: W of GGL, constant once chosen ---- */
 
-/* Choose W by M in the workspace. */
+/* Choose W from the present M of the workspace. */
 void baum_i_choose_metric(baum_workspace *workspace);
-/* Choose W by M of the design configuration, unless it is chosen. */
+/* Choose W from M of the design configuration, unless W has been chosen. */
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
 /* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu)
- * with W chosen before, and dF/dy + c dF/dy' with displacements of velocity size in place of dq
- * ---- */
+ * with W chosen before, and dF/dy + c dF/dy' with displacements of length nv in place of dq ---- */
 
 /* Length of y. */
 int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
@@ -227,33 +231,32 @@ int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
-/* v - W^-1 J^T mu at the last J; valid until workspace->work_v is used again. */
+/* Return v - W^-1 J^T mu with the last J. The result is valid until workspace->work_v is used
+ * again. */
 const double *baum_i_corrected_velocities(baum_workspace *workspace, const double *v,
                                           const double *mu);
 
-/* The Jacobian with a fixed pattern, in compressed columns with sorted rows. It is created once and
- * filled without allocation. */
+/* The Jacobian with a fixed pattern, in compressed columns with sorted rows. Filling it allocates
+ * nothing. */
 typedef struct baum_i_residual_matrix baum_i_residual_matrix;
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
                                           baum_i_residual_matrix **out);
 void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix);
-int baum_i_residual_matrix_size(const baum_i_residual_matrix *matrix);
-int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix);
-const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix); /* (n + 1) */
-const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix);
+const baum_i_compressed *baum_i_residual_matrix_pattern(const baum_i_residual_matrix *matrix);
 baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         baum_workspace *workspace, const baum_dae *dae, double c,
                                         double t, const double *y, const double *dy,
                                         double *values);
 
-/* dae_positions.c: the Jacobian by q itself. See baum_workspace_residual_jacobian(). */
+/* dae_positions.c: the Jacobian with respect to q itself. See
+ * baum_workspace_residual_jacobian(). */
 baum_status baum_i_residual_jacobian(baum_workspace *workspace, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy, baum_sparse *out);
 
 /* ---- finite.c ---- */
 
-/* Fail with BAUM_ERR_NOT_FINITE, naming the joint or body, if a number is not finite: of rows (nc),
- * velocities (nv), positions (nq) or J. `what` names the numbers. */
+/* Fail with BAUM_ERR_NOT_FINITE if a number of rows (nc), velocities (nv), positions (nq) or J is
+ * not finite. The message names the joint or body, and `what` in it names the numbers. */
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
 baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
@@ -261,19 +264,20 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Likewise if one of these numbers (nv) overflows when it is divided by its scale. */
+/* Fail likewise if a number (nv) divided by the scale of its coordinate overflows. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
-/* Fail with BAUM_ERR_NOT_FINITE, naming the joint or body of the number in J, force or rhs. */
+/* Fail with BAUM_ERR_NOT_FINITE. The message names the joint or body of the first number in J,
+ * force or rhs that is not finite. */
 baum_status baum_i_fail_not_finite(const baum_workspace *w);
 
 /* ---- project.c, assemble.c ---- */
 
-/* Change q, then v, in place by the least change in the metric of M, so that they fulfil the
- * constraints at t. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are
+/* Change q, and then v, by the least change in the metric of M, so that they fulfil the constraints
+ * at t. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q and v are
  * undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
-/* Likewise v alone, including that of fixed bodies. */
+/* Change only v, including that of fixed bodies. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
@@ -282,22 +286,26 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);
 
-/* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT. Runs
- * check them separately. speed: scaled size of the velocities before the projection. */
+/* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT.
+ * baum_i_project() does not check them; runs call this function separately. speed: scaled size of
+ * the velocities before the projection. */
 baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
                                   const double *v, double speed);
 
-/* normal_part.c: set out (nv) to the part P x of x (nv) that the constraints remove. P belongs to
+/* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P is that of
  * the last acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR,
  * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
-/* Likewise set out to the smallest vector, in the metric of M, with J out = rows (nc); rows may be
- * workspace->work_c. */
+/* Set out (nv) to the smallest vector, in the metric of M, with J out = rows (nc). rows may be
+ * workspace->work_c. Statuses as above. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
-/* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
+/* As baum_workspace_assemble(). v may be NULL; held is (nv) flags or NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held);
+/* Assemble positions until Phi = left (nc). */
+baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
+                                    const bool *held, const double *left);
 
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 
@@ -305,44 +313,52 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
  * same forces. BAUM_ERR_SINGULAR if they do not balance the forces; also BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
-/* Write the names of joints whose multipliers are not unique. Likewise; on failure text is
+/* Write the names of joints whose multipliers are not unique. Statuses as above; on failure text is
  * empty. */
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
-/* Find which multipliers are unique (nc); all are if no row is omitted. Likewise. */
+/* Find which multipliers are unique (nc). All are unique if no row is omitted. Statuses as
+ * above. */
 baum_status baum_i_find_unique_multipliers(baum_workspace *workspace, bool *unique);
 
 /* ---- sizes of rows and states ---- */
 
-/* Factor on alpha and beta of a row. */
+/* The factor by which alpha and beta of a row are multiplied. */
 static inline double baum_i_row_gain(const baum_workspace *workspace, int row)
 {
   return workspace->row_gains ? workspace->row_gains[row] : 1.0;
 }
 
-/* (nc) norm of each row of J times the scales: |Phi_i| / size_i is a violation as a displacement;
- * 1 for empty rows. */
+/* Set size_i (nc) to the norm of row i of J with its columns multiplied by the scales, or to 1 for
+ * empty rows. |Phi_i| / size_i is the violation as a displacement. */
 void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 
-/* (nc) diagonal of J M^-1 J^T with the diagonal of M: rows in their own units; 0 for empty rows. */
+/* Set inverse (nv) to 1 / M_ii, or to 0 for coordinates without mass. */
+void baum_i_inverse_masses(const baum_workspace *workspace, double *inverse);
+
+/* Set mobility (nc) to the diagonal of J D^-1 J^T, where D is the diagonal of M; 0 for empty
+ * rows. */
 void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
 
-/* (nv) diagonal of M^-1/2; the scale for coordinates without mass, 0 for fixed bodies. */
+/* Set scale (nv) to 1 / sqrt(M_ii), to the scale of the coordinate if it has no mass, and to 0 for
+ * fixed bodies. */
 void baum_i_column_scales(const baum_workspace *workspace, double *scale);
 
 /* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /
  * scale_i). */
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
 
-/* [1/s] Rate at which gravity swings a free mechanism of this size; 0 without gravity. */
+/* [1/s] The angular frequency with which a free mechanism of this size swings under gravity; 0
+ * without gravity. */
 double baum_i_swing_rate(const baum_mechanism *mechanism);
 
 /* Largest |x_i| / scale_i of a vector over v. */
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
-/* Likewise of positions (nq). */
+/* The same for positions (nq). */
 double baum_i_position_size(const baum_mechanism *mechanism, const double *q);
 
-/* Row of largest magnitude, or -1; largest may be NULL. */
+/* Return the index of the value of largest magnitude, or -1. `largest` receives the magnitude and
+ * may be NULL. */
 int baum_i_largest(const double *values, int count, double *largest);
 
 #endif

@@ -51,7 +51,7 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
   return check_finite(call, "v", v, w->mechanism->nv);
 }
 
-/* Copy to the caller's array unless it is NULL. */
+/* Copy values to the caller's array unless that is NULL. */
 static void give(const double *values, double *out, int count)
 {
   if (out) {
@@ -61,12 +61,11 @@ static void give(const double *values, double *out, int count)
 
 /* ---- life ---- */
 
-/* Find the redundant rows at the design configuration and t = 0. If that cannot be assembled or
- * evaluated, all rows count as independent, and evaluations report the error. */
+/* Find the redundant rows at the design configuration and t = 0. If the design configuration cannot
+ * be assembled or evaluated, all rows are kept, and later evaluations report the error. */
 static baum_status find_redundancy(baum_workspace *w)
 {
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = baum_i_find_rows(w, 0.0, w->mechanism->design_q);
   BAUM_I_TRY(status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept));
   return baum_i_use_blocks(w);
@@ -218,9 +217,10 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
   BAUM_I_TRY(check_state("baum_workspace_energy", workspace, t, q, v, found));
   BAUM_I_TRY(baum_i_energy(workspace, t, q, v, &found[0], &found[1]));
   if (!isfinite(found[0]) || !isfinite(found[1])) {
-    return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                       "t = %.9g s: the kinetic energy is %g J, the potential energy %g J", t,
-                       found[0], found[1]);
+    return baum_i_fail(
+      BAUM_ERR_NOT_FINITE,
+      "t = %.9g s: the kinetic energy is %g J and the potential energy %g J, must be finite", t,
+      found[0], found[1]);
   }
   give(&found[0], kinetic, 1);
   give(&found[1], potential, 1);
@@ -235,12 +235,12 @@ static baum_status check_gains(const char *call, double alpha, double beta)
   return baum_i_check_finite(call, "beta", "1/s", beta);
 }
 
-/* Choose other independent rows after a solution if the present ones are poorly conditioned. True:
- * repeat the solution. */
+/* After a solution, choose other independent rows if the present ones are ill-conditioned. Returns
+ * true if the solution must be repeated. */
 static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
 {
   bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;
-  return solved && baum_i_choose_rows(w, t, q, baum_i_smallest_pivot(w, NULL));
+  return solved && baum_i_choose_rows(w, t, q, baum_i_smallest_pivot(w, NULL), false);
 }
 
 static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
@@ -262,6 +262,9 @@ baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, con
     status = accelerate(workspace, t, q, v, alpha, beta);
   }
   BAUM_I_TRY(status);
+  if (workspace->rows.count > 0) {
+    BAUM_I_TRY(baum_i_check_omitted_rows(workspace, v, alpha, beta));
+  }
   give(workspace->a, a, workspace->mechanism->nv);
   give(workspace->lambda, lambda, workspace->mechanism->nc);
   return BAUM_OK;
@@ -342,7 +345,7 @@ static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, 
   return BAUM_OK;
 }
 
-/* Velocities may be NaN, positions not. */
+/* Check q and v. Velocities may be NaN, positions may not. */
 static baum_status check_guess(const char *call, const baum_workspace *w, double t, const double *q,
                                const double *v)
 {
@@ -365,13 +368,12 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   const char *call = "baum_workspace_assemble";
   BAUM_I_TRY(check_guess(call, workspace, t, q, v));
   if (held_count < 0 || (held_count > 0 && !held)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: held is NULL or held_count (%d) negative", call,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: held is NULL or held_count (%d) is negative", call,
                        (int)held_count);
   }
   bool *flags = baum_i_alloc((size_t)workspace->mechanism->nv, sizeof *flags);
   BAUM_I_TRY(baum_i_check_memory(flags));
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = mark_held(workspace->mechanism, held, held_count, flags);
   if (status == BAUM_OK) {
     status = baum_i_assemble(workspace, t, q, v, flags);

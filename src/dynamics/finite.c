@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds and names numbers that are not finite. Large masses, forces and coordinates overflow in
- * equations, although definitions may have each of them. M itself is always finite: definitions and
- * user functions are checked.
+/* Finds and names numbers that are not finite. Large masses, forces and coordinates are each valid
+ * in definitions, but their products in the equations may overflow. M is always finite, because
+ * definitions and results of user functions are checked.
  */
 #include <math.h>
 
@@ -99,7 +99,8 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w)
   BAUM_I_TRY(baum_i_check_jacobian(w));
   BAUM_I_TRY(baum_i_check_velocities(w, "force", w->force));
   BAUM_I_TRY(baum_i_check_rows(w, "right side", w->rhs));
-  return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                     "t = %.9g s: numbers of the equations are too large for double precision",
-                     w->point.t);
+  return baum_i_fail(
+    BAUM_ERR_NOT_FINITE,
+    "t = %.9g s: numbers in the equations of motion are too large for double precision",
+    w->point.t);
 }

@@ -15,7 +15,7 @@ static int root_of(int *parent, int body)
   return body;
 }
 
-/* Unite two sets; the first body becomes their root. */
+/* Unite two sets. The body with the lower number becomes their root. */
 static void unite(int *parent, int a, int b)
 {
   int root_a = root_of(parent, a);
@@ -27,7 +27,7 @@ static void unite(int *parent, int a, int b)
   }
 }
 
-/* The first moving body of a joint, or -1. */
+/* Find the first body of a joint that is not fixed, or -1. */
 static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
 {
   for (int i = 0; i < joint->span.body_count; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Islands: sets of bodies that joints connect, without ground and fixed bodies. Islands interact
- * only through forces, so accelerations and multipliers can be found island by island. */
+/* An island is a set of bodies that joints connect, without ground and fixed bodies. Islands
+ * interact only through forces, so accelerations and multipliers can be found island by island. */
 #ifndef BAUM_I_DYNAMICS_ISLANDS_H
 #define BAUM_I_DYNAMICS_ISLANDS_H
 
@@ -8,16 +8,16 @@
 
 typedef struct baum_i_island {
   int bodies;
-  int joints; /* drivers and user constraints are joints too */
+  int joints; /* including drivers and user constraints */
   int rows;
 } baum_i_island;
 
-/* Count the islands, and describe the first one with most bodies (zeros if there is none). BAUM_OK
- * or BAUM_ERR_MEMORY. */
+/* Count the islands, and describe the one with most bodies. All its numbers are 0 if there is none.
+ * BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* Count the joints of each body (body_count + 1), in an array that the caller frees. BAUM_OK or
+/* Count the joints of each body in a new array (body_count + 1) that the caller frees. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
 

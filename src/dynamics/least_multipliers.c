@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Multipliers of least norm, where redundant rows make them ambiguous.
+/* Multipliers of least norm. Redundant rows make multipliers ambiguous.
  *
  * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k.
- * All other solutions are lambda + N z, with one number z per omitted row, and null vectors
+ * All other solutions are lambda + N z, where z has one number per omitted row and N z is a null
+ * vector of J^T:
  *
  *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
- * found from
+ * N z is part of the solution of
  *
  *   [ W     J_k^T ] [ x       ]   [ -J_d^T z ]
- *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of characteristic lengths, so that
- *   uneven masses do not blur them.
+ *   [ J_k   0     ] [ (N z)_k ] = [     0    ].
  *
- * In rows of unit length, s_i = |row i of J M^-1/2|, conjugate gradients on z minimize
- * |S (lambda + N z)| (CGLS of A. Bjorck, preconditioned by S_d). The forces stay balanced wherever
- * the iteration ends.
+ * W = diag(1 / scale^2) contains no masses, because uneven masses would cause rounding errors.
  *
- * Where the constraints are violated, omitted rows need not depend on the others. Then only the
- * fraction of N z is added that keeps the balance: mostly all of it, or almost none.
+ * Conjugate gradients (CGLS of A. Bjorck, preconditioned by S_d) find the z that minimizes
+ * |S (lambda + N z)|, where S = diag(s_i) and s_i = |row i of J M^-1/2|. The forces stay balanced
+ * even if the iteration ends early.
+ *
+ * If the constraints are violated, omitted rows need not depend on the others. Then only the
+ * fraction of N z that keeps the balance is added, which is mostly close to 1 or close to 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,21 +34,22 @@ enum { MOST_ITERATIONS = 100 };
 
 /* The iteration ends when the gradient falls to this fraction of the first one. */
 static const double FOUND = 1e-12;
-/* Tolerances of M a + J^T lambda = g, relative to the terms of the row, of the largest row of the
- * body and of the largest row of all. The last one allows for rounding. */
+/* Tolerances of the residual of M a + J^T lambda = g, relative to the terms of its row, of the
+ * largest row of its body, and of the largest row of the mechanism. OF_ALL allows for rounding. */
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
-/* Like OF_ALL, for null vectors: the small forces on light bodies must stay balanced, too. */
+/* Replaces OF_ALL for null vectors, because the small forces on light bodies must stay balanced,
+ * too. */
 static const double OF_ALL_SHARED = 1e-24;
-/* Imbalance that counts as zero, relative to the terms of the row. */
+/* A residual below this, relative to the terms of its row, counts as zero. */
 static const double ROUNDING = 1e-11;
-/* Fraction of these tolerances that N z may use. */
+/* Fraction of these tolerances that the residual of N z may reach. */
 static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
-/* Factor the matrix above. shift (nc) or NULL regularizes the rows. */
+/* Factor the matrix of the head of this file. shift (nc) regularizes the rows; NULL: none. */
 static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -62,8 +65,8 @@ static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z, for z that is zero in kept rows. If z is already a null vector, out is its
- * refinement. */
+/* out = N z, if z is zero in kept rows. If z is already a null vector, out is a more accurate null
+ * vector. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -98,7 +101,7 @@ static baum_status apply_transposed(baum_workspace *w, const double *u, double *
 
 /* ---- least norm ---- */
 
-/* Numbers of conjugate gradients, (nc) each. */
+/* Vectors of the conjugate gradients, (nc) each. */
 typedef struct search {
   double *u;
   double *gradient;
@@ -129,7 +132,8 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
   return BAUM_OK;
 }
 
-/* Minimize along the new direction, which contains `share` of the last one. */
+/* Minimize along the new direction, which is the steepest descent plus `share` times the last
+ * one. */
 static baum_status minimize_along(baum_workspace *w, const search *s, double size, double share)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -146,7 +150,7 @@ static baum_status minimize_along(baum_workspace *w, const search *s, double siz
   return BAUM_OK;
 }
 
-/* Remove the rounding errors of large forces from rows with small forces. */
+/* Remove the rounding errors that large forces cause in rows with small forces. */
 static baum_status refine_part(baum_workspace *w)
 {
   double *refined = search_memory(w).image;
@@ -212,7 +216,7 @@ static balance compute_balance(const baum_workspace *w, const double *force, con
   return out;
 }
 
-/* Largest scaled term over a range of velocities. */
+/* Find the largest scaled term of a range of rows of M a + J^T lambda = g. */
 static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
@@ -222,7 +226,7 @@ static double largest_scaled(const baum_workspace *w, const double *terms, int f
   return most;
 }
 
-/* Set the tolerance of each row, in work_v. */
+/* Write the tolerance of each row to work_v. */
 static void set_limits(const baum_workspace *w, const balance *at, double of_all)
 {
   const baum_mechanism *m = w->mechanism;
@@ -237,7 +241,7 @@ static void set_limits(const baum_workspace *w, const balance *at, double of_all
   }
 }
 
-/* The largest ratio of residual to tolerance; *worst is its row. NaN counts as infinite. */
+/* Find the largest ratio of residual to tolerance; *worst is its row. NaN counts as infinite. */
 static double find_imbalance(const baum_workspace *w, const balance *at, int *worst)
 {
   double most = 0.0;
@@ -252,12 +256,10 @@ static double find_imbalance(const baum_workspace *w, const balance *at, int *wo
   return most;
 }
 
-/* Balance of the last solution. */
+/* Compute the residual of the last solution. */
 static balance compute_solution_balance(const baum_workspace *w)
 {
-  const baum_i_block_path *path = w->solved_by;
-  const double *force = path && path->force_is_constant ? path->constant_force : w->force;
-  return compute_balance(w, force, w->a, w->lambda);
+  return compute_balance(w, baum_i_solved_force(w), w->a, w->lambda);
 }
 
 static double find_imbalance_of_solution(const baum_workspace *w)
@@ -280,14 +282,14 @@ static baum_status check_balance(const baum_workspace *w)
   char label[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, worst);
   (void)baum_i_label(&body->element, label);
-  return baum_i_fail(BAUM_ERR_SINGULAR,
-                     "t = %.9g s: the multipliers balance the forces on %s only to a relative "
-                     "error of %.2g, must be %g; the masses are too uneven, or the configuration "
-                     "is close to a singular one",
-                     w->point.t, label, imbalance * OF_ROW, OF_ROW);
+  return baum_i_fail(
+    BAUM_ERR_SINGULAR,
+    "t = %.9g s: the multipliers balance the forces on %s only to a relative error of %.2g, must "
+    "be at most %g; the masses are too uneven, or the configuration is close to a singular one",
+    w->point.t, label, imbalance * OF_ROW, OF_ROW);
 }
 
-/* The fraction of part that keeps the forces within the tolerances. */
+/* Find the largest fraction of part that keeps the residual within the tolerances. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
@@ -296,7 +298,7 @@ static double find_share(const baum_workspace *w)
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
-/* N z may remove large forces from light bodies; refinement then removes their rounding errors. */
+/* Adding N z may cancel large forces on light bodies. Remove the rounding errors that remain. */
 static baum_status refine_multipliers(baum_workspace *w)
 {
   int nv = w->mechanism->nv;
@@ -344,16 +346,16 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 
 /* ---- which multipliers are not unique ---- */
 
-/* A multiplier is not unique if its component of a null vector is larger than this. Components of
- * omitted rows are about 1; rounding is far smaller. */
+/* A multiplier is not unique if its component in a generic null vector is larger than this.
+ * Components of omitted rows are about 1; rounding is far smaller. */
 static const double SHARED = 1e-6;
 
-/* Relative shift that makes every matrix regular. Refinement removes its error. */
+/* Relative shift that makes the matrix regular in every case. Refinement removes its error. */
 static const double SHIFT = 1e-12;
 
-/* Set part to a generic null vector, in rows scaled to displacements, and *least to the smallest
- * component that counts. Where the constraints are violated, the vector spreads to other rows in
- * proportion to its imbalance. */
+/* Set part to a generic null vector with rows scaled to displacements, and *least to the size from
+ * which a component counts as non-zero. If the constraints are violated, components of other rows
+ * are about as large as the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -379,7 +381,7 @@ static baum_status find_null_vector(baum_workspace *w, double *least)
   return BAUM_OK;
 }
 
-/* Largest component of part in a joint's rows. */
+/* Find the largest component of part in the rows of a joint. */
 static double part_of(const baum_workspace *w, const baum_i_joint *joint)
 {
   double part = 0.0;

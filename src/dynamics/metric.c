@@ -3,8 +3,8 @@
  *
  *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
  *
- * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that W is
- * positive for coordinates without mass; E is 1 where nothing has mass. All M_kk s_k^2 have the
+ * s_j is the scale of coordinate j. E is a millionth of the largest M_kk s_k^2, so that W is
+ * positive for coordinates without mass, or 1 if no coordinate has mass. All M_kk s_k^2 have the
  * same unit, so neither units nor a mixture of lengths and angles matter.
  *
  * Any positive definite W gives the same motion, because mu is zero. W only distributes the error

@@ -39,7 +39,8 @@ static void find_worst(const baum_workspace *w, baum_mobility *report)
   }
 }
 
-/* Report the rows that keep a violation after assembly failed: those above a tenth of the worst. */
+/* Report conflicting rows after assembly failed: rows whose violation is at least a tenth of the
+ * largest. */
 static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
 {
   char reason[BAUM_I_MESSAGE_SIZE];
@@ -70,7 +71,7 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
     status = baum_i_redundancy_text(w, names, sizeof names);
     say(report, " %d redundant %s%s%s.", r->count, r->count == 1 ? "row" : "rows",
         names[0] ? " among " : "", names);
-    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* the report is then without names */
+    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* the report then names no joints */
   }
   if (report->near_singular) {
     say(

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The part of a vector x of velocity size that the constraints remove, from the factors of the last
- * solution,
+/* The part P x of a vector x (nv) that the constraints remove. It is computed with the factors of
+ * the last solution:
  *
  *   P x = M^-1 J^T (J M^-1 J^T)^-1 J x:   [ M  J^T ] [ P x    ]   [ 0   ]
  *                                         [ J   0  ] [ lambda ] = [ J x ]
  *
- * and, with any right side r of the rows in place of J x, the smallest velocity y with J y = r.
+ * With any right side r of the rows in place of J x, the same system gives the smallest velocity y
+ * with J y = r.
  *
- * P P = P; x - P x is the nearest vector in the metric of M that fulfils J x = 0.
+ * P P = P. In the metric of M, x - P x is the vector y nearest to x with J y = 0.
  */
 #include <string.h>
 
 #include "dynamics/block_path.h"
 #include "linear/block_pull.h"
 
-/* out = factor times the solution for the block's right side. */
+/* Set out to `factor` times the solution for the right side in the block. */
 static baum_status solve_by_blocks(const baum_i_block_path *path, double factor, double *out)
 {
   (void)path->kernel->correct(path->block);

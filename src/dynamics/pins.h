@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The geometry of all revolute joints in one pass, written directly to the block solver. */
+/* Computes the geometry of all revolute joints in one pass and writes it directly to the block
+ * solver. */
 #ifndef BAUM_I_DYNAMICS_PINS_H
 #define BAUM_I_DYNAMICS_PINS_H
 
@@ -14,13 +15,13 @@ typedef struct baum_i_pins {
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;
   double stiffness;
-  double *phi;      /* (nc) rows of pins are set */
+  double *phi;      /* (nc) only rows of pins are set */
   double *phi_rate; /* (nc) */
   double *gamma;    /* (nc) */
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Set arms, right sides, pivots and lambda[] of the pins; a0 must be set before. */
+  /* Set arms, right sides, pivots and lambda[] of the pins. Requires a0. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

@@ -7,23 +7,25 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * No J is formed. Arms and gamma are rounded as in the reported J and gamma. Fused products would
- * change the last digit of J, which matters close to a singular configuration.
+ * J is not formed. Arms and gamma are rounded exactly as in the J and gamma that users receive,
+ * without fused multiply-add. A difference in the last digit would matter close to a singular
+ * configuration.
  */
 #include "base/four.h"
 #include "dynamics/pins.h"
 
-/* The kernel processes two pins at a time, one in each half of a vector. If the number is odd, the
- * last pin is in both halves, and one half is stored. This struct describes the two: */
+/* The kernel processes two pins at a time, one in each half of a vector. If the number of pins is
+ * odd, the last pin is in both halves and only one half is stored. This struct points to the data
+ * of two pins. */
 typedef struct two_pins {
-  ptrdiff_t second; /* 1, or 0 for a single pin; a constant where this is inlined */
+  ptrdiff_t second; /* 1, or 0 for a single pin; a constant after inlining */
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;
   double *arm;
 } two_pins;
 
-/* A point of a body: k x p, position, velocity, and p w^2. */
+/* For the point p of a body: k x p, position, velocity, and p w^2. */
 typedef struct markers {
   baum_i_four turned;
   baum_i_four place;
@@ -31,7 +33,7 @@ typedef struct markers {
   baum_i_four bend;
 } markers;
 
-/* s: the points in body axes. */
+/* Compute the markers of two points, s in body axes. */
 BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, baum_i_four s)
 {
   baum_i_four along = baum_i_four_times(baum_i_four_spread(&f->c, &g->c), s);
@@ -48,10 +50,10 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
   return m;
 }
 
-/* The markers on body 0 or 1 of both pins. */
+/* Compute the markers on body 0 (a) or 1 (b) of both pins. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* Body blocks of planar bodies have the numbers of the bodies. */
+  /* The body block of a planar body has the number of the body. */
   return markers_on(
     &frames[(ptrdiff_t)two->pin[0].body_block[body]],
     &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],
@@ -133,7 +135,7 @@ BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const bau
 
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
-  const baum_i_block to = *block; /* stores cannot change a copy, so it stays in registers */
+  const baum_i_block to = *block; /* a copy can stay in registers */
   const baum_i_pins at = *pins;
   two_pins two = {1, to.pins, at.points, to.pin_weight, to.arm};
   for (int left = to.pin_count; left > 1; left -= 2) {

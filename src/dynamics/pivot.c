@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Measures how close the last solution was to a singular configuration.
  *
- * For blocks it is the smallest ratio of det D of a node to its value before the elimination. That
- * value is det S for a pin, which does not depend on the direction of axes. For other pairs of
- * rows, which may depend on each other, it is the product of the diagonal of S = J M^-1 J^T. For
- * other solvers the measure is the reciprocal condition number of the scaled matrix. Both are free
- * of units and fall with the square of the distance from a singular configuration, because the
- * matrix contains S. Their sizes differ, so each must be compared with its own usual value. If a
- * body has a small inertia, blocks give up for some directions of its arms, although the
- * configuration is no closer to singular than for others.
+ * For blocks the measure is the smallest ratio, over all nodes, of det D to the same determinant
+ * before the elimination. For a pin the determinant before the elimination is det S, which does not
+ * depend on the direction of axes. For other pairs of rows, which may depend on each other, the
+ * product of the diagonal entries of S = J M^-1 J^T replaces this determinant. For other solvers
+ * the measure is the reciprocal condition number of the scaled matrix. Both measures are free of
+ * units and fall with the square of the distance from a singular configuration. Their sizes differ,
+ * so each must be compared with its own usual value. If a body has a small inertia, the block
+ * solver gives up for some directions of its arms although the configuration is not close to a
+ * singular one.
  */
 #include <math.h>
 
 #include "dynamics/block_path.h"
 
-/* det S: with a small inertia the diagonal of S alone would depend on the direction of the arm. */
+/* Return det S of a pin. If an inertia is small, the product of the diagonal entries of S would
+ * depend on the direction of the arm. */
 static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];
@@ -24,9 +26,8 @@ static double size_of_pin(const baum_i_block *block, int k)
   return node->size - off * off;
 }
 
-/* Compare the pivot of a node, whose determinant had this size before the elimination, with the
- * smallest so far, and keep the smaller one and its row. NaN stems from a zero before and counts as
- * zero. */
+/* Update *smallest and *row if the pivot of a node is smaller. `size` is the determinant of the
+ * node before the elimination. NaN, which results from an earlier zero pivot, counts as zero. */
 static void compare_pivot(const baum_i_node *node, double size, int first_row, double *smallest,
                           int *row)
 {
@@ -38,7 +39,7 @@ static void compare_pivot(const baum_i_node *node, double size, int first_row, d
   }
 }
 
-/* The smallest pivot and its first row; -1 if none is below 1. */
+/* Return the smallest pivot. *row is the first row of its node, or -1 if no pivot is below 1. */
 static double smallest_of_blocks(const baum_i_block *block, int *row)
 {
   double smallest = 1.0;
@@ -54,8 +55,9 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   return smallest;
 }
 
-/* Use the blocks even if they gave up. Where masses are so uneven that small pivots are common, use
- * them only if the pivot is above rounding. */
+/* Find the pivot of the last elimination by blocks, even if the block solver then gave up. Returns
+ * false if there is none, or if masses are so uneven that small pivots are common and the pivot is
+ * at rounding level. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;
@@ -73,7 +75,8 @@ bool baum_i_blocks_tell(const baum_workspace *w)
   return find_pivot_of_blocks(w, &pivot, &row);
 }
 
-/* For other solvers only the largest multiplier can point to a joint. */
+/* For other solvers *joint is the joint with the largest multiplier, for lack of a better
+ * indication. */
 double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;

@@ -16,17 +16,19 @@
 #include "dynamics/block_path.h"
 
 enum { ITERATIONS = 12 };
-/* A Newton step of 1e-10 leaves an error of about 1e-20, times the ratio of the characteristic
- * length to the radius of curvature. */
+/* A Newton step of relative size 1e-10 leaves an error of about 1e-20 times the ratio of the
+ * characteristic length to the radius of curvature of the constraints. */
 static const double CONVERGED = 1e-10;
-/* The rounding of all rows may add up, as in a chain of 1e5 links. If the changes stop decreasing
- * below this size times the number of rows and the violation is rounding, the changes are
- * rounding. */
+/* Changes of q that have stopped decreasing are rounding errors if they are below this size times
+ * the number of rows and the violation is only rounding. The rounding errors of all rows may add
+ * up, as in a chain of 1e5 links. */
 static const double STALLED = 8.0 * DBL_EPSILON;
-/* Violation that counts as rounding, as a displacement relative to the largest coordinate. */
+/* A violation up to this size counts as rounding. It is a displacement relative to the largest
+ * coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
 
-/* Steps below this are rounding of coordinates far from the origin or after many revolutions. */
+/* Return the size below which steps are rounding errors of the coordinates. It is large far from
+ * the origin and after many revolutions. */
 static double rounding_of(const baum_mechanism *m, const double *q)
 {
   return 8.0 * DBL_EPSILON * baum_i_position_size(m, q);
@@ -39,7 +41,7 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
   return baum_i_solve_motion(w, t, q, v, &right);
 }
 
-/* Whether the violation at q is only rounding. */
+/* Tell whether the violation at q is only rounding. */
 static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, bool *is)
 {
   const baum_mechanism *m = w->mechanism;
@@ -78,8 +80,9 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
   return stalled ? BAUM_OK
                  : baum_i_fail(BAUM_ERR_CONVERGENCE,
                                "t = %.9g s: projection of the positions does not converge (last "
-                               "change %.3g of the scale): the step is too large or the "
-                               "configuration is near a singular one",
+                               "change %.3g of the scale): the step is too large, the "
+                               "mechanism locks up here, or the configuration is near a "
+                               "singular one",
                                t, last);
 }
 
@@ -120,10 +123,9 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 
 /* ---- omitted rows ---- */
 
-/* Allowed violations of omitted rows, as displacements and relative to velocities. They are larger
- * than the rounding of rows that depend on the others, and smaller than the violations on another
- * branch. */
-static const double NEGLIGIBLE = 1e-6;
+/* Largest allowed violation of an omitted row: as a displacement, and for its rate relative to the
+ * velocities. Rounding errors are smaller, and violations on another branch are larger. */
+static const double NEGLIGIBLE = 1e-7;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)
 {
@@ -131,8 +133,8 @@ static baum_status fail_left_out(const baum_workspace *w, int row)
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: projection: a redundant row of %s was omitted, but is violated by %.3g, and its "
-    "rate by %.3g, although the other rows are met: constraints contradict each other, or the "
-    "configuration is on another branch",
+    "time derivative by %.3g, although the other rows are satisfied: constraints contradict each "
+    "other, or the configuration is on another branch",
     w->point.t, baum_i_row_label(w->mechanism, row, label), w->phi[row], w->phi_rate[row]);
 }
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reaction of a joint: the generalized force -J^T lambda of its rows on its bodies.
  *
- * For a planar joint on body_b: force F = the entries at (x, y), and moment about the joint's point
- * P on body_b, which follows from the entry at the angle, the moment about the centre of mass C:
- * m_P = m_C - (P - C) x F.
- * A joint whose body_b is ground (no columns) reacts on body_a with the opposite:
- * F_b = -F_a, the moment about P likewise. In space the same with vectors over all six columns of
- * body_b, even if it is planar, a particle or ground; the entries at the rotations are the moment
+ * For a planar joint on body_b, the entries at (x, y) are the force F, and the entry at the angle
+ * is the moment m_C about the centre of mass C. The moment about the joint's point P on body_b is
+ * m_P = m_C - (P - C) x F. If body_b is ground, which has no columns, force and moment on it are
+ * the opposite of those on body_a. In space the same holds with vectors, over all six columns of
+ * body_b even if it is planar, a particle or ground. The entries at the rotations are the moment
  * about C in body axes.
  */
 #include <string.h>
@@ -15,7 +14,7 @@
 #include "dynamics/dynamics.h"
 #include "mechanism/planar/planar.h"
 
-/* -J^T lambda over the joint's local columns. */
+/* Compute -J^T lambda over the joint's local columns. */
 static void find_generalized_force(const baum_workspace *w, const baum_i_joint *joint,
                                    const double *lambda, double *out)
 {
@@ -29,7 +28,7 @@ static void find_generalized_force(const baum_workspace *w, const baum_i_joint *
   }
 }
 
-/* Force and moment about `at` of one side of a planar joint. */
+/* Compute force and moment about `at` from the entries of one body of a planar joint. */
 static void reduce_to_point(const baum_i_frame *frame, const double *side, int nv,
                             const double at[2], double out[3])
 {
@@ -58,7 +57,8 @@ static void find_planar_reaction(const baum_workspace *w, const baum_i_joint *jo
   }
 }
 
-/* Also what a planar body or a particle bears in directions in which it does not move. */
+/* The reaction includes forces and moments on planar bodies and particles in directions in which
+ * they cannot move. */
 static void find_spatial_reaction(const baum_workspace *w, const baum_i_joint *joint,
                                   const double *lambda, double out[6])
 {
@@ -82,8 +82,8 @@ static void find_spatial_reaction(const baum_workspace *w, const baum_i_joint *j
 
 static int width_of(const baum_mechanism *m, const baum_i_joint *joint)
 {
-  const baum_i_joint *of = joint->type->driven ? joint->type->driven(m, joint->element.def) : joint;
-  return of->type->width;
+  bool drives = joint->type->driven != NULL;
+  return (drives ? joint->type->driven(m, joint->element.def).joint : joint)->type->width;
 }
 
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint)

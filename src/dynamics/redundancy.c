@@ -9,14 +9,15 @@
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
  * later rows to 1e-16 / d, so redundant rows may pass for independent ones. The rank of such a
- * configuration is ambiguous beyond the first nearly dependent row. Then neighbours with a clear
- * rank decide if that rank is not smaller, and the configuration counts as singular. If no
- * neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins close
- * to each other, and the rank is taken as it is. The same holds around an exactly singular
- * configuration with a clear rank, if long members turn rows only little.
+ * configuration is ambiguous beyond the first nearly dependent row. In this case a neighbour with a
+ * clear rank decides, unless its rank is smaller, and the initial configuration counts as singular.
+ * If no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
+ * close to each other, and the ambiguous rank is accepted. It is also accepted from neighbours of
+ * an exactly singular configuration, whose ranks may be ambiguous because the rows of long members
+ * rotate only little.
  *
- * A neighbour lies along x, a solution of J x = nu that contains all degrees of freedom, and is
- * assembled there.
+ * A neighbour is found by a move along x, a solution of J x = nu in which all degrees of freedom
+ * take part, and by assembly.
  */
 #include <math.h>
 #include <string.h>
@@ -27,13 +28,13 @@
 #include "dynamics/dynamics.h"
 
 enum { NEIGHBOURS = 4 };
-/* Dependent rows at an assembled configuration deviate by 1e-12 at most, by rounding and assembly.
- * Rows that deviate by more than this are independent. */
+/* At an assembled configuration, rounding and assembly leave dependent rows at most 1e-12 away from
+ * the span of other rows. Rows farther away than RANK_TOLERANCE are independent. */
 static const double RANK_TOLERANCE = 1e-10;
-/* Rows above this are clearly independent, and do not amplify rounding to that tolerance. */
+/* Rows farther away are clearly independent, and do not amplify rounding to RANK_TOLERANCE. */
 static const double CLEAR = 1e-5;
-/* Rows above this are preferred. Dependent rows disagree by 1e-14 after assembly; this
- * disagreement, divided by the limit, enters the motion. */
+/* Rows farther away are selected first. Dependent rows disagree by 1e-14 after assembly, and the
+ * motion contains this error divided by the distance of the selected rows. */
 static const double FIRST = 1e-3;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
 
@@ -51,7 +52,7 @@ typedef struct search {
   rank_found kept;
 } search;
 
-/* Find the rank at a configuration; leaves J, M and nu in the workspace. */
+/* Find the rank at a configuration. J, M and nu of this configuration stay in the workspace. */
 static baum_status find_rank(const search *s, double t, const double *q, rank_found *rank)
 {
   static const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
@@ -67,7 +68,8 @@ static baum_status find_rank(const search *s, double t, const double *q, rank_fo
   return BAUM_OK;
 }
 
-/* The certain rank: up to the first nearly dependent row, which rounding does not yet affect. */
+/* The certain rank: the clear rows and the first nearly dependent row, which rounding does not yet
+ * affect. */
 static int least_rank(const rank_found *rank)
 {
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
@@ -96,7 +98,8 @@ static void set_omitted(search *s, const rank_found *rank)
 
 /* ---- neighbours ---- */
 
-/* Solve [M J^T; J -S] [x; .] = [M p; r]. The small S permits dependent rows. */
+/* Solve [M J^T; J -S] [x; .] = [M p; r]. The small S makes the matrix regular if rows are
+ * dependent. */
 static baum_status solve_direction(const search *s, const double *p, const double *r)
 {
   baum_workspace *w = s->w;
@@ -177,8 +180,8 @@ static void keep_all(baum_i_row_set *r, int nc)
   memset(r->omitted, 0, (size_t)nc);
 }
 
-/* Assemble the configuration first, because off the constraints no row depends exactly on
- * others. */
+/* Assemble the configuration first, because rows depend exactly on others only where the
+ * constraints are satisfied. */
 static baum_status find_rows(search *s, double t, const double *q)
 {
   baum_i_row_set *r = &s->w->rows;
@@ -191,7 +194,7 @@ static baum_status find_rows(search *s, double t, const double *q)
   set_omitted(s, &rank);
   r->rank_at_start = rank.all;
   if (rank.clear == nc) {
-    return BAUM_OK; /* independent here means independent nearby */
+    return BAUM_OK; /* rows that are independent here are independent nearby */
   }
   if (!fits) {
     keep_all(r, nc);

@@ -62,7 +62,7 @@ static baum_status report_islands(const baum_mechanism *m, baum_report *report)
 
 /* ---- the solver ---- */
 
-/* Find the body with most joints, among those that are not fixed. */
+/* Find the body with most joints among the bodies that are not fixed. */
 static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
 {
   const baum_mechanism *m = w->mechanism;
@@ -121,7 +121,7 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
 
 /* ---- skipped work ---- */
 
-/* The beginning of the line, or the separator of its items. */
+/* Return the beginning of the line before the first item, and a separator before the others. */
 static const char *next_skipped(int *count)
 {
   return (*count)++ > 0 ? "; " : "skipped       ";

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The rows of J that are kept, and the rows that are omitted because they depend on these in every
- * configuration. Their number is found once (redundancy.c), at the assembled initial configuration
- * and its neighbours. The choice of rows may change during a run (row_set.c). */
+/* The rows of J that are kept, and the rows that are omitted because they depend on the kept rows
+ * in every configuration. The number of omitted rows is determined once (redundancy.c), at the
+ * assembled initial configuration and its neighbours. Which rows are omitted may change during a
+ * run (row_set.c). */
 #ifndef BAUM_I_DYNAMICS_ROW_SET_H
 #define BAUM_I_DYNAMICS_ROW_SET_H
 
@@ -10,45 +11,56 @@
 #include <baum/dynamics.h>
 
 typedef struct baum_i_row_set {
-  int rank; /* of J at the neighbours */
-  /* rank at the initial configuration, which is (nearly) singular if this is less */
+  int rank; /* of the mechanism, see redundancy.c */
+  /* rank of J at the initial configuration, which is (nearly) singular if this is less than
+   * `rank` */
   int rank_at_start;
   int count;                      /* omitted rows */
-  unsigned char *omitted;         /* (nc) 1 where a row is omitted; zeros where none is */
-  unsigned char *selected;        /* (nc) scratch: 1 where a row is in another set */
+  unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
+  unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
   double pivot_at_last_selection; /* relative; 0: never */
 } baum_i_row_set;
 
-/* Find rank and rows at the assembled configuration (t, q). Also BAUM_ERR_MEMORY. */
+/* Find the rank and the omitted rows at the assembled configuration (t, q). Also
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q);
 
 /* Find the rank of J in the workspace, with columns scaled by work_v (nv) (0 for fixed bodies), and
- * mark one largest set of independent rows in `selected`. Rows that are marked before come first.
- * The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
+ * mark one largest set of independent rows in `selected`. Rows that are already marked come first.
+ * A row belongs to the set if its distance from the span of the rows before it, relative to its
+ * length, is above `distance`. The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
 /* If possible, keep a set of the same size whose rows are well separated in this configuration.
- * Call this before paths are created. */
+ * Call this before the block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Whether this configuration has a well-separated set of rows of full rank, whichever rows are
- * omitted now. */
+/* Whether some well-separated set of rows has full rank in this configuration. The rows that are
+ * omitted now do not matter. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same.
- * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED where blocks do not suit the other rows, or statuses of
- * user functions; then nothing changes. */
+ * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED if the block solver does not suit the new set, or statuses
+ * of user functions. On failure nothing changes. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
-/* Omit other rows if the pivot, relative to its usual value, is poor and others are better.
- * Returns true if the rows have changed; then the last solution is lost. It allocates memory,
- * but rarely. */
-bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot);
+/* Omit other rows if the pivot, relative to its usual value, is poor and another set is better.
+ * `well_separated` demands that the new set is well separated; otherwise a run next to a singular
+ * configuration would restart again and again. Returns true if the rows have changed; then the last
+ * solution is lost. Allocates memory, but rarely. */
+bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
+                        bool well_separated);
 
-/* Copy the rows to a workspace of the same mechanism, before its paths are created. */
+/* Check that the last acceleration, with these velocities and gains, satisfies the omitted rows.
+ * Fails with BAUM_ERR_INCONSISTENT. */
+baum_status baum_i_check_omitted_rows(baum_workspace *workspace, const double *v, double alpha,
+                                      double beta);
+
+/* Copy the rows to a workspace of the same mechanism, before its block paths are created. */
 void baum_i_copy_rows(baum_workspace *to, const baum_workspace *from);
 
-/* Zero the omitted rows of block values of J. */
+/* Set the omitted rows to zero in the block values `jacobian`. */
 void baum_i_clear_omitted_rows(const baum_workspace *workspace, double *jacobian);
 
 #endif

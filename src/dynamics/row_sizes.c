@@ -5,7 +5,7 @@
 
 #include "dynamics/dynamics.h"
 
-/* Add weight(column) J_ij^2 of every entry to its row. */
+/* Set each row to the sum of weight_j J_ij^2 over its columns j. */
 static void add_squares(const baum_workspace *w, const double *weight, double *rows)
 {
   memset(rows, 0, (size_t)w->mechanism->nc * sizeof *rows);
@@ -32,30 +32,31 @@ void baum_i_row_displacements(const baum_workspace *workspace, double *size)
   }
 }
 
-void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility)
+void baum_i_inverse_masses(const baum_workspace *workspace, double *inverse)
 {
-  double *weight = workspace->work_v;
   for (int k = 0; k < workspace->structure.mass_block_count; k++) {
     const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
     for (int i = 0; i < block->size; i++) {
       double mass = workspace->mass[block->value + i * block->size + i];
-      weight[block->first + i] = mass > 0.0 ? 1.0 / mass : 0.0;
+      inverse[block->first + i] = mass > 0.0 ? 1.0 / mass : 0.0;
     }
   }
-  add_squares(workspace, weight, mobility);
+}
+
+void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility)
+{
+  baum_i_inverse_masses(workspace, workspace->work_v);
+  add_squares(workspace, workspace->work_v, mobility);
 }
 
 void baum_i_column_scales(const baum_workspace *workspace, double *scale)
 {
-  for (int k = 0; k < workspace->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
-    for (int i = 0; i < block->size; i++) {
-      double mass = workspace->mass[block->value + i * block->size + i];
-      double length = workspace->mechanism->scale[block->first + i];
-      scale[block->first + i] = mass > 0.0 ? 1.0 / sqrt(mass) : length;
-    }
+  const baum_mechanism *m = workspace->mechanism;
+  baum_i_inverse_masses(workspace, scale);
+  for (int i = 0; i < m->nv; i++) {
+    scale[i] = scale[i] > 0.0 ? sqrt(scale[i]) : m->scale[i];
   }
-  baum_i_rest_fixed_bodies(workspace->mechanism, scale);
+  baum_i_rest_fixed_bodies(m, scale);
 }
 
 int baum_i_largest(const double *values, int count, double *largest)
@@ -100,5 +101,6 @@ double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const
 
 double baum_i_swing_rate(const baum_mechanism *mechanism)
 {
-  return sqrt(hypot(mechanism->gravity[0], mechanism->gravity[1]) / mechanism->length);
+  const double *g = mechanism->gravity;
+  return sqrt(hypot(hypot(g[0], g[1]), g[2]) / mechanism->length);
 }

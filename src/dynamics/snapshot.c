@@ -8,8 +8,7 @@
 static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
                            const baum_i_snapshot_out *to)
 {
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_workspace *w = NULL;
   BAUM_I_TRY(baum_workspace_create(mechanism, &w));
   double *q = baum_i_alloc((size_t)mechanism->nq + (size_t)mechanism->nv, sizeof *q);
@@ -22,7 +21,7 @@ static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
   return baum_i_message_settle(status, &kept);
 }
 
-/* The same with a frozen copy of the mechanism. */
+/* Make the report with a frozen copy of the mechanism. */
 static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *look,
                                 const baum_i_snapshot_out *to)
 {

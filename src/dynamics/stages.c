@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stages of an evaluation: first what depends on (t, q), then what also depends on v. */
+/* The stages of an evaluation: first the terms that depend only on (t, q), then those that also
+ * depend on v. */
 #include <string.h>
 
 #include "dynamics/dynamics.h"

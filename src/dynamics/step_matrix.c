@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step, from that of the residual (dae_matrix.c) with y = (q, v, lambda) and c =
- * by_a / by_v. The columns of v, which hold c M - g_v, are multiplied by by_v and added to those of
- * q. The rows of q' - v are not needed. The destination of every number is found once.
+/* The matrix of a step. It is computed from the matrix of the residual (dae_matrix.c) with y = (q,
+ * v, lambda) and c = by_a / by_v. The columns of v, which hold c M - g_v, are multiplied by by_v
+ * and added to those of q. The rows of q' - v are not needed. The destination of every entry is
+ * determined at creation.
  */
 #include "dynamics/step_matrix.h"
 
@@ -9,28 +10,26 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "linear/compress.h"
 
-/* Factors of the numbers of the full matrix. */
+/* Factors on the entries of the full matrix, which is that of dae_matrix.c. */
 enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
-
-/* Destination of a number of the full matrix. */
-typedef struct route {
-  int32_t to;     /* in values[]; unused where the factor is 0 */
-  int32_t factor; /* one of the above */
-} route;
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
-  double *full; /* values of the form */
-  route *routes;
-  int32_t n; /* nv + nc */
-  int32_t nonzeros;
-  double *values; /* (nonzeros) */
+  double *full;              /* values of the form */
+  unsigned char *factor;     /* of each, as above */
+  baum_i_compressed pattern; /* (nv + nc); its slots belong to the numbers that have a factor */
+  double *values;
   baum_i_sparse_lu *lu;
 };
 
-static int32_t factor_of(int nv, int row, int column)
+static int32_t count_full(const baum_i_step_matrix *matrix)
+{
+  const baum_i_compressed *full = baum_i_residual_matrix_pattern(matrix->form);
+  return full->start[full->n];
+}
+
+static unsigned char factor_of(int nv, int row, int column)
 {
   if (row < nv) {
     return BY_NOTHING;
@@ -41,85 +40,45 @@ static int32_t factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of all routes, and list their destinations. */
-static void list_places(const baum_i_step_matrix *matrix, int nv, baum_i_places *places)
+/* Set the factors of all numbers, and find the pattern of their destinations. */
+static baum_status find_pattern(baum_i_step_matrix *matrix, int nv)
 {
-  const int32_t *columns = baum_i_residual_matrix_columns(matrix->form);
-  const int32_t *rows = baum_i_residual_matrix_rows(matrix->form);
-  for (int32_t j = 0; j < nv + matrix->n; j++) {
-    for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
-      matrix->routes[k].factor = factor_of(nv, rows[k], j);
-      if (matrix->routes[k].factor != BY_NOTHING) {
-        baum_i_places_add(places, rows[k] - nv, j < nv ? j : j - nv);
+  const baum_i_compressed *full = baum_i_residual_matrix_pattern(matrix->form);
+  baum_i_places places = {0};
+  for (int32_t j = 0; j < full->n; j++) {
+    for (int32_t k = full->start[j]; k < full->start[j + 1]; k++) {
+      matrix->factor[k] = factor_of(nv, full->row[k], j);
+      if (matrix->factor[k] != BY_NOTHING) {
+        baum_i_places_add(&places, full->row[k] - nv, j < nv ? j : j - nv);
       }
     }
   }
-}
-
-static void set_routes(const baum_i_step_matrix *matrix, const int32_t *slot)
-{
-  int32_t full = baum_i_residual_matrix_nonzeros(matrix->form);
-  for (int32_t k = 0; k < full; k++) {
-    if (matrix->routes[k].factor != BY_NOTHING) {
-      matrix->routes[k].to = *slot++;
-    }
-  }
-}
-
-static baum_status compress(baum_i_step_matrix *matrix, const baum_i_places *places)
-{
-  int32_t *columns = baum_i_alloc((size_t)matrix->n + 1, sizeof *columns);
-  int32_t *rows = baum_i_alloc(places->count, sizeof *rows);
-  int32_t *slot = baum_i_alloc(places->count, sizeof *slot);
-  baum_status status = BAUM_ERR_MEMORY;
-  if (columns && rows && slot) {
-    status = baum_i_compress(places, matrix->n, columns, rows, slot);
-  }
-  if (status == BAUM_OK) {
-    set_routes(matrix, slot);
-    matrix->nonzeros = columns[matrix->n];
-    matrix->values = baum_i_alloc((size_t)matrix->nonzeros, sizeof *matrix->values);
-    status = matrix->values ? BAUM_OK : BAUM_ERR_MEMORY;
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_sparse_lu_create(matrix->n, columns, rows, &matrix->lu);
-  }
-  baum_i_free(columns);
-  baum_i_free(rows);
-  baum_i_free(slot);
-  return status;
+  return baum_i_compress(&places, full->n - nv, &matrix->pattern);
 }
 
 static baum_status fill(const baum_workspace *w, baum_i_step_matrix *matrix)
 {
   BAUM_I_TRY(baum_i_residual_matrix_create(w, BAUM_RESIDUAL_INDEX3, &matrix->form));
-  size_t full = (size_t)baum_i_residual_matrix_nonzeros(matrix->form);
-  matrix->n = w->mechanism->nv + w->mechanism->nc;
+  size_t full = (size_t)count_full(matrix);
   matrix->full = baum_i_alloc(full, sizeof *matrix->full);
-  matrix->routes = baum_i_alloc(full, sizeof *matrix->routes);
-  baum_i_places places;
-  baum_status status = baum_i_places_create(full, &places);
-  if (status == BAUM_OK && matrix->full && matrix->routes) {
-    list_places(matrix, w->mechanism->nv, &places);
-    status = compress(matrix, &places);
-  } else {
-    status = BAUM_ERR_MEMORY;
-  }
-  baum_i_places_clear(&places);
-  return status == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
+  matrix->factor = baum_i_alloc(full, 1);
+  const baum_i_compressed *p = &matrix->pattern;
+  bool complete = matrix->full && matrix->factor &&
+                  find_pattern(matrix, w->mechanism->nv) == BAUM_OK &&
+                  baum_i_sparse_lu_create(p->n, p->start, p->row, &matrix->lu) == BAUM_OK;
+  matrix->values = complete ? baum_i_alloc((size_t)p->start[p->n], sizeof *matrix->values) : NULL;
+  return matrix->values ? BAUM_OK : baum_i_fail_memory();
 }
 
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out)
 {
-  *out = NULL;
-  baum_i_step_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
-  baum_status status = matrix ? fill(workspace, matrix) : baum_i_fail_memory();
+  *out = baum_i_alloc(1, sizeof **out);
+  baum_status status = *out ? fill(workspace, *out) : baum_i_fail_memory();
   if (status != BAUM_OK) {
-    baum_i_step_matrix_destroy(matrix);
-    return status;
+    baum_i_step_matrix_destroy(*out);
+    *out = NULL;
   }
-  *out = matrix;
-  return BAUM_OK;
+  return status;
 }
 
 void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix)
@@ -128,7 +87,8 @@ void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix)
     baum_i_residual_matrix_destroy(matrix->form);
     baum_i_sparse_lu_destroy(matrix->lu);
     baum_i_free(matrix->full);
-    baum_i_free(matrix->routes);
+    baum_i_free(matrix->factor);
+    baum_i_compressed_clear(&matrix->pattern);
     baum_i_free(matrix->values);
     baum_i_free(matrix);
   }
@@ -143,12 +103,13 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
   BAUM_I_TRY(baum_i_residual_matrix_fill(matrix->form, w, &dae, c, t, y, dy, matrix->full));
   const double factors[FACTORS] = {
     [BY_SCALE] = ratios->scale, [BY_SCALE_V] = ratios->scale * ratios->by_v, [BY_ONE] = 1.0};
-  int32_t full = baum_i_residual_matrix_nonzeros(matrix->form);
-  memset(matrix->values, 0, (size_t)matrix->nonzeros * sizeof *matrix->values);
+  const baum_i_compressed *p = &matrix->pattern;
+  const int32_t *slot = p->slot;
+  int32_t full = count_full(matrix);
+  memset(matrix->values, 0, (size_t)p->start[p->n] * sizeof *matrix->values);
   for (int32_t k = 0; k < full; k++) {
-    const route *r = &matrix->routes[k];
-    if (r->factor != BY_NOTHING) {
-      matrix->values[r->to] += factors[r->factor] * matrix->full[k];
+    if (matrix->factor[k] != BY_NOTHING) {
+      matrix->values[*slot++] += factors[matrix->factor[k]] * matrix->full[k];
     }
   }
   baum_status status = baum_i_sparse_lu_factor(matrix->lu, matrix->values);

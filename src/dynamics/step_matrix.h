@@ -4,9 +4,10 @@
  *
  *   dv = by_v dq,  dv' = by_a dq,  dlambda = x / scale
  *
- *   [ scale (by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q)   J^T ] [ dq ]     [ scale (M v'
- *   + J^T lambda - g) ] [ J                                                              0  ] [ x
- *   ] = - [ Phi                           ]
+ *   [ scale A   J^T ] [ dq ]     [ scale (M v' + J^T lambda - g) ]
+ *   [ J         0   ] [ x  ] = - [ Phi                           ]
+ *
+ *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q
  *
  * If scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A.
  * Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.
@@ -17,7 +18,7 @@
 #include "dynamics/dynamics.h"
 #include "linear/sparse_lu.h"
 
-/* The multiples above; by_v is not 0. */
+/* The factors of the equations above; by_v is not 0. */
 typedef struct baum_i_step_ratios {
   double by_v;  /* [1/s] */
   double by_a;  /* [1/s^2] */
@@ -28,7 +29,7 @@ typedef struct baum_i_step_matrix baum_i_step_matrix;
 
 /* BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out);
-void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is fine */
+void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is allowed */
 
 /* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. Also BAUM_ERR_SINGULAR without a
  * message, BAUM_ERR_MEMORY. */
@@ -36,10 +37,10 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);
 
-/* Choose pivots again at the next factorization. */
+/* Choose new pivots at the next factorization. */
 void baum_i_step_matrix_forget(baum_i_step_matrix *matrix);
 
-/* x (nv + nc): the right side, then (dq, x). */
+/* x (nv + nc) is the right side on entry, and (dq, x) on return. */
 void baum_i_step_matrix_solve(baum_i_step_matrix *matrix, double *x);
 
 baum_i_sparse_lu_work baum_i_step_matrix_work(const baum_i_step_matrix *matrix);

@@ -7,7 +7,7 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* An array of the workspace; the list below is their only inventory. */
+/* An array of the workspace. list_arrays() lists all of them. */
 typedef struct array {
   double **place;
   int count;
@@ -136,7 +136,7 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
   return BAUM_OK;
 }
 
-/* Fail where only blocks are allowed. */
+/* Fail because the block solver does not suit and no other solver is allowed. */
 static baum_status refuse_other_solvers(const baum_workspace *w)
 {
   char text[BAUM_I_SOLVER_TEXT_SIZE];
@@ -154,8 +154,7 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   if (w->choice != BAUM_I_KKT_AUTO) {
     return BAUM_OK;
   }
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = baum_i_paths_create(w, &w->verdict, &made);
   w->path = made.all;
   w->motion = made.motion;
@@ -173,7 +172,7 @@ void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace)
 {
   probe->workspace = workspace;
   probe->near_singular = workspace->near_singular;
-  baum_i_message_keep(&probe->message);
+  probe->message = baum_i_message_keep();
 }
 
 baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status)

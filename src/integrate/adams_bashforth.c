@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Adams methods of k steps, order k (F. Bashforth, J. C. Adams, 1883). v and a are
- * interpolated at the last k points of the grid and the polynomials are integrated:
+/* Explicit Adams methods of k steps, order k (F. Bashforth, J. C. Adams, 1883). The method
+ * interpolates v and a at the last k points of the time grid and integrates the polynomials:
  *
  *   q(t + theta h) = q + h sum_{j<k} w_j(theta) (N v)(t - j h)    (nq)   then normalized
  *   v(t + theta h) = v + h sum_{j<k} w_j(theta) a(t - j h)        (nv)
  *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, ..
  *                    from 0 to theta
  *
- * theta = 1 is a step of the grid. Any other step uses the same history with the same local error,
- * O(h^(k+1)). If such a step is kept, the run leaves the grid and the history is discarded.
+ * theta = 1 is a step of the grid. A step of any other length uses the same history and has the
+ * same order of the local error, O(h^(k+1)). If such a step is accepted, the run leaves the grid
+ * and the history is discarded.
  *
- * Without enough history, at the start and after a restart, the classical Runge-Kutta method takes
- * the steps: its local error is O(h^5), so the order k stays for all k <= 4.
+ * At the start and after a restart there is not enough history, and the classical Runge-Kutta
+ * method takes the steps. Its local error is O(h^5), so it does not lower the order k <= 4.
  *
- * A step may be a discarded trial. It therefore stores v and a of its start in the slot ahead of
- * the history; the slot joins the history only when the step is accepted. */
+ * A step may be a trial that is discarded. v and a at its start are therefore stored in a slot that
+ * becomes part of the history only when the step is accepted. */
 #include "integrate/adams_bashforth.h"
 
 #include <string.h>
@@ -24,7 +25,7 @@
 
 /* ---- history ---- */
 
-/* N v and a of the point j steps back. */
+/* The slot with N v and a of the point j steps back. */
 static double *slot(const baum_i_adams *run, int j)
 {
   int steps = run->table->steps;
@@ -33,7 +34,8 @@ static double *slot(const baum_i_adams *run, int j)
 
 /* ---- one step ---- */
 
-/* w_j(theta) theta^-1, by Horner's rule: the step is theta times that of the grid. */
+/* Compute w_j(theta) / theta by Horner's rule. The division is compensated by the step, which is
+ * theta times that of the grid. */
 static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
 {
   int steps = table->steps;
@@ -47,7 +49,8 @@ static void find_weights(const baum_i_adams_table *table, double theta, double *
   }
 }
 
-/* out (count) += h sum_j weights_j of the slots' numbers from `offset` on. */
+/* Add h sum_j weights_j x_j to out (count), where x_j are the numbers of slot j from `offset`
+ * on. */
 static void add_rates(const baum_i_adams *run, const double *weights, double h, int offset,
                       int count, double *out)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods: one driver, a table for each method. */
+/* Adams-Bashforth methods: one implementation, and a table for each method. */
 #ifndef BAUM_I_INTEGRATE_ADAMS_BASHFORTH_H
 #define BAUM_I_INTEGRATE_ADAMS_BASHFORTH_H
 
@@ -20,13 +20,13 @@ typedef struct baum_i_adams {
   void *starter; /* of the Runge-Kutta method */
   int nq;
   int nv;
-  int ahead;     /* slot of the present step's start; the history lies before it in the ring */
-  int past;      /* points of the history, at most steps - 1 */
+  int ahead;     /* slot of the start of the present step; the history precedes it */
+  int past;      /* number of points in the history, at most steps - 1 */
   bool on_grid;  /* the last trial was a step of the grid */
-  double *slots; /* (steps x (nq + nv)) N v and a of a point */
+  double *slots; /* (steps x (nq + nv)) N v and a of each point */
 } baum_i_adams;
 
-/* As in baum_integrator; the table is a baum_i_adams_table. */
+/* Members of baum_integrator. `table` points to a baum_i_adams_table. */
 baum_status baum_i_adams_open(void *self, const void *table, const baum_i_problem *problem,
                               const baum_i_state *start);
 void baum_i_adams_close(void *self);

@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One step along the path q(t) of Phi(q, t) = 0 with nc = nv independent rows, so J is square. A
- * guard keeps the step on its branch.
+ * check of J refuses steps to another branch.
  *
- * Newton from a guess:       J dq = -Phi,  q moved by dq
- * then                       J v = nu,  J a = gamma
+ * Newton's method: J dq = -Phi, q moved by dq then J v = nu, J a = gamma
  *
  * The configuration found must lie on the branch on which the step began. Newton's method alone
- * cannot tell: where two branches pass close to each other, a long step ends next to the wrong
- * branch and converges to it at once. J distinguishes them: along a path without singular
- * configurations det J keeps its sign, and beyond a fold or a crossing it has the opposite sign.
- * With J0 at the beginning and J1 at the end,
+ * does not ensure this: where two branches pass close to each other, a long step may end next to
+ * the wrong branch and converge to it. The sign of det J distinguishes the branches: it is constant
+ * along a path without singular configurations, and opposite beyond a fold or a crossing. With J0
+ * at the beginning and J1 at the end,
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
  *
- * is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end is sufficient, also
- * on the way there, because D grows about in proportion to the step (the lemma of Newton and
- * Kantorovich; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, chapters 2 and 5). The
- * norm of D is estimated with a probe z that moves every coordinate by a fraction of its scale:
+ * is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the step is
+ * sufficient. It then also holds along the step, because D grows about in proportion to the length
+ * (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
+ * chapters 2 and 5). The norm of D is estimated with a probe z that moves every coordinate by a
+ * fraction of its scale:
  *
  *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
  *
- * is close to the largest eigenvalue or above it, because every z has a part along each critical
- * direction. A probe costs one solution with the factors that v and a need anyway.
+ * is close to the largest eigenvalue or above it, because z has a component in every critical
+ * direction. Each product D z costs one solution with factors that v and a need anyway.
  *
- * All solutions come from the saddle-point system. Without degrees of freedom its a is J^-1 times
- * the lower right side, whatever M is. If the lower right side is zero, lambda is J^-T times the
- * upper one.
+ * All equations are solved by the saddle-point solver. Without degrees of freedom the solution a is
+ * J^-1 times the right side of the rows, for every M. If the right side of the rows is zero, the
+ * solution lambda is J^-T times the right side of the bodies.
  */
 #include "integrate/continuation.h"
 
@@ -38,22 +38,25 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* Limits on Newton's first correction relative to the scales, and on the second one relative to the
- * first. A guess further off may belong to another configuration. */
+/* Limits on Newton's first correction relative to the scales, and on the second correction relative
+ * to the first. Beyond them the guess may be closer to another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
-/* Ratio of later corrections; above it they have stopped falling, perhaps because of rounding. */
+/* Limit on the ratio of successive later corrections. Above it the corrections have stopped
+ * decreasing, perhaps because of rounding. */
 static const double STAGNATION = 0.5;
-/* Limit of |D|. 1 would suffice if |D| were known exactly and along the whole step. */
+/* Limit on the estimate of |D|. It is below 1 because the estimate is not exact and refers to the
+ * end of the step only. */
 static const double TURNING = 0.7;
-/* Allowed violation as a displacement: absolute for coordinates up to the size of the scales,
- * relative for larger ones. */
+/* Allowed violations as displacements, ROUNDING absolute and NOISE relative to the largest
+ * coordinate or 1. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
-/* The same for omitted rows. Above it they do not depend on the others in this configuration. */
+/* Allowed violation of omitted rows. Above it they do not depend on the other rows in this
+ * configuration. */
 static const double NEGLIGIBLE = 1e-6;
-/* A probe ends when it has decayed to this fraction. The second number is the weight of the
- * direction in which the last probe ended. */
+/* The iteration z := D z ends when z has decayed to the fraction DECAYED. KEPT is the weight, in
+ * the first z, of the direction in which the last iteration ended. */
 static const double DECAYED = 0.01;
 static const double KEPT = 3.0;
 
@@ -93,7 +96,8 @@ static bool refuse(baum_i_verdict *verdict, baum_i_refusal refusal, baum_status 
   return false;
 }
 
-/* Judge an evaluation: if it failed, may a shorter step help? */
+/* Return true if an evaluation succeeded; otherwise store in *verdict whether a shorter step may
+ * help. */
 static bool accept_evaluation(const baum_workspace *w, baum_status status, baum_i_verdict *verdict)
 {
   bool may_retry = (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) && w->point.retry;
@@ -114,7 +118,7 @@ static bool accept_solution(baum_status status, baum_i_verdict *verdict)
   }
 }
 
-/* Factor J at the present point; its values must stay in place. */
+/* Factor J at the present point. Its values must not change before the last solution. */
 static baum_status factor(baum_workspace *w)
 {
   const baum_i_kkt_values values = {
@@ -123,7 +127,7 @@ static baum_status factor(baum_workspace *w)
   return baum_i_kkt_factor(w->kkt, &values);
 }
 
-/* x = J^-1 rows; leaves J^-T in w->lambda. */
+/* Set x to J^-1 rows. */
 static baum_status solve(const baum_i_continuation *path, const double *rows, double *x)
 {
   baum_workspace *w = path->workspace;
@@ -171,13 +175,14 @@ static baum_status correct(const baum_i_continuation *path)
   return solve(path, w->rhs, path->image);
 }
 
-/* Does a correction of this size converge to zero? */
+/* Tell whether correction k is small enough for convergence; `last` is the size of the correction
+ * before. */
 static bool converges(int k, double size, double last)
 {
   return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
 }
 
-/* Find the configuration; the workspace then has its position stage. */
+/* Find the configuration by Newton's method. The workspace then contains its position stage. */
 static bool find_root(const baum_i_continuation *path, baum_i_configuration *to,
                       baum_i_verdict *verdict)
 {
@@ -211,14 +216,15 @@ static bool find_root(const baum_i_continuation *path, baum_i_configuration *to,
 
 /* ---- guards ---- */
 
-/* Omitted rows must follow from the others. */
+/* Refuse the configuration if an omitted row is violated, because it then does not depend on the
+ * others. */
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
   return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE ||
          refuse(verdict, BAUM_I_REFUSAL_OMITTED, BAUM_OK);
 }
 
-/* A number of size 1/2 to 1 and either sign. */
+/* Return the k-th quasi-random number with either sign and a magnitude between 1/2 and 1. */
 static double scatter(int k)
 {
   double x = baum_i_golden(k + 1);
@@ -238,8 +244,8 @@ static baum_status apply_turning(const baum_i_continuation *path, const double *
   return status;
 }
 
-/* Start a probe: a fraction of its scale in every coordinate, plus the direction in which the last
- * probe ended, because there branches come close to each other. */
+/* Choose the first z: a fraction of the scale in every coordinate, plus the direction in which the
+ * last iteration ended, because branches come close to each other in this direction. */
 static void begin_probe(const baum_i_continuation *path, const baum_i_configuration *from)
 {
   const baum_mechanism *m = path->workspace->mechanism;
@@ -317,8 +323,8 @@ bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configura
 
 /* ---- impasse ---- */
 
-/* Normalize the left singular vector to u_i d_i <= 1. It is a force in the rows that meets hardly
- * any resistance. */
+/* Normalize the left singular vector u to max |u_i| d_i = 1. u is a system of forces in the rows
+ * that hardly any inertia or constraint resists. */
 static void normalize_left(const baum_i_continuation *path)
 {
   double largest = 0.0;
@@ -349,8 +355,8 @@ static baum_status iterate(const baum_i_continuation *path)
   return solve(path, w->rhs, path->probe);
 }
 
-/* Find the left singular vector of the smallest singular value, in path->left, with rows as
- * displacements and coordinates in scales. */
+/* Find the left singular vector of the smallest singular value and write it to path->left. Rows are
+ * measured as displacements, and coordinates relative to their scales. */
 static baum_status find_critical(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;

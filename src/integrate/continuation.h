@@ -9,23 +9,22 @@
 /* A configuration that satisfies the constraints, with its velocities and accelerations. */
 typedef struct baum_i_configuration {
   double t;
-  double *q; /* (nq) */
-  double *v; /* (nv) J v = nu */
-  double *a; /* (nv) J a = gamma */
-  double *
-    turn; /* (nv) direction in which J has turned most since the configuration before; 0 for none */
+  double *q;    /* (nq) */
+  double *v;    /* (nv) J v = nu */
+  double *a;    /* (nv) J a = gamma */
+  double *turn; /* (nv) direction in which J changed most since the last configuration; 0: none */
   double *jacobian; /* (jacobian_size) */
 } baum_i_configuration;
 
 /* Why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
-  BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the second is hardly smaller */
+  BAUM_I_REFUSAL_FAR,      /* Newton's corrections were too large, or hardly decreased */
   BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
   BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
   BAUM_I_REFUSAL_OMITTED,  /* a row that was omitted as redundant is violated */
-  BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
-  BAUM_I_REFUSAL_STOP,       /* a function stops the run, or BAUM_ERR_MEMORY */
+  BAUM_I_REFUSAL_EVALUATION, /* a user function asks for a smaller step; see baum_message() */
+  BAUM_I_REFUSAL_STOP,       /* a user function stops the run, or memory is short */
 } baum_i_refusal;
 
 /* How a configuration was found, or why it was not. */
@@ -33,8 +32,8 @@ typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* of BAUM_I_REFUSAL_EVALUATION and _STOP */
   int iterations;     /* of Newton */
-  double contraction; /* second correction over the first; 0 if one was enough */
-  double turning;     /* estimate of |I - J^-1 J_from| by a probe */
+  double contraction; /* second correction over the first; 0 if there was one only */
+  double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
   int row;            /* of BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
 
@@ -49,11 +48,11 @@ typedef struct baum_i_continuation {
   double *left;     /* (nc) */
 } baum_i_continuation;
 
-/* What makes a configuration singular. */
+/* The cause of a singular configuration. */
 typedef struct baum_i_impasse {
-  double gain; /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot
-                  be factored */
-  /* 0 to 1: share of time-dependent rows in the forces that meet hardly any resistance */
+  double gain; /* scaled |J^-1|; INFINITY if J cannot be factored */
+  /* share, 0 to 1, of time-dependent rows in the left singular vector of the smallest singular
+   * value */
   double pull;
   int driver;   /* time-dependent joint with the largest share, or -1 */
   int resister; /* other joint with the largest share, or -1 */
@@ -62,17 +61,17 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* Find J at to->q and to->t, which need not satisfy the constraints. The configuration can then
+/* Find J at to->q and to->t. to->q need not satisfy the constraints. The configuration can then
  * serve as `from` below. */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to);
 
-/* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. J and
- * turn of the configuration `from` guard against a change of branch. true: the configuration is
- * good; otherwise verdict->refusal is the reason. */
+/* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. A
+ * comparison with J and turn of `from` refuses configurations that may be on another branch.
+ * Returns true if the configuration is accepted; otherwise verdict->refusal is the reason. */
 bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configuration *from,
                                baum_i_configuration *to, baum_i_verdict *verdict);
 
-/* Analyse a good configuration if no next one was found near it. */
+/* Analyse why no next configuration was found near an accepted one. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_configuration *to,
                                         baum_i_impasse *impasse);
 

@@ -5,10 +5,10 @@
  *   y = (q, v)                                       (nq + nv)
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
- * Adams-Moulton, orders 1 to 12, with fixed-point iteration, or where there are gains with Newton's
- * iteration on their part of the Jacobian (cvode_embedded.c); BDF, orders 1 to 5, with Newton's
- * iteration on the true Jacobian (cvode_newton.c) and projection. Errors are measured in the
- * weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
+ * Adams: Adams-Moulton of orders 1 to 12 with fixed-point iteration. If there are gains, Newton's
+ * iteration with their part of the Jacobian replaces it (cvode_embedded.c). BDF: orders 1 to 5 with
+ * Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured in
+ * the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 
@@ -37,7 +37,8 @@ typedef struct cvode_run {
 static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
 {
   cvode_run *run = user;
-  /* SUNDIALS 6.4's fixed-point solver assumes that a smaller step may cure any failure. */
+  /* The fixed-point solver of SUNDIALS 6.4 also retries after a failure that no smaller step can
+   * cure, so that failure is repeated here. */
   if (run->sundials.stopped) {
     return -1;
   }
@@ -53,8 +54,8 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Rebuild the system of Newton's iteration each time: its derivatives cost about an evaluation.
- * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
+/* Compute a new matrix for Newton's iteration each time, which costs about as much as one
+ * evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
                  N_Vector work1, N_Vector work2, N_Vector work3)
@@ -75,21 +76,21 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
 
 /* ---- projection ---- */
 
-/* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): after Newton's
- * iteration q and v are moved onto the constraints by the least change in the metric of M. The
- * estimated error of q loses its part across the constraints, because the projection removes that
- * from the true error too:
+/* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): After Newton's
+ * iteration q and v are moved onto the constraints by the least change in the metric of M. The part
+ * of the estimated error of q across the constraints is removed, because the projection also
+ * removes this part of the true error:
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
  *
- * The estimate for v stays as it is. Its part across the constraints must stay, because the
- * projection does not remove all of it: the error of q along the constraints contributes
- * J e_v = -(J v)_q e_q. An estimate without P e_v gives errors that are twice as large at the same
- * tolerance and the same cost (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to 1e-10).
+ * The estimated error e_v of v is not changed, because the projection does not remove all of its
+ * part across the constraints: the error of q along the constraints contributes J e_v = -(J v)_q
+ * e_q. If P e_v is subtracted, errors are twice as large at the same tolerance and the same cost
+ * (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to 1e-10).
  *
- * The history of the method is corrected by the same step, so that the next prediction starts
- * there. Adams' predictor and corrector work with f alone, whose history cannot be moved, so CVODE
- * projects with BDF only. */
+ * CVODE adds the correction to its history, so that the next prediction starts at the projected
+ * state. The history of Adams methods consists of values of f, which cannot be corrected in this
+ * way, so CVODE projects with BDF only. */
 
 static void subtract(int n, const double *what, double *from)
 {
@@ -98,7 +99,7 @@ static void subtract(int n, const double *what, double *from)
   }
 }
 
-/* If a projection does not converge, it may converge after a smaller step. */
+/* A projection that does not converge may converge after a smaller step. */
 static int answer_projection(baum_i_sundials *sundials, baum_status status)
 {
   int answered = baum_i_sundials_answer(sundials, status);
@@ -112,7 +113,7 @@ static int answer_projection(baum_i_sundials *sundials, baum_status status)
 static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype tolerance,
                    N_Vector error, void *user)
 {
-  (void)tolerance; /* the projection converges to rounding */
+  (void)tolerance; /* the projection always converges to rounding */
   cvode_run *run = user;
   baum_workspace *w = run->sundials.problem->workspace;
   int nq = w->mechanism->nq;
@@ -167,7 +168,7 @@ static int attach_bdf(baum_i_sundials *sundials)
 {
   const baum_i_cvode_newton *newton = &((cvode_run *)sundials)->newton;
   void *cvode = sundials->memory;
-  /* These two calls have separate flags; they can only run out of memory. */
+  /* These two calls return flags of another list. They can fail only for lack of memory. */
   bool attached = CVodeSetLinearSolver(cvode, newton->solver, newton->klu.matrix) == CVLS_SUCCESS &&
                   CVodeSetLinSysFn(cvode, build) == CVLS_SUCCESS;
   if (!attached) {

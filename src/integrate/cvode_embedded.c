@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi). The constraints then
- * act as springs and dampers with rates alpha and beta, which makes the equations stiff however
- * smooth the motion is. Their part of df/dy is known,
+/* Gains add -M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi) to a. The constraints then act as
+ * springs and dampers with rates alpha and beta, which makes the equations y' = f stiff even if the
+ * motion is smooth. The part of df/dy that they cause is known,
  *
  *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
  *           [ -beta^2 P   -2 alpha P ]
  *
- * and P P = P gives the inverse: (I - gamma df/dy) (dq, dv) = (r_q, r_v) without the rest has the
- * solution
+ * where gamma is CVODE's coefficient, a fraction of the step. Without the rest, and because P P =
+ * P, (I - gamma df/dy) (dq, dv) = (r_q, r_v) has the solution
  *
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2
  *
- * because (I + s P)^-1 = I - s / (1 + s) P. A product with P costs one substitution with the
- * factors of the previous evaluation. If rows have different gains, each row has its s = 2 alpha_i
- * gamma + (beta_i gamma)^2. With Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, the solution is
+ * A product with P costs one substitution with the factors of the previous evaluation. If rows have
+ * different gains, row i has s = 2 alpha_i gamma + (beta_i gamma)^2. Then with Q = M^-1 J^T (J M^-1
+ * J^T)^-1, for which J Q = I, the solution is
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
  * If q is not a vector, r_q stands for N^+ r_q in these equations, and dq = r_q + gamma N dv.
  *
- * Backward in time alpha and gamma change their signs together. Forces are part of the rest, so
- * stiff forces still require BDF.
+ * Backward in time both alpha and gamma change their signs. Derivatives of forces are part of the
+ * rest that is neglected, so stiff forces still require BDF.
  */
 #include "integrate/integrator.h"
 
@@ -36,7 +36,7 @@
 
 #include "integrate/sundials_klu.h"
 
-/* A smaller step may help if a substitution fails. */
+/* Convert a status to a flag. If a substitution fails, a smaller step may help. */
 static int answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {
@@ -45,7 +45,7 @@ static int answer(baum_i_sundials *sundials, baum_status status)
   return status == BAUM_ERR_MEMORY ? baum_i_sundials_answer(sundials, status) : 1;
 }
 
-/* s r_v + gamma beta^2 r_q over 1 + s */
+/* Compute (s r_v + gamma beta^2 r_q) / (1 + s). */
 static double weigh(const baum_i_problem *problem, double gamma, double factor, double r_v,
                     double r_q)
 {
@@ -133,7 +133,7 @@ int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundial
   if (flag != CV_SUCCESS) {
     return flag;
   }
-  /* This call has separate flags; it can only run out of memory. */
+  /* This call returns flags of another list. It can fail only for lack of memory. */
   return CVodeSetLinearSolver(cvode, embedded->solver, NULL) == CVLS_SUCCESS ? CV_SUCCESS
                                                                              : CV_MEM_FAIL;
 }

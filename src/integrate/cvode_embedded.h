@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of CVODE Adams on the stiffness of the stabilization. Only files of CVODE
- * include it, and only when the build has SUNDIALS. */
+/* Newton's iteration of CVODE Adams with the derivatives of the stabilization terms. Only files of
+ * CVODE include this header, and only if the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_EMBEDDED_H
 #define BAUM_I_INTEGRATE_CVODE_EMBEDDED_H
 
@@ -16,8 +16,8 @@ typedef struct baum_i_cvode_embedded {
   N_Vector normal; /* scratch */
 } baum_i_cvode_embedded;
 
-/* After CVodeInit(); returns a flag of CVODE. `embedded` lives as long as CVODE and is closed after
- * it; a zeroed one may be closed. */
+/* Call this after CVodeInit(). Returns a flag of CVODE. Close `embedded` after the memory of CVODE
+ * has been freed. A zeroed `embedded` may be closed. */
 int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundials *sundials);
 void baum_i_cvode_embedded_close(baum_i_cvode_embedded *embedded);
 

@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of CVODE BDF asks for the solution d = (dq, dv) of
+/* Newton's iteration of CVODE BDF requires the solution d = (dq, dv) of
  *
  *   (I - gamma df/dy) d = r,     f = (N v, a(t, q, v)), a from (5) or (7).
  *
- * a is given implicitly, with the multipliers, by the residual of index 1 (dae_matrix.c)
+ * The residual of index 1 (dae_matrix.c) defines a and the multipliers implicitly:
  *
  *   F = (q' - N v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
  *
- * whose last two parts vanish for v' = a(t, q, v). Their derivatives along this solution, with da =
- * (da/dq) dq + (da/dv) dv, are
+ * Its last two parts are zero for v' = a(t, q, v). Let da = (da/dq) dq + (da/dv) dv, and dlambda
+ * the corresponding change of lambda. The last two parts then satisfy
  *
- *   F_q dq + F_v dv + F_lambda dlambda = - (0, M da, J da) in these parts
+ *   F_q dq + F_v dv + F_lambda dlambda = - (M da, J da)
  *
- * with the dlambda that belongs to da. With c = 1 / gamma it follows that
+ * With c = 1 / gamma it follows that
  *
  *   (dF/dy + c dF/dy') (dq, dv, dlambda) = (c dq - dv, M (c dv - da), J (c dv - da)).
  *
- * With the right side c (r_q, M r_v, J r_v) this gives dq - gamma dv = r_q and dv - gamma da = r_v,
- * the required equations; dlambda is not needed. The matrix has the derivatives of all forces and
- * rows, and is as sparse as the mechanism. (If q is not a vector, dq stands for a displacement of
- * velocity size and r_q for N^+ r_q; the part of r_q off the manifold is added to dq unchanged.)
+ * If the right side is c (r_q, M r_v, J r_v), the solution satisfies dq - gamma dv = r_q and dv -
+ * gamma da = r_v, which are the required equations. dlambda is not needed. The matrix contains the
+ * derivatives of all forces and rows and is sparse. (If q is not a vector, dq stands for a
+ * displacement of length nv and r_q for N^+ r_q. The part of r_q off the manifold is added to dq
+ * unchanged.)
  */
 #include "integrate/integrator.h"
 
@@ -69,7 +70,8 @@ static int factor(SUNLinearSolver solver, SUNMatrix matrix)
   return baum_i_sundials_klu_factor(&newton->klu);
 }
 
-/* c (r_q, M r_v, J r_v). Rows that were omitted when the matrix was computed are dlambda = 0. */
+/* Compute c (r_q, M r_v, J r_v). It is 0 in rows that were omitted when the matrix was computed, so
+ * their dlambda is 0. */
 static void make_right_side(const baum_i_cvode_newton *newton, const double *r, double *right)
 {
   const baum_workspace *w = workspace_of(newton);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF with the true Jacobian. Only files of CVODE include it, and only
- * when the build has SUNDIALS. */
+/* The linear systems of CVODE BDF with the exact Jacobian. Only files of CVODE include this header,
+ * and only if the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_NEWTON_H
 #define BAUM_I_INTEGRATE_CVODE_NEWTON_H
 
@@ -8,12 +8,12 @@
 
 typedef struct baum_i_cvode_newton {
   baum_i_sundials_klu klu;
-  SUNLinearSolver solver; /* for CVODE, a front before klu */
-  double c;               /* [1/s] 1 / gamma of the matrix */
-  double *numbers;        /* behind all below */
+  SUNLinearSolver solver; /* called by CVODE; it calls klu */
+  double c;               /* [1/s] 1 / gamma for which the matrix was computed */
+  double *numbers;        /* memory of all arrays below */
   double *y;              /* (n) q, v, lambda */
   double *dy;             /* (n) q', v', 0 */
-  double *mass;           /* block values of M where the matrix was made */
+  double *mass;           /* block values of M at the state of the matrix */
   double *jacobian;       /* likewise J */
 } baum_i_cvode_newton;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pair of orders 5 and 4 of J. R. Dormand and P. J. Prince (J. Comp. Appl. Math. 6, 1980), with
- * the interpolant of order 4 of L. F. Shampine; table and interpolant as in Hairer, Norsett, Wanner
- * 1993, sections II.5 and II.6.
+/* The Runge-Kutta pair of orders 5 and 4 of J. R. Dormand and P. J. Prince (J. Comp. Appl. Math. 6,
+ * 1980), with the interpolant of order 4 of L. F. Shampine; table and interpolant as in Hairer,
+ * Norsett, Wanner 1993, sections II.5 and II.6.
  *
  *   0    |
  *   1/5  | 1/5
@@ -11,9 +11,9 @@
  *   1    | 9017/3168  -355/33      46732/5247  49/176  -5103/18656
  *        | 35/384      0           500/1113    125/192 -2187/6784    11/84
  *
- * The seventh rate, at the end of the step, is the first of the next, and enters the estimate: the
- * last row less the one of order 4. A violation obeys z = R(mu), R(mu) = 1 + mu + ... + mu^5/120 +
- * mu^6/600.
+ * The seventh rate is at the end of the step, and is the first rate of the next step. The weights
+ * of the error estimate are those of order 5 minus those of order 4. The amplification of a
+ * violation is z = R(mu) = 1 + mu + ... + mu^5/120 + mu^6/600.
  */
 #include "integrate/rk_adaptive.h"
 

@@ -5,7 +5,8 @@
  *   q(t + h) = q moved by h v (nq)   old velocities
  *   v(t + h) = v + h a        (nv)
  *
- * A violation obeys z^2 + (2A - 2) z + (B - 2A + 1) (19), that is z = R(mu) with R(mu) = 1 + mu.
+ * The amplification z of a violation is a root of z^2 + (2A - 2) z + (B - 2A + 1) (19), which is z
+ * = R(mu) = 1 + mu.
  */
 #include "integrate/integrator.h"
 

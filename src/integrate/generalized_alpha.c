@@ -11,19 +11,21 @@
  *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
  *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
  *
- * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of the
- * constraints: a disturbance of the multipliers falls to a tenth in ten steps. Resolved
- * oscillations are hardly damped.
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of multipliers:
+ * a disturbance of the multipliers decays to a tenth in ten steps. Oscillations whose period is
+ * many steps are hardly damped.
  *
  * a is not the acceleration at t but, to second order, the acceleration at t + (alpha_m - alpha_f)
- * h. It starts with that value; otherwise the multipliers would be of first order for some steps.
- * If a step has another length, the difference a - v' is scaled with it.
+ * h. a is initialized with the acceleration at that time; otherwise the multipliers would be of
+ * first order during some steps. If the length of the step changes, the difference a - v' is scaled
+ * in proportion.
  *
- * The first step after every start begins at the state projected onto the constraints. A violation
- * would otherwise cause velocities of its size divided by h, which no equation removes at once.
+ * The first step after every start begins at the state projected onto the constraints. Otherwise a
+ * violation would cause velocities of its size divided by h, which later steps would reduce only
+ * slowly.
  *
- * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled
- * multipliers: step_matrix.h. (If q is not a vector, it is exact up to terms of h times the angular
+ * Newton's method uses the exact matrix of step_matrix.h, with dv = gamma / (beta h) dx and scaled
+ * multipliers. (If q is not a vector, the matrix has errors of the size of h times the angular
  * velocity, because x is added at q, not at q_1.) */
 #include "integrate/generalized_alpha.h"
 
@@ -35,7 +37,7 @@
 #include "base/message.h"
 #include "dynamics/step_matrix.h"
 
-/* Of rho = 0.8. */
+/* The parameters for rho = 0.8. */
 static const double ALPHA_M = 1.0 / 3.0;
 static const double ALPHA_F = 4.0 / 9.0;
 static const double GAMMA = 11.0 / 18.0;
@@ -43,26 +45,27 @@ static const double BETA = 25.0 / 81.0;
 
 enum { ITERATIONS = 20 };
 
-/* Newton's iteration ends when a change of the positions is this fraction of the effect of the
- * accelerations in a step. Multipliers and accelerations are then accurate to that fraction. The
- * change need not fall below a few roundings of the positions, or of their scale if positions are
- * small compared with it, as for a body at the origin. */
+/* Newton's iteration ends when the change of the positions is below the fraction CONVERGED of the
+ * displacement that accelerations cause in a step. Multipliers and accelerations are then accurate
+ * to that fraction. It also ends when the change is below ROUNDINGS times the largest position, or
+ * times the scale if that is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped falling count as rounding up to this many of these roundings. */
+/* Changes that have stopped decreasing count as rounding up to STALLED times this limit. */
 static const double STALLED = 64.0;
-/* Changes up to this size that have stopped falling are compared with the effect of rounding on the
- * equations: the rounding of a large coordinate may be large on the scale of a small coordinate
- * coupled to it. */
+/* Larger changes that have stopped decreasing, up to LARGEST_NOISE, are compared with the effect of
+ * rounding errors on the solution. The rounding error of a large coordinate may be large relative
+ * to the scale of a small coordinate that is coupled to it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* Fraction of a step over which the acceleration is differentiated. The truncation error is this
- * fraction of terms of second order; the rounding error is one unit divided by it. */
+/* The derivative of the acceleration is a difference over this fraction of a step. The relative
+ * truncation error is about this fraction, the relative rounding error the unit roundoff divided by
+ * it. */
 static const double SHIFT = 1e-3;
 
-/* If steps differ by less than this fraction, a need not be scaled. */
+/* a is not scaled if step lengths differ by less than this fraction. */
 static const double SAME_STEP = 1e-6;
 
 /* Results of a step that the next step needs. */
@@ -78,15 +81,15 @@ typedef struct alpha_run {
   int nv;
   int nc;
   bool known;      /* `now` belongs to the present state */
-  bool first;      /* no step has been made since the start */
-  double step;     /* [s] step to which now.a belongs */
-  double trial;    /* [s] step to which next.a belongs */
+  bool first;      /* no step has been accepted since the start */
+  double step;     /* [s] step length to which now.a belongs */
+  double trial;    /* [s] step length to which next.a belongs */
   alpha_past now;  /* at the present state */
   alpha_past next; /* at the end of the last trial */
   int64_t iterations;
   baum_i_step_matrix *matrix;
   double *memory;   /* memory of all arrays of this struct */
-  double *moved;    /* (nv) displacement from q of the state to that of y */
+  double *moved;    /* (nv) displacement from q of the state to q of y */
   double *y;        /* (nq + nv + nc) q, v, lambda */
   double *dy;       /* (nq + nv + nc) zeros, v', unused */
   double *residual; /* (nq + nv + nc) */
@@ -96,8 +99,8 @@ typedef struct alpha_run {
 
 /* ---- begin ---- */
 
-/* Find v' and lambda by (5), and a by a difference along the motion. a belongs to steps of the
- * grid, whatever the length of the first step. */
+/* Find v' and lambda by (5), and a by a difference along the motion. a is computed for the step
+ * length of the grid, even if the first step has another length. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;
@@ -132,7 +135,7 @@ static double next_a(double rate_next, double rate, double a)
   return ((1.0 - ALPHA_F) * rate_next + ALPHA_F * rate - ALPHA_M * a) / (1.0 - ALPHA_M);
 }
 
-/* a of the present state for a step h. */
+/* Return a of the present state, scaled for a step of length h. */
 static double present_a(const alpha_run *run, int i, double h)
 {
   double ratio = h / run->step;
@@ -146,7 +149,7 @@ static void move_end(alpha_run *run, const baum_mechanism *m, const baum_i_state
   baum_i_move_from(m, state->q, 1.0, run->moved, run->y);
 }
 
-/* Predict the end of the step with v' and lambda unchanged. */
+/* Predict the end of the step, assuming that v' and lambda do not change. */
 static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state *state, double h)
 {
   double *v = run->y + run->nq;
@@ -202,9 +205,9 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   return BAUM_OK;
 }
 
-/* Find the change of the positions that rounding causes: the solution for the change of the
- * equations when all unknowns change in their last digits. The sign in each row is chosen
- * independently, because each row is rounded independently. */
+/* Estimate the change of the positions that rounding causes: change all unknowns in their last
+ * digits and solve with the resulting change of the residual. Each row is rounded independently, so
+ * absolute values of the rows are used. */
 static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
                               const baum_i_step_ratios *ratios, double *noise)
 {
@@ -219,7 +222,7 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
     dy[i] = run->dy[i] * (1.0 + NUDGE);
   }
   memcpy(y + run->nq, run->y + run->nq,
-         (size_t)run->nv * sizeof *y); /* v follows from the others */
+         (size_t)run->nv * sizeof *y); /* v depends on the other unknowns */
   BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
   BAUM_I_TRY(baum_i_residual(w, &dae, t, y, dy, run->residual));
@@ -257,7 +260,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (done) {
       return BAUM_OK;
     }
-    /* The first change may be larger than the error of the prediction. */
+    /* The second change may be larger than the first. */
     if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {
       break;
     }
@@ -271,7 +274,8 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  /* All trials from a state must start alike, so first steps project even if they are discarded. */
+  /* All trials from one state must start at the same point, so every first step projects, even if
+   * it is discarded. */
   if (!run->known || run->first) {
     BAUM_I_TRY(baum_i_project(problem->workspace, state->t, state->q, state->v));
   }
@@ -290,7 +294,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-/* A step off the grid ends the history, as in every method. */
+/* Accept the last trial. As in every method, a step off the grid ends the history. */
 static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   alpha_run *run = self;

@@ -9,16 +9,18 @@
  *   index 3   Phi
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
- * This works under the following conditions, all found by measurement:
+ * IDA solves these equations reliably under the following conditions, which were found by
+ * measurement:
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
- *   velocities. At index 1, tolerance_lambda adds lambda to the test; in other forms its error
- *   estimate does not fall with the step as it should. Newton's iteration has a separate test that
- *   includes multipliers (ida_newton.c); otherwise they diverge.
- * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the
- *   equations but not small; v' and lambda come from one solution of (5) or (7). IDA's own search
- *   for a consistent start can succeed with wrong accelerations.
- * - The first step is given. IDA's own is too large for index 3.
- * - The Jacobian is exact and sparse; without the part of lambda, iterations fail.
+ *   also velocities. At index 1, tolerance_lambda adds lambda to the test. In other forms the error
+ *   estimate of lambda does not decrease with the step as it should. Newton's iteration has a
+ *   separate convergence test that includes multipliers (ida_newton.c); otherwise they diverge.
+ * - The start is consistent: q and v are projected if Phi or Phi' is among the equations and not
+ *   small, and v' and lambda come from one solution of (5) or (7). IDA's own search for a
+ *   consistent start can succeed with wrong accelerations.
+ * - The length of the first step is prescribed. IDA's own choice is too large for index 3.
+ * - The Jacobian is exact and sparse. Without the derivatives with respect to lambda, iterations
+ *   fail.
  * - KLU keeps its pivots (sundials_klu.h).
  */
 #include "integrate/integrator.h"
@@ -39,14 +41,14 @@ typedef struct ida_run {
   baum_i_sundials sundials;
   N_Vector dy;            /* at the end of the last step */
   N_Vector tested;        /* 1 for unknowns in the error test, otherwise 0 */
-  SUNLinearSolver solver; /* what IDA calls: a front before klu */
+  SUNLinearSolver solver; /* called by IDA; it calls klu */
   baum_i_sundials_klu klu;
-  double linearized; /* [1/s] c of the present matrix */
+  double linearized; /* [1/s] c for which the present matrix was computed */
   baum_i_ida_newton newton;
   baum_dae dae;
 } ida_run;
 
-/* Largest violation at a start, relative to the tolerance. */
+/* Largest violation at a start that is not removed, relative to the tolerance. */
 static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
@@ -83,7 +85,7 @@ static int linearize(sunrealtype tau, sunrealtype c, N_Vector y, N_Vector dy, N_
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Set the error weights, which must be > 0 also for multipliers that are not tested. */
+/* Set the error weights. They must be > 0 even for multipliers that are not tested. */
 static int weigh(N_Vector y, N_Vector weights, void *user)
 {
   ida_run *run = user;
@@ -136,7 +138,7 @@ static int size_of(const baum_i_problem *problem)
   return baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
 }
 
-/* rtol times the smallest factor among the tested unknowns. */
+/* Return rtol times the smallest tolerance factor of the tested unknowns. */
 static double tightest(const ida_run *run, const baum_i_problem *problem)
 {
   bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
@@ -144,7 +146,7 @@ static double tightest(const ida_run *run, const baum_i_problem *problem)
   return problem->rtol * factor;
 }
 
-/* Largest violation as a displacement relative to the scale; that of velocities times 1/T. */
+/* Return the largest violation as a scaled displacement. Phi' is multiplied by T. */
 static double violation_of(const ida_run *run, const baum_i_problem *problem)
 {
   int row = -1;
@@ -155,8 +157,9 @@ static double violation_of(const ida_run *run, const baum_i_problem *problem)
 }
 
 /* Make the start consistent. If Phi = 0 or Phi' = 0 is among the equations, a violation would
- * vanish abruptly in the first step and spoil the error estimate, however short the step. It is
- * therefore removed here. Index 2 does not contain Phi = 0, so its violation of Phi stays. */
+ * vanish abruptly in the first step and spoil the error estimate, however short the step. The
+ * violation is therefore removed here. The equations of index 2 do not contain Phi = 0, so a
+ * violation of Phi is not removed for them. */
 static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
                                    double *v)
 {
@@ -173,7 +176,7 @@ static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, 
                                                 : baum_i_project(w, t, q, v);
 }
 
-/* Find y and y' that satisfy F = 0; mu and all derivatives of multipliers are 0. */
+/* Find y and y' that satisfy F = 0. mu and the derivatives of all multipliers are set to 0. */
 static baum_status complete_start(baum_i_sundials *sundials, double t)
 {
   ida_run *run = (ida_run *)sundials;
@@ -197,10 +200,10 @@ static baum_status complete_start(baum_i_sundials *sundials, double t)
   return BAUM_OK;
 }
 
-/* Set the first step. It is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale.
- * All forms but index 3 also test velocities, whose derivatives are larger: a fifth of that h is
- * accepted. At index 3 velocities are differences of q over h, so rounding would dominate them at a
- * smaller step. */
+/* Set the first step. It has order 1 and the error h^2 |q''| / 2, where |q''| <= rate^2 scale. At
+ * index 3 this error is set equal to the tolerance. All other forms also test velocities, whose
+ * derivatives are larger, so their h is a fifth of this. At index 3 a smaller h is not possible:
+ * velocities are differences of q over h and would be dominated by rounding. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;
@@ -271,8 +274,8 @@ static int attach_newton(ida_run *run)
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-/* The calls with linear solvers have separate flags; they can only run out of memory. This file
- * scales solutions itself. */
+/* The calls about linear solvers return flags of another list. They can fail only for lack of
+ * memory. IDA's scaling of solutions is switched off, because solve() scales them. */
 static int attach_klu(baum_i_sundials *sundials)
 {
   ida_run *run = (ida_run *)sundials;

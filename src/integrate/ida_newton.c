@@ -2,45 +2,47 @@
 /* Newton's iteration of IDA on y = (q, v, lambda), for GGL (q, v, lambda, mu), with y' = c y + ...
  * and c = O(1/h).
  *
- * Convergence. A correction d is as large as the root of the sum of squares of
+ * Convergence. The size of a correction d is the root of the sum of squares of
  *
  *   q, v     root mean square of d / tolerance
- *   lambda   largest |d_i| n_i / E, where n_i is the displacement of row i, so that both are
- *            energies, and
+ *   lambda   largest |d_i| n_i / E, where n_i is the norm of row i of J with scaled columns, so
+ *            that |d_i| n_i and E are energies, and
  *            E = 1/100 (largest |lambda_i| n_i) + |c| (largest M_jj s_j tolerance_v_j);
- *            the second part is what the tolerance of v leaves open of M v' = c M v + ...
- *   mu       likewise, where both are actions and
+ *            the second term is the uncertainty of M v' = c M v + ... at the tolerance of v
+ *   mu       likewise with actions in place of energies, and
  *            E = 1/100 (largest |mu_i| n_i) + |c| (largest W_jj s_j tolerance_q_j),
- *            which W q' = c W q + ... = W v - J^T mu leaves open
+ *            whose second term is the uncertainty of W q' = c W q + ... = W v - J^T mu
  *
- * Where lambda is in the error test, E is at most the tolerance there,
+ * If lambda is in the error test, E is at most the tolerance of that test,
  *
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
- * with the energy of the inertia at rate 1/T, so that multipliers may vanish; row i may err by this
- * tolerance over n_i. If it is tighter than the tolerances of q and v, the iteration of q and v is
- * tightened, too: the error that it leaves in them is noise in lambda, which no shorter step
- * reduces (without this, runs took 40 times the steps).
+ * which contains the kinetic energy at the rate 1/T, so that multipliers may vanish. The tolerance
+ * of lambda_i is this energy divided by n_i. If tolerance_lambda is smaller than tolerance_q and
+ * tolerance_v, Newton's iteration multiplies the tolerances of q and v by tolerance_lambda over the
+ * smaller of the two. Otherwise the remaining errors of q and v cause errors of lambda that no
+ * shorter step reduces, and runs took 40 times as many steps.
  *
- * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
- * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
- * or with a later one after which the rate of this step promises an error below it.
+ * At index 3, v is a difference of q over h with the rounding error c eps s, and the tolerance of v
+ * is at least |c| tolerance_q / 10. The iteration ends if the first correction is below IDA's bound
+ * (0.33), or if the convergence rate of this step predicts an error below the bound after a later
+ * correction.
  *
  * IDA's own test does not work here. No fixed tolerance suits multipliers, because they may vanish
- * and their rounding grows with c. Without any test they diverge: order 5 extrapolates an error
- * 63-fold, and an iteration with an older matrix leaves up to a quarter. In measurements forces
- * became 1e14 times too large; their rounding then moved q and v, and no step converged any more.
- * IDA also relies on a convergence rate from an earlier step although the matrix ages, which
- * shortens steps by a third.
+ * and their rounding errors grow with c. Without any test they diverge: at order 5 the prediction
+ * amplifies an error 63-fold, and an iteration with an older matrix leaves up to a quarter of it.
+ * In measurements, multipliers became 1e14 times too large; their rounding errors then changed q
+ * and v, and no step converged. IDA also uses the convergence rate of an earlier step with the same
+ * matrix, which shortens steps by a third.
  *
- * Older matrices. With r = c / c0, a matrix computed for c0 solves the present system up to terms
- * that are smaller by h:
+ * Older matrices. With r = c / c0, the matrix A(c0) gives the present matrix A(c) up to terms that
+ * are smaller by a factor of h:
  *
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
- * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a
- * compromise for stiff equations; in each iteration it leaves (1 - r) / (1 + r) of the error of the
- * multipliers. */
+ * with the further entries R = r^2, C = r^-1 for mu. The solution is therefore x = C A(c0)^-1 R b.
+ * IDA's own factor 2 / (1 + r) is a compromise for stiff equations. With it, each iteration leaves
+ * the fraction (1 - r) / (1 + r) of the error of the multipliers. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -53,13 +55,14 @@
 #include <ida/ida.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-/* Errors of multipliers do not accumulate; they only must not diverge. From 1e-1 to 1e-4 the number
- * of iterations is the same. */
+/* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. From
+ * 1e-1 to 1e-4 the number of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
-/* 50 times rounding at rtol 1e-13. Errors are those with 0.01, and there are fewer steps than with
- * 1. */
+/* At rtol 1e-13 this is 50 times the rounding error. Errors of the motion are the same as with
+ * 0.01, and runs take fewer steps than with 1. */
 static const double INDEX3_VELOCITY_TOLERANCE = 0.1;
-/* As in IDA: above it IDA computes a new matrix or takes a smaller step. */
+/* Largest convergence rate, as in IDA. Above it IDA computes a new matrix or takes a smaller
+ * step. */
 static const double WORST_RATE = 0.9;
 
 static const baum_workspace *workspace_of(const baum_i_ida_newton *newton)
@@ -83,7 +86,7 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton)
   }
 }
 
-/* Largest |x_i| n_i of multipliers; NaN if one of them is NaN. */
+/* Return the largest |x_i| n_i of multipliers x, or NaN if one of them is NaN. */
 static double largest_of(const baum_i_ida_newton *newton, const double *x)
 {
   const double *displacement = N_VGetArrayPointer(newton->displacement);
@@ -95,7 +98,7 @@ static double largest_of(const baum_i_ida_newton *newton, const double *x)
   return largest;
 }
 
-/* Tolerance of lambda in the error test, and its weights. */
+/* Set the tolerance of lambda in the error test, and its weights. */
 static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
 {
   const baum_i_problem *problem = newton->sundials->problem;
@@ -117,7 +120,7 @@ static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
   }
 }
 
-/* Tolerance of displacement j, from the weights of positions. */
+/* Return the tolerance of displacement j. */
 static double position_tolerance(const baum_i_ida_newton *newton, int j)
 {
   const baum_i_problem *problem = newton->sundials->problem;
@@ -221,7 +224,7 @@ int baum_i_ida_newton_attach(baum_i_ida_newton *newton)
   newton->solver = SUNNonlinSol_Newton(newton->sundials->y, newton->sundials->context);
   int flag = newton->solver ? IDASetNonlinearSolver(ida, newton->solver) : IDA_MEM_FAIL;
   if (flag == IDA_SUCCESS) {
-    /* Must come after the call above, which sets IDA's own test. */
+    /* Call this after IDASetNonlinearSolver(), which sets IDA's own test. */
     flag = (int)SUNNonlinSolSetConvTestFn(newton->solver, test, newton);
   }
   return flag;

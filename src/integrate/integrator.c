@@ -1,28 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Common functions of all integrators: properties, memory, accelerations and tolerances. This file
- * names no integrator, so a program links only those that it calls.
+ * refers to no integrator, so a program links only the integrators that it calls.
  *
- * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate
- * w = 1/T and present size |v|:
+ * With the scale s_i of coordinate i (positions have scales of their own) and the rate w = 1/T, the
+ * tolerances are
  *
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
  *
- * Neither the number of revolutions of a crank nor the choice of units therefore matters.
+ * They depend neither on the number of revolutions of a crank nor on the units.
  *
- * Error tests of BDF use a fraction of rtol and atol, so that runs at the same rtol have about the
- * same error whatever the method:
+ * The error tests of BDF methods use a fraction of rtol and atol, so that runs at the same rtol
+ * have about the same error with every method:
  *
- * - A step of order q from an exact history is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), with
- * alpha_0 = 1 + 1/2 + ... + 1/q. It adds alpha_0 times this error to the error of the motion,
- * because the history has errors, too (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
- * Differential
- * Equations I, 1993, III.2: the error constant). CVODE tests the former, IDA the latter. At order
- * 5, which they nearly always use, alpha_0 is 137/60.
- * - Orders end at 5, and BDF takes up to three times the steps of Adams methods, which adds error.
- * With a third of the tolerance, both have at most about the error of Adams methods at the same
- * rtol, in energies, times of events and positions; before, it was up to six times as large. This
- * costs IDA 1.2 times the steps and CVODE 1.33 times (docs/theory/energy.md).
+ * - If the history is exact, a step of order q has the error h^(q+1) y^(q+1) / ((q+1) alpha_0) with
+ *   alpha_0 = 1 + 1/2 + ... + 1/q. Because the history has errors, too, the step adds alpha_0 times
+ *   this error to the error of the motion (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
+ *   Differential Equations I, 1993, III.2: the error constant). CVODE tests the first error, IDA
+ *   the second. At order 5, which they nearly always use, alpha_0 is 137/60.
+ * - The order is at most 5, and BDF takes up to three times the steps of Adams methods, which adds
+ *   error. With a third of the tolerance, both have at most about the error of Adams methods at the
+ *   same rtol, in energies, times of events and positions; without it, up to six times that error.
+ *   This costs IDA 1.2 times the steps and CVODE 1.33 times (docs/theory/energy.md).
  *
  * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
  * steps. */
@@ -35,8 +34,8 @@
 #include "base/alloc.h"
 #include "base/text.h"
 
-/* Steps that differ by less than this fraction are equal. Shifting a node by it changes the error
- * of a step by 1e-6, and it is far above the rounding of times. */
+/* Steps that differ by less than this fraction are treated as equal. Such a difference changes the
+ * error of a step by a fraction of about 1e-6. It is far above the rounding of times. */
 static const double SAME_STEP = 1e-6;
 
 static const double BDF_PORTION = 1.0 / 3.0;
@@ -69,7 +68,7 @@ bool baum_integrator_offers(const baum_integrator *integrator, baum_formulation 
   return integrator && baum_i_integrator_offers(integrator, formulation);
 }
 
-/* The default is always offered. */
+/* BAUM_FORMULATION_DEFAULT is always offered. */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation)
 {
   const baum_formulation *offered = integrator->formulations;

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: mechanisms without degrees of freedom, whose coordinates all follow from Phi(q, t) =
- * 0. Continuation in time:
+/* Kinematics of mechanisms without degrees of freedom. Phi(q, t) = 0 determines all coordinates.
+ * The method is continuation in time:
  *
  *   guess at t + h        q moved by h v + h^2 a / 2
- *   then                  the configuration there, its v and a (continuation.c)
+ *   solution at t + h the configuration, its v and a (continuation.c)
  *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements
  *                         from one of them
  *
- * The step length follows from the last step: the contraction of Newton's iteration grows with the
- * error of the guess, like h^3, and the turning of J like h. Nothing is integrated and no error
- * accumulates: a requested configuration is solved to rounding, whatever the steps. Steps only
- * serve to keep the branch: a step that may have passed a singular configuration is refused and
- * shortened. If no step is short enough, the run ends, at a lock-up (a fold of the path, with no
- * configuration beyond) or where branches cross. */
+ * The step length is chosen from the last step: the contraction of Newton's iteration grows with
+ * the error of the guess, like h^3, and the turning of J (continuation.c) like h. Nothing is
+ * integrated and no error accumulates: a requested configuration is solved to rounding for every
+ * step length. Steps only ensure that the motion stays on its branch: a step that may have passed a
+ * singular configuration is refused and shortened. If no step is short enough, the run ends. It
+ * then is at a lock-up (a fold of the path, beyond which no configuration exists) or where branches
+ * cross. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -22,45 +23,46 @@
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
-/* Values that the next step aims at; they are below the limits of refusal. */
+/* Values for which the next step length is chosen. They are below the limits of refusal. */
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
-static const double SHRINKAGE = 0.5; /* at least, after a refusal */
-static const double COLLAPSE = 0.1;  /* at most */
+static const double SHRINKAGE = 0.5; /* largest factor after a refusal */
+static const double COLLAPSE = 0.1;  /* smallest factor */
 /* [rad] Largest rotation in a first step, approximately. */
 static const double FIRST_TURN = 0.1;
-/* The shortest step, relative to 1/rate of the motion, and in roundings of the time. */
+/* The shortest step: relative to 1/rate of the motion, and as a multiple of the rounding error of
+ * the time. */
 static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
-/* The longest step, relative to 1/rate, while nothing moves. */
+/* The longest step, relative to 1/rate, for a mechanism at rest. */
 static const double LONGEST = 1e6;
-/* |J^-1| above which a configuration counts as singular; at a fold it is about 1e5 when steps
- * end. */
+/* A configuration counts as singular if |J^-1| is above this. At a fold |J^-1| is about 1e5 when no
+ * shorter step is possible. */
 static const double SINGULAR_GAIN = 1e3;
-/* If the share of drivers in the critical forces is above this, the configuration is a fold; where
- * branches cross the share is about 1 / gain. */
+/* The configuration is a fold if the share of drivers (`pull` of continuation.h) is above this.
+ * Where branches cross, the share is about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
-enum { STORED = 4, MOST_PIECES = 10000 /* largest number of short steps inside a step */ };
+enum { STORED = 4, MOST_PIECES = 10000 /* of short steps inside a step */ };
 
 typedef struct kinematics_run {
   baum_i_continuation path;
   double *memory;
   baum_i_configuration stored[STORED];
-  baum_i_configuration *left;  /* beginning of the last step */
-  baum_i_configuration *right; /* its end: the last good configuration */
+  baum_i_configuration *left;  /* start of the last step */
+  baum_i_configuration *right; /* end of the last step: the last good configuration */
   baum_i_configuration *trial;
   baum_i_configuration *spare;
   bool forgotten; /* the next step restarts */
-  double h;       /* [s] > 0, length that the next step tries */
+  double h;       /* [s] > 0, length with which the next step begins */
   baum_i_statistics statistics;
-  baum_i_kept_message evaluation; /* of the last refused evaluation */
+  baum_i_kept_message evaluation; /* message of the last evaluation that failed */
 } kinematics_run;
 
 /* ---- configurations ---- */
 
-/* Count of the numbers of a configuration, which are contiguous from q on. */
+/* Return the count of numbers of a configuration. They are contiguous and begin with q. */
 static size_t number_count(const baum_mechanism *m)
 {
   return (size_t)m->nq + 3 * (size_t)m->nv + (size_t)m->jacobian_size;
@@ -91,7 +93,7 @@ static void extrapolate(const baum_mechanism *m, const baum_i_configuration *fro
   baum_i_move_from(m, from->q, h, work, q);
 }
 
-/* The Hermite polynomial through both ends. */
+/* Evaluate the Hermite polynomial through both ends of the last step. */
 static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m, double t,
                               double *q)
 {
@@ -115,19 +117,19 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
 
 /* ---- steps ---- */
 
-/* Turn a guess into a configuration, and count the iterations. */
+/* Find the configuration near the guess in `to`, and count the iterations. */
 static bool solve(kinematics_run *run, const baum_i_configuration *from, baum_i_configuration *to,
                   baum_i_verdict *verdict)
 {
   bool found = baum_i_continuation_solve(&run->path, from, to, verdict);
   run->statistics.nonlinear_iterations += verdict->iterations;
   if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
-    baum_i_message_keep(&run->evaluation);
+    run->evaluation = baum_i_message_keep();
   }
   return found;
 }
 
-/* Add the time to the message of a callback, which does not know it. */
+/* Add the time to the message of a callback, which does not contain it. */
 static baum_status say_when(const baum_i_configuration *from, baum_status status)
 {
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
@@ -137,7 +139,7 @@ static baum_status say_when(const baum_i_configuration *from, baum_status status
                      baum_message());
 }
 
-/* Factor by which the step that gave this verdict may change. */
+/* Return the factor for the next step length after a step with this verdict. */
 static double change(const baum_i_verdict *verdict)
 {
   bool refused = verdict->refusal != BAUM_I_REFUSAL_NONE;
@@ -166,11 +168,10 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
   char driver[BAUM_I_LABEL_SIZE];
   char resister[BAUM_I_LABEL_SIZE];
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
-    return baum_i_fail(
-      BAUM_ERR_SINGULAR,
-      "t = %.9g s: kinematics: the mechanism locks up here: %s demands more than the other "
-      "constraints allow, above all %s; beyond this time no configuration satisfies them all",
-      t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
+    return baum_i_fail(BAUM_ERR_SINGULAR,
+                       "t = %.9g s: kinematics: the mechanism locks up here: beyond this time no "
+                       "configuration satisfies %s and the other constraints, above all %s",
+                       t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
@@ -179,8 +180,8 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
     t, label_of(m, at->resister, resister));
 }
 
-/* Fail if the cause is a callback, an evaluation or memory. Otherwise return BAUM_OK, with the
- * analysis of the configuration in *at. */
+/* Fail if the cause of the refusal is a callback, an evaluation or memory. Otherwise return BAUM_OK
+ * and analyse the configuration in *at. */
 static baum_status fail_for_cause(kinematics_run *run, const baum_i_configuration *to,
                                   const baum_i_verdict *verdict, const char *when,
                                   baum_i_impasse *at)
@@ -224,8 +225,8 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
     t, h, label_of(m, at.driver, label));
 }
 
-/* Take one step from *from towards t_end, shortened as often as it is refused, into *to. *h is the
- * length to try on entry, and the length for the next step on return. */
+/* Take one step from *from towards t_end and write its end to *to. Refused steps are shortened. *h
+ * is the length to try on entry, and the length for the next step on return. */
 static baum_status step(kinematics_run *run, const baum_i_problem *problem,
                         const baum_i_configuration *from, baum_i_configuration *to, double t_end,
                         double *h)
@@ -258,8 +259,8 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem,
 
 /* ---- inside the last step ---- */
 
-/* If the guess inside the step was refused, reach t by short steps from the left end. Steps below
- * the rounding of the time would not advance. */
+/* Reach t by short steps from the left end, because the guess inside the step was refused. h has a
+ * lower limit, because steps below the rounding of the time would not advance. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
   copy_configuration(problem->workspace->mechanism, run->left, run->trial);
@@ -267,7 +268,8 @@ static baum_status walk(kinematics_run *run, const baum_i_problem *problem, doub
   for (int k = 0; run->trial->t != t; k++) {
     if (k == MOST_PIECES) {
       return baum_i_fail(BAUM_ERR_STEP,
-                         "t = %.9g s: kinematics: %d steps inside the last one do not reach %.9g s",
+                         "t = %.9g s: kinematics: %d short steps inside the last step do not reach "
+                         "the output at %.9g s",
                          run->trial->t, (int)MOST_PIECES, t);
     }
     h = fmax(h, shortest_step(problem, t));
@@ -323,15 +325,15 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
       "from it in more than one way; start at another time or configuration",
       t);
   }
-  return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: kinematics: no configuration that satisfies the constraints is "
-                     "found near the given "
-                     "state; let drivers continue from where they are, and assemble the start",
-                     t);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: kinematics: no configuration that satisfies the constraints is found near the "
+    "given state; let the laws of drivers start at the present coordinates, and assemble the start",
+    t);
 }
 
-/* Find the configuration nearest to a state, on its branch. It becomes both ends of the last
- * step. */
+/* Find the configuration nearest to a state on its branch. It becomes both the start and the end of
+ * the last step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;

@@ -3,10 +3,11 @@
 
 #include <string.h>
 
-/* [rad] Distance between states. The truncation error of a cubic is its fourth power; rounding is
- * 1e-16 over its square. */
+/* [rad] Distance between states. The truncation error of the cubic is about the fourth power of
+ * this distance, the rounding error 1e-16 divided by its square. */
 static const double APART = 0.003;
-/* Fraction of the rate that gravity causes. Slower motions have no clear direction. */
+/* Slowest motion for which a limit is computed, relative to the rate that gravity causes. Slower
+ * motions have no clear direction. */
 static const double SLOW = 0.1;
 
 static baum_status evaluate_behind(const baum_i_problem *problem, const baum_i_state *state,

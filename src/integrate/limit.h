@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations in a singular configuration.
  *
- * In such a configuration the equations allow the accelerations of all branches; next to it,
- * rounding errors are divided by the smallest pivot. The smooth motion has the limit of the
- * accelerations beyond the configuration. Any smooth path that begins with its velocity gives this
- * limit. The path here consists of states q + dt v projected onto the constraints; a cubic through
- * the accelerations at four of them is extrapolated back to the configuration. */
+ * In a singular configuration the equations allow the accelerations of all branches. Near it
+ * rounding errors are amplified, because they are divided by the smallest pivot. The acceleration
+ * of the smooth motion is the limit of the accelerations along the motion that leaves the
+ * configuration. Any smooth path with the same initial velocity has the same limit. The path used
+ * here consists of states q + dt v projected onto the constraints. A cubic through the
+ * accelerations at four of these states is extrapolated back to the configuration. */
 #ifndef BAUM_I_INTEGRATE_LIMIT_H
 #define BAUM_I_INTEGRATE_LIMIT_H
 
 #include "integrate/integrator.h"
 
-/* Smallest pivot, relative to the usual one, below which the limit is more accurate: 0.0002 rad
- * from the configuration. */
+/* If the smallest pivot, relative to the usual one, is below this, the limit is more accurate than
+ * the solution. This is about 0.0002 rad from the singular configuration. */
 #define BAUM_I_PIVOT_IN_POSE 4e-8
 
-/* Find the limit (nv); room (nq + nv). Leaves other states in the workspace. false: there is no
- * limit, because hardly anything moves or an evaluation fails. */
+/* Find the limit (nv). room (nq + nv) is scratch memory. The workspace is left at another state.
+ * Returns false if there is no limit, because hardly anything moves or an evaluation fails. */
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,
                                double *room, double *limit);
 

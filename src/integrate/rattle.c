@@ -7,15 +7,25 @@
  *   q(t + h) = q moved by h v',           Phi(q(t + h)) = 0         (nq)   gives lambda
  *   v(t + h) = v' + (h/2) M^-1 (g - J^T mu)  at q(t + h),  J v = nu        gives mu
  *
- * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of
- * width O(h^2). With constraints and forces that depend on time this holds in the phase space that
- * includes time and its momentum.
+ * For a rigid body in space, the angular momentum m = I w replaces the rotational part of M v':
  *
- * Only the sum of all changes of lambda matters. The acceleration a of the caller has the form M^-1
- * (g - J^T lambda), so Newton's method begins with v' = v + (h/2) a. Its matrix J(q) M^-1 J(q)^T
- * may be kept: it gives changes dq along M^-1 J(q)^T, which change v' by dq / h. Each iteration
- * moves q by h v' from the start of the step, so that the rounding of q does not enter v divided by
- * h.
+ *   m'       = I w + (h/2) (moments of g and -J^T lambda)
+ *   m'' and the orientation at t + h result from m' by a rotation without moments
+ *   I w(t + h) = m'' + (h/2) (moments of g and -J^T mu)  at q(t + h)
+ *
+ * (free_rotation.h; compositions with constraints are symplectic: S. Reich, SIAM J. Numer. Anal. 33
+ * (1996) 475-491.) The gyroscopic moment -w x (I w) is then not part of g, although the
+ * acceleration a of the caller contains it.
+ *
+ * The method is symmetric, and symplectic on the constraint manifold, so the energy of a long run
+ * stays in a band of width O(h^2). If constraints or forces depend on time, the method is
+ * symplectic in the phase space that includes time and its momentum.
+ *
+ * The acceleration a of the caller has the form M^-1 (g - J^T lambda), so Newton's method begins
+ * with v' = v + (h/2) a. Only v' is iterated, because lambda itself is not needed. The matrix J(q)
+ * M^-1 J(q)^T of the start of the step serves all iterations: it gives changes dq along M^-1
+ * J(q)^T, which change v' by dq / h. Each iteration moves q by h v' from the start of the step, so
+ * that v does not contain rounding errors of q divided by h.
  */
 #include <float.h>
 #include <math.h>
@@ -23,30 +33,93 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "base/rotation.h"
 #include "dynamics/chord.h"
+#include "integrate/free_rotation.h"
 #include "integrate/integrator.h"
 
 enum { ITERATIONS = 50 };
 
-/* Changes below this many roundings of the coordinates count as rounding. The scale replaces
- * coordinates that are smaller, as for a body at the origin. */
+/* Changes of coordinates below this fraction count as rounding. Coordinates smaller than the scale,
+ * as of a body at the origin, are replaced by the scale. The largest angle of a step is included
+ * because rounding of the momentum rotates a slender body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that have stopped falling count as rounding up to this many roundings. */
+/* Changes that no longer decrease count as rounding up to this multiple of ROUNDING. */
 static const double STALLED = 256.0;
+
+/* The rotation of a rigid body that has a gyroscopic moment. */
+typedef struct rattle_rotation {
+  int at; /* index of the angular velocity in v */
+  const double *inertia;
+  baum_i_free_rotation free;
+} rattle_rotation;
 
 /* Memory of a run. */
 typedef struct rattle_run {
   int nv;
+  int rotation_count;
+  rattle_rotation *rotations; /* (rotation_count); NULL in planar mechanisms */
+  double largest_angle;       /* [rad] >= 1, h |momentum| / (smallest moment of inertia) */
   int64_t iterations;
-  double *memory; /* all below */
-  double *q;      /* (nq) end of the step */
-  double *v;      /* (nv) half velocities */
+  double *memory;  /* all below */
+  double *q;       /* (nq) end of the step */
+  double *v;       /* (nv) half velocities */
+  double *mean;    /* (nv) velocities that move q; v unless bodies rotate */
+  double *moments; /* (nv) replace gyroscopic moments at the end; NULL unless bodies rotate */
 } rattle_run;
+
+/* ---- rotations ---- */
+
+/* Find the mean velocities of a step from its half velocities, and the moments that replace the
+ * gyroscopic moments in its second half. The half velocities contain the gyroscopic moment at the
+ * start, because a does; this is undone here. */
+static void rotate_bodies(rattle_run *run, const baum_i_state *state, double h)
+{
+  memcpy(run->mean, run->v, (size_t)run->nv * sizeof *run->v);
+  run->largest_angle = 1.0;
+  for (int k = 0; k < run->rotation_count; k++) {
+    const rattle_rotation *r = &run->rotations[k];
+    double half[3];
+    double start[3];
+    double gyroscopic[3];
+    double momentum[3];
+    baum_i_turn(r->inertia, run->v + r->at, half);
+    baum_i_turn(r->inertia, state->v + r->at, start);
+    baum_i_cross(state->v + r->at, start, gyroscopic);
+    memcpy(momentum, half, sizeof half);
+    baum_i_add_scaled3(0.5 * h, gyroscopic, momentum);
+    double size = fabs(h) * sqrt(baum_i_dot3(momentum, momentum)) * r->free.largest;
+    run->largest_angle = fmax(run->largest_angle, size);
+    baum_i_rotate_freely(&r->free, h, momentum, run->mean + r->at);
+    for (int i = 0; i < 3; i++) {
+      run->moments[r->at + i] = (momentum[i] - half[i]) * 2.0 / h;
+    }
+  }
+}
+
+static baum_status find_rotations(rattle_run *run, const baum_workspace *w)
+{
+  const baum_mechanism *m = w->mechanism;
+  if (!m->spatial) {
+    return BAUM_OK;
+  }
+  run->rotations = baum_i_alloc((size_t)m->body_count, sizeof *run->rotations);
+  BAUM_I_TRY(baum_i_check_memory(run->rotations));
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->type->inertia && body->type->depends_on_velocity(body->element.def)) {
+      const double *inertia = body->type->inertia(body, w->point.parameters);
+      run->rotations[run->rotation_count++] =
+        (rattle_rotation){body->v + 3, inertia, baum_i_free_rotation_of(inertia)};
+    }
+  }
+  return BAUM_OK;
+}
 
 /* ---- positions ---- */
 
-/* Would another change only be rounding? Changes fall by a constant factor, which the first change
- * cannot show yet. */
+/* Whether the next change would only be rounding. Changes decrease by a constant factor, which is
+ * known from the second change on. */
 static bool is_last(double size, double before, double rounding)
 {
   if (size <= rounding || isinf(before)) {
@@ -56,10 +129,12 @@ static bool is_last(double size, double before, double rounding)
   return falls ? size * (size / before) <= 0.01 * rounding : size <= STALLED * rounding;
 }
 
-static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,
-                     double h)
+static void move_end(rattle_run *run, const baum_mechanism *m, const baum_i_state *state, double h)
 {
-  baum_i_move_from(m, state->q, h, run->v, run->q);
+  if (run->rotation_count > 0) {
+    rotate_bodies(run, state, h);
+  }
+  baum_i_move_from(m, state->q, h, run->mean, run->q);
 }
 
 static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum_i_state *state,
@@ -78,7 +153,8 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
     move_end(run, m, state, h);
     double before = size;
     size = baum_i_scaled_size(m, w->a);
-    if (is_last(size, before, ROUNDING * fmax(1.0, baum_i_position_size(m, run->q)))) {
+    double largest = fmax(run->largest_angle, baum_i_position_size(m, run->q));
+    if (is_last(size, before, ROUNDING * largest)) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * before)) {
@@ -101,7 +177,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   }
   move_end(run, w->mechanism, state, h);
   BAUM_I_TRY(w->mechanism->nc > 0 ? find_positions(run, w, state, h) : BAUM_OK);
-  BAUM_I_TRY(baum_i_hold_velocities(w, state->t + h, run->q, run->v, 2.0 / h));
+  BAUM_I_TRY(baum_i_hold_velocities(w, state->t + h, run->q, run->v, run->moments, 2.0 / h));
   memcpy(state->q, run->q, (size_t)w->mechanism->nq * sizeof *run->q);
   for (int i = 0; i < nv; i++) {
     state->v[i] = run->v[i] + 0.5 * h * w->a[i];
@@ -113,18 +189,19 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
 
 static void close_run(void *self)
 {
-  baum_i_free(((rattle_run *)self)->memory);
+  rattle_run *run = self;
+  baum_i_free(run->memory);
+  baum_i_free(run->rotations);
 }
 
 static baum_status fail_velocities(const baum_i_element *element)
 {
   char label[BAUM_I_LABEL_SIZE];
-  return baum_i_fail(
-    BAUM_ERR_UNSUPPORTED,
-    "simulation options: rattle needs forces that depend on time and position only, but %s "
-    "depends on velocities, or does not set depends_on_velocity = false; take rk4 or rk8, or "
-    "generalized_alpha if it is stiff",
-    baum_i_label(element, label));
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                     "simulation options: rattle needs forces that depend on time and position "
+                     "only, but %s depends on velocities, or does not set depends_on_velocity = "
+                     "false; take rk4 or rk8, or generalized_alpha if the force is stiff",
+                     baum_i_label(element, label));
 }
 
 static baum_status check_body(const baum_i_body *body)
@@ -137,7 +214,8 @@ static baum_status check_body(const baum_i_body *body)
                        "constant_mass = true",
                        baum_i_label(&body->element, label));
   }
-  bool depends = body->type->depends_on_velocity && body->type->depends_on_velocity(def);
+  bool depends =
+    body->type->depends_on_velocity && body->type->depends_on_velocity(def) && !body->type->inertia;
   return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
@@ -165,10 +243,14 @@ static baum_status open_run(void *self, const void *table, const baum_i_problem 
   const baum_mechanism *m = problem->workspace->mechanism;
   BAUM_I_TRY(check_mechanism(m));
   run->nv = m->nv;
-  run->memory = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *run->memory);
+  run->largest_angle = 1.0;
+  BAUM_I_TRY(find_rotations(run, problem->workspace));
+  run->memory = baum_i_alloc((size_t)m->nq + 3 * (size_t)m->nv, sizeof *run->memory);
   BAUM_I_TRY(baum_i_check_memory(run->memory));
   run->q = run->memory;
   run->v = run->q + m->nq;
+  run->mean = run->rotation_count > 0 ? run->v + m->nv : run->v;
+  run->moments = run->rotation_count > 0 ? run->mean + m->nv : NULL;
   return BAUM_OK;
 }
 

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Explicit Runge-Kutta methods for q' = N v, v' = a(t, q, v) (C. Runge, 1895; W. Kutta, 1901;
- * table: J. Butcher,
- * 1964). With y = (q, v), s stages:
+ * table: J. Butcher, 1964). With y = (q, v), s stages:
  *
  *   Y_i = (Q_i, V_i) = y + h sum_{j<i} a_ij K_j                  (nq + nv)  i = 1 .. s
- *   K_i = (N(Q_i) V_i, A_i),  A_i = a(t + c_i h, Q_i, V_i)       (nq + nv)  A_1 is given by the
- *   caller y(t + h) = y + h sum b_i K_i,  its q normalized
+ *   K_i = (N(Q_i) V_i, A_i),  A_i = a(t + c_i h, Q_i, V_i)       (nq + nv)
+ *   y(t + h) = y + h sum b_i K_i,  its q normalized
  *
- * The state is written last, so that a failing stage leaves it as it was.
+ * The caller provides A_1.
+ *
+ * The state is written only at the end, so that it does not change if a stage fails.
  */
 #include "integrate/rk.h"
 

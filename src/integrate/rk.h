@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Embedded
+/* Explicit Runge-Kutta methods: stages and fixed steps, for the table of any method. Embedded
  * pairs, which choose their step, are in rk_adaptive.h. */
 #ifndef BAUM_I_INTEGRATE_RK_H
 #define BAUM_I_INTEGRATE_RK_H
@@ -11,12 +11,12 @@
 typedef struct baum_i_rk_table {
   int stages;
   const double *c; /* (stages) */
-  const double *a; /* strictly lower triangle, its rows one after the other */
+  const double *a; /* strictly lower triangle, row by row */
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run; first member of the memory of derived methods. Arrays over (q, v) have `size`
- * entries: nq positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
+/* Memory of a run, and first member of the memory of methods with more. Arrays over (q, v) have
+ * `size` entries: nq positions, nv velocities, and zeros up to a multiple of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
   const baum_i_rk_kernel *kernel;
@@ -28,14 +28,14 @@ typedef struct baum_i_rk {
   double *point; /* (size) (Q_i, V_i) of the present stage */
 } baum_i_rk;
 
-/* As in baum_integrator; the table is a baum_i_rk_table. */
+/* Members of baum_integrator. `table` points to a baum_i_rk_table. */
 baum_status baum_i_rk_open(void *self, const void *table, const baum_i_problem *problem,
                            const baum_i_state *start);
 void baum_i_rk_close(void *self);
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                            const double *a);
 
-/* What all Runge-Kutta methods offer. */
+/* Formulations and gains of all Runge-Kutta methods. */
 /* clang-format off */
 #define BAUM_I_RK_CHOICES                                                             \
   .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,           \
@@ -52,8 +52,8 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
 
 /* ---- for methods with more memory ---- */
 
-/* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over
- * (q, v). All arrays are one allocation, rk->rates. */
+/* Initialize *rk with memory for rate_count >= stages rates. *more receives more_count further
+ * arrays over (q, v). All arrays are one allocation, rk->rates. */
 baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more);

@@ -6,7 +6,7 @@
  *   1   | -1    2
  *       |  1/6  2/3  1/6
  *
- * A violation obeys z = R(mu), R(mu) = 1 + mu + mu^2/2 + mu^3/6.
+ * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6.
  */
 #include "integrate/rk.h"
 

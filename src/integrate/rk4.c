@@ -7,7 +7,7 @@
  *   1   | 0    0    1
  *       | 1/6  1/3  1/3  1/6
  *
- * A violation obeys z = R(mu), R(mu) = 1 + mu + mu^2/2 + mu^3/6 + mu^4/24.
+ * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6 + mu^4/24.
  */
 #include "integrate/rk.h"
 

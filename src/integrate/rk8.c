@@ -3,13 +3,13 @@
  * 5 and 3 and an interpolant of order 7 by E. Hairer and G. Wanner: DOP853 (Hairer, Norsett, Wanner
  * 1993, sections II.5, II.6 and II.10).
  *
- * The estimates use no rate at the end of the step. The estimate of order 3 has the weights b minus
- * 0.2440..., 0.7338... and 0.0220... for rates 1, 9 and 12. Three extra rates of the interpolant
- * lie at 0.1, 0.2 and 7/9 of the step. Numbers are those of the authors' program, which gives 30
- * digits, rounded.
+ * The error estimates do not use the rate at the end of the step. The estimate of order 3 has the
+ * weights b, from which 0.2440..., 0.7338... and 0.0220... are subtracted for rates 1, 9 and 12.
+ * Three extra rates of the interpolant lie at 0.1, 0.2 and 7/9 of the step. The numbers are those
+ * of the authors' program, which has 30 digits, rounded to double.
  *
- * A violation obeys z = R(mu), where R is the exponential series up to mu^8, and has the table's
- * coefficients from there up to mu^12.
+ * The amplification of a violation is z = R(mu). R is the exponential series up to mu^8; its
+ * coefficients of mu^9 to mu^12 follow from the table.
  */
 #include "integrate/rk_adaptive.h"
 

@@ -10,40 +10,42 @@
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
  *
- * Whatever F_4 ... are, the interpolant has the values and rates of both ends. Norm and tolerances
- * are the same as for CVODE, so that rtol means the same for all methods. Extra rates of the
- * interpolant are evaluated only for a time inside the step, and never affect the motion.
+ * For all F_4 ... the interpolant has the values and rates of both ends. Norm and tolerances are
+ * the same as for CVODE, so that rtol means the same for all methods. Extra rates of the
+ * interpolant are evaluated only if a time inside the step is requested, and never affect the
+ * motion.
  *
- * Projection: the end of a step is projected before its rate is taken, so that interpolant and next
- * step begin at the projected state. If the estimate needs that rate, it is therefore computed
- * after the projection. The projection is not larger than the estimate, and this saves one
- * evaluation in each step.
+ * Projection: the end of a step is projected before its rate is evaluated, so that the interpolant
+ * ends and the next step begins at the projected state. If the error estimate needs that rate, it
+ * is computed after the projection. This saves one evaluation in each step, and the projection
+ * changes the state by no more than the estimate.
  *
- * The end of a step is t + h as rounded, and h is the rounded difference, so that time and motion
- * agree. */
+ * The end of a step is t + h after rounding, and h is then set to the difference of the rounded
+ * times, so that time and motion agree. */
 #include "integrate/rk_adaptive.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Weight of the error estimate of order 3, squared. */
+/* Square of the weight of the error estimate of order 3. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
-/* Largest displacement by the projection, in units of the tolerance, if large ones are refused. */
+/* Largest displacement by the projection, in units of the tolerance, if
+ * problem->distrusts_projection. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is larger: its stages still have different
- * times. */
+/* Shortest step, relative to the time or to T, whichever is larger. The times of its stages still
+ * differ. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
-/* Largest number of tries of one step. Each is at most 0.9 times the one before, so half of them
- * suffice from T to the shortest step. */
+/* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
+ * half of this number suffices from T to the shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
 
-/* h: 0 where no step has begun. */
+/* h is 0 if no step has begun. */
 static baum_status fail_with_evaluation(const baum_i_rk_adaptive *run, double h)
 {
   return baum_i_fail_in_step(run->failure, run->message.text, run->pair->name, run->t, h);
@@ -53,10 +55,10 @@ static void keep_failure(baum_i_rk_adaptive *run, baum_status status)
 {
   run->failure = status;
   run->failure_t = run->t;
-  baum_i_message_keep(&run->message);
+  run->message = baum_i_message_keep();
 }
 
-/* May a shorter step help? */
+/* Tell whether a shorter step may help. */
 static bool may_shorten(const baum_i_problem *problem, baum_status status)
 {
   if (status == BAUM_ERR_CALLBACK) {
@@ -66,8 +68,8 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
          status == BAUM_ERR_CONVERGENCE;
 }
 
-/* Fail because the step is too short. If steps shrink towards a time where evaluations fail, the
- * last evaluation may succeed; a failure very close to it is still the reason. */
+/* Fail because the step is too short. If an earlier evaluation failed very close to this time, it
+ * is the reason, even though the last evaluation succeeded. */
 static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double h)
 {
@@ -95,7 +97,7 @@ static void weigh(baum_i_rk_adaptive *run, const baum_i_problem *problem)
   }
 }
 
-/* Tolerances below the rounding of the state can never be met. */
+/* Refuse tolerances below the rounding of the state, because no step can meet them. */
 static baum_status check_tolerances(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   static const double ONE = 1.0;
@@ -116,7 +118,7 @@ static double square(const baum_i_rk_adaptive *run, const double *weights)
   return rk->kernel->square(rk->size, run->pair->error_count, weights, rk->rates, run->weights);
 }
 
-/* Estimated error of the step by h, in units of the tolerance. */
+/* Return the estimated error of the step by h in units of the tolerance. */
 static double estimate(const baum_i_rk_adaptive *run, double h)
 {
   const baum_i_rk_pair *pair = run->pair;
@@ -131,8 +133,8 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* Assume an error constant of one and a local error equal to the tolerance. The first step corrects
- * the length. */
+/* Choose the first step: its local error equals the tolerance if the error constant is one. Step
+ * control then corrects the length. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -170,7 +172,7 @@ void baum_i_rk_adaptive_forget(void *self)
   run->unfinished = true;
 }
 
-/* Make the end of the last step the start of the next. */
+/* Make the end of the last step the start of the next one. */
 static void go_on(baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -201,7 +203,7 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
                                double *moved)
 {
   int nq = run->rk.nq;
-  double *before = run->dense; /* has none of this step yet */
+  double *before = run->dense; /* free, because it has no data of this step yet */
   double squares = 0.0;
   memcpy(before, run->end, (size_t)nq * sizeof *before);
   baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nq);
@@ -213,8 +215,8 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
   return status;
 }
 
-/* Project the end and evaluate its rate. If the velocity of a driver jumps, only the projection
- * shows it, not the accelerations. */
+/* Project the end and evaluate its rate. A jump of a driver's velocity does not affect the
+ * accelerations; only the projection shows it. */
 static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double *error)
 {
@@ -232,8 +234,8 @@ static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_proble
   return baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
 }
 
-/* Try a step from t to t_end: find its end, the rate there, and its error; the two only if the
- * error is at most `most`. */
+/* Try a step from t to t_end: estimate its error and, if the error is at most `most`, find the end
+ * of the step and the rate there. */
 static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *problem, double most,
                             double *error)
 {
@@ -255,8 +257,8 @@ static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *probl
   return BAUM_OK;
 }
 
-/* Accept a step. If it was cut to `length` for a singular configuration ahead, the wanted length
- * stays, because the next step needs it to pass the configuration. */
+/* Accept a step. If it was shortened to `length` because of a singular configuration ahead, the
+ * wanted length is kept, because the next step needs it to pass the configuration. */
 static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
@@ -271,14 +273,14 @@ static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_
   memcpy(state->v, run->end + run->rk.nq, (size_t)run->rk.nv * sizeof *state->v);
 }
 
-/* Choose the end of a step of about this length. */
+/* Choose the end of a step of about the given length. */
 static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *problem, double length)
 {
   length = fmin(length, problem->max_step);
   double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
-    length = 0.5 * left; /* two equal steps rather than a tiny last one */
+    length = 0.5 * left; /* two equal steps, to avoid a tiny last one */
   }
   run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
   length = fmin(length, left);
@@ -287,7 +289,7 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   return is_sound ? BAUM_OK : fail_short(run, problem, length);
 }
 
-/* Try until a step is accepted. */
+/* Try steps until one is accepted. */
 static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_rk_crossing_look(&run->crossing, &run->rk, problem, run->t);
@@ -298,7 +300,7 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
                                               run->control.step, &forced);
     BAUM_I_TRY(choose_end(run, problem, length));
     double most = baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol;
-    most = fmax(1.0, most); /* error that is accepted, in units of the tolerance */
+    most = fmax(1.0, most); /* largest accepted error, in units of the tolerance */
     baum_status status = try_step(run, problem, most, &error);
     if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
       run->forced += error > 1.0;
@@ -314,7 +316,7 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     if (forced || status != BAUM_OK) {
       run->crossing.least = 0.0; /* for another reason, perhaps */
     }
-    /* Use the error unless evaluations failed. */
+    /* The error is known unless evaluations failed. */
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
@@ -385,7 +387,8 @@ static baum_status prepare_dense(baum_i_rk_adaptive *run, const baum_i_problem *
   return BAUM_OK;
 }
 
-/* The nested form of the head of this file, at coordinate i of (q, v). */
+/* Evaluate the interpolant in the nested form of the head of this file, for coordinate i of (q,
+ * v). */
 static double value_at(const baum_i_rk_adaptive *run, double x, int i)
 {
   int n = run->rk.size;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Embedded Runge-Kutta pairs, which estimate their error and choose their step: one driver, and a
- * table for each pair. With a fixed step they use baum_i_rk_step() of rk.h. */
+/* Embedded Runge-Kutta pairs, which estimate their error and choose their step: one implementation,
+ * and a table for each pair. With a fixed step they use baum_i_rk_step() of rk.h. */
 #ifndef BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 #define BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 
@@ -9,8 +9,8 @@
 #include "integrate/rk_crossing.h"
 #include "integrate/step_control.h"
 
-/* A pair of s stages. Rate s (from 0) is that at the end of the step, from which the next one
- * begins. Extra rates, for the interpolant alone, come after it. */
+/* A pair with s stages. Rates are counted from 0. Rate s is that at the end of the step, which is
+ * also the first rate of the next step. Extra rates, which only the interpolant uses, follow. */
 typedef struct baum_i_rk_pair {
   const char *name; /* of the integrator, in messages */
   baum_i_rk_table table;
@@ -20,8 +20,8 @@ typedef struct baum_i_rk_pair {
   const double *error3; /* (error_count) of order 3, or NULL */
   int extra;
   const double *extra_c;   /* (extra) */
-  const double *extra_a;   /* rows over all rates before: s + 1, s + 2, ... */
-  int dense;               /* coefficients of the interpolant that are sums of rates */
+  const double *extra_a;   /* rows of weights of all earlier rates: s + 1, s + 2, ... numbers */
+  int dense;               /* number of F_4 ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 
@@ -36,19 +36,19 @@ typedef struct baum_i_rk_adaptive {
   double *end;     /* (size) (q, v) at its end */
   double *weights; /* (size) 1 / tolerance */
   double *dense;   /* ((3 + pair->dense) x size) F of the last step */
-  bool has_step;   /* t .. weights are of a step */
-  bool has_dense;  /* F is of that step */
-  bool unfinished; /* a start or step that failed must be restarted */
+  bool has_step;   /* t .. weights belong to an accepted step */
+  bool has_dense;  /* F belongs to that step */
+  bool unfinished; /* a start or step failed, so the next step restarts */
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
-  /* An evaluation that failed in a try, after which a smaller step was taken. */
+  /* The last evaluation that failed in a try and was followed by a shorter try. */
   baum_status failure;         /* BAUM_OK: none */
   double failure_t;            /* start of that try */
   baum_i_kept_message message; /* of that evaluation */
 } baum_i_rk_adaptive;
 
-/* As in baum_integrator; the table is a baum_i_rk_pair. */
+/* Members of baum_integrator. `table` points to a baum_i_rk_pair. */
 baum_status baum_i_rk_adaptive_open(void *self, const void *table, const baum_i_problem *problem,
                                     const baum_i_state *start);
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,
@@ -65,7 +65,7 @@ void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out);
   BAUM_I_RK_CHOICES,                                                                  \
   .memory = sizeof(baum_i_rk_adaptive),                                               \
   .open = baum_i_rk_adaptive_open,                                                    \
-  .close = baum_i_rk_close, /* a run begins with its baum_i_rk */                      \
+  .close = baum_i_rk_close, /* baum_i_rk is the first member */                      \
   .step = baum_i_rk_step,                                                             \
   .advance = baum_i_rk_adaptive_advance,                                              \
   .interpolate = baum_i_rk_adaptive_interpolate,                                      \

@@ -6,34 +6,35 @@
 
 #include "integrate/limit.h"
 
-/* [rad] Smallest motion in a step near a singular configuration, and in a step over it. */
+/* [rad] Scaled motion in a step: the least near a singular configuration (SHORT), and that of a
+ * step of fixed length over it (STEP_OVER). */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
-/* Error of a step over a singular configuration, relative to the scales, above which it is refused
- * nevertheless. */
+/* A step over a singular configuration is refused if its error, relative to the scales, is larger
+ * than this. */
 static const double LARGEST_FORCED = 0.01;
-/* A step over a singular configuration may have this error, relative to the scales, divided by p at
- * its start. It is caused by rounding, and by gains that correct violations. With 40 windows the
- * product was up to 2e-10. Refusing the step would not help, because a step from closer to the
- * configuration is less accurate. */
+/* A step over a singular configuration may have the error ROUNDING / p, relative to the scales,
+ * with p at its start. Rounding causes this error, and gains that correct violations. For
+ * n_four_bar of the catalogue with 40 windows the error times p was up to 2e-10. Refusing such a
+ * step would not help, because a step from a point closer to the configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
-/* Pivots relative to the usual one. Below the first, the method searches for a singular
- * configuration ahead. A step that starts above the first must not end below the second, where
- * rounding divided by p is large. */
+/* Pivots p relative to the usual one. Below PIVOT_AHEAD, the method searches for a singular
+ * configuration ahead. A step that starts above PIVOT_AHEAD must not end below PIVOT_POOR, where
+ * the error ROUNDING / p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
-/* [rad] Distance over which pivots are compared to find the configuration. */
+/* [rad] Distance between the two pivots from which the singular configuration is extrapolated. */
 static const double LOOK = 1e-4;
 
-/* Below this pivot a start may be singular; the usual pivot is then found this many radians further
- * on. */
+/* If the pivot at a start is below PIVOT_OF_START, the start may be singular. The usual pivot is
+ * then found FURTHER radians ahead. */
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a singular configuration the method is stuck after this many steps in a row that are
- * followed by a step, or try, of less than this many radians. Unhindered steps grow sixfold; 1e8
- * steps of this length make one radian. */
+/* Near a singular configuration the method is stuck after HELD successive steps or tries of less
+ * than TINY radians. Otherwise steps would grow up to sixfold each; 1e8 steps of this length make
+ * one radian. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
@@ -44,7 +45,8 @@ static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
   return fmax(rate, problem->rate);
 }
 
-/* Pivot of the last evaluation, relative to the usual pivot, which is raised if it is smaller. */
+/* Return the pivot of the last evaluation relative to the usual pivot, which is the largest so
+ * far. */
 static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
@@ -52,7 +54,7 @@ static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *prob
   return pivot / crossing->usual;
 }
 
-/* Find the widest gap between stages, which are in no order. */
+/* Find the widest gap between the times of stages, which are not sorted. */
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table)
 {
   double width = 0.0;
@@ -68,8 +70,9 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
   }
 }
 
-/* At a start in a singular configuration, only pivots ahead can serve for comparison. The
- * configuration for them need not be exactly on the path. */
+/* Find the usual pivot for a start in a singular configuration. The pivot at the start is nearly 0
+ * and no earlier one is known, so the usual pivot is that of a later configuration. It need not be
+ * exactly on the path. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -86,7 +89,7 @@ static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* Replace the first rate of a singular start by its limit. */
+/* Replace the acceleration at a singular start by its limit. */
 static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, double t)
 {
   const baum_i_state start = {.t = t, .q = rk->start, .v = rk->start + rk->nq};
@@ -111,7 +114,8 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* [s] Extrapolate the square root of the pivot, which falls linearly, to zero. */
+/* [s] Find the time until the singular configuration: the square root of the pivot falls linearly
+ * and is extrapolated to zero. */
 static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -140,9 +144,9 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* A step passes the configuration between two stages, from as far away as its length allows. It is
- * not reached by a step so short that the next one could not grow to the length, nor from so close
- * that stages are no further away than it is. */
+/* If the length suffices, the step is chosen so that the configuration is in the middle of the
+ * widest gap between stages. Otherwise it ends where a step of this length can start to pass the
+ * configuration, but is at least a fifth of the length, so that the next step can grow to it. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced)
@@ -150,7 +154,7 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
   double over = crossing->ahead / crossing->gap;
   double before = crossing->ahead - crossing->gap * length;
   if (length < crossing->least && baum_i_rows_are_apart(problem->workspace, t, rk->start)) {
-    crossing->least = 0.0; /* a light body turns, which needs short steps */
+    crossing->least = 0.0; /* not singular: a light body rotates fast and needs short steps */
   }
   *forced = length < crossing->least;
   if (*forced) {
@@ -170,7 +174,7 @@ double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bo
   return fabs(h) > crossing->ahead ? fmin(ROUNDING / crossing->pivot, LARGEST_FORCED) : 0.0;
 }
 
-/* A step that started without a search for a configuration ahead must not end near one. */
+/* A step that started without a search for a singular configuration ahead must not end near one. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   crossing->pivot_end = see_pivot(crossing, problem);

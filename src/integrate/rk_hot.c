@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Linear combinations of rates, BAUM_I_RK_LANES coordinates at a time, whose sums stay in
- * registers. Weights that are zero, as many are in tables of high order, are skipped. */
+/* Linear combinations of rates. BAUM_I_RK_LANES coordinates are processed at a time, so that their
+ * sums stay in registers. Zero weights, which are frequent in tables of high order, are skipped. */
 #include "base/hot.h"
 #include "integrate/rk_kernel.h"
 

@@ -4,13 +4,13 @@
  *   v(t + h) = v + h a        (nv)
  *   q(t + h) = q moved by h v(t + h)   (nq)   new velocities
  *
- * A violation obeys z^2 + (B + 2A - 2) z + (1 - 2A), which is not the polynomial (19) of explicit
- * Euler: its dead-beat point is alpha = 1/(2h), beta = 1/h, and that of explicit Euler is unstable
- * here.
+ * The amplification z of a violation is a root of z^2 + (B + 2A - 2) z + (1 - 2A), which differs
+ * from the polynomial (19) of explicit Euler. The dead-beat point is alpha = 1/(2h), beta = 1/h.
+ * The dead-beat point of explicit Euler is unstable here.
  */
 #include "integrate/integrator.h"
 
-/* If q is a vector, one pass updates v and q. */
+/* Update v and q in one pass, if q is a vector. */
 static void add_both(int n, double h, const double *restrict a, double *restrict v,
                      double *restrict q)
 {

@@ -161,7 +161,7 @@ baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *a
            ? BAUM_OK
            : baum_i_fail(BAUM_ERR_UNSUPPORTED,
                          "%s uses several past steps, so no gains remove a violation in one step; "
-                         "baum_stability_best() has the point of fastest decay",
+                         "baum_stability_best() returns the point of fastest decay",
                          integrator->name);
 }
 
@@ -187,7 +187,7 @@ static baum_status check_grid(const double alpha_h[2], const double beta2_h2[2],
   return check_out(radius, "radius");
 }
 
-/* Point k of n, both ends included; their difference may be beyond double. */
+/* Return point k of n in a range, both ends included. The difference of the ends may overflow. */
 static double share(const double range[2], int32_t k, int32_t n)
 {
   double part = n > 1 ? (double)k / (n - 1) : 0.0;

@@ -52,10 +52,11 @@ static int create_context(baum_i_sundials *sundials)
 
 /* ---- vectors ----
  *
- * SUNDIALS 6.4 clones vectors without checking for memory, and after a failure at the start it
- * frees some of them twice. All vectors are therefore allocated beforehand, where a failure becomes
- * a status. Cloning takes the next one, destroying does nothing, and closing frees them. A pointer
- * to the stock precedes the numbers of each vector. */
+ * SUNDIALS 6.4 clones vectors without checking for lack of memory, and after a failure at the start
+ * it frees some of them twice. All vectors are therefore allocated beforehand, where lack of memory
+ * becomes a status. Cloning returns the next of these vectors, destroying does nothing, and
+ * baum_i_sundials_close() frees them. A pointer to the baum_i_sundials precedes the numbers of each
+ * vector. */
 
 enum { PREFIX = 1 };
 
@@ -135,7 +136,7 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
-  /* The flag `retry` is only valid after these two failures. */
+  /* The flag `retry` is set only by these two failures. */
   bool may_retry = status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
   sundials->stopped = !(may_retry && sundials->problem->workspace->point.retry);
   return sundials->stopped ? -1 : 1;
@@ -166,7 +167,7 @@ void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y,
 
 /* ---- displacements ---- */
 
-/* The part of workspace->work_q after that of baum_i_tangent(). */
+/* Return the part of workspace->work_q that follows the part used by baum_i_tangent(). */
 static double *normal_of(const baum_i_sundials *sundials)
 {
   const baum_workspace *w = sundials->problem->workspace;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Common parts of CVODE and IDA runs: vectors, equations, the order of the unknowns. Only files of
- * CVODE and IDA include it, and only when the build has SUNDIALS.
+ * CVODE and IDA include this header, and only if the build has SUNDIALS.
  *
- * SUNDIALS never prints: each run has its own context, and its error texts are kept here. */
+ * SUNDIALS never prints: each run has its own context, and SUNDIALS' error texts are stored in
+ * `complaint`. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
 #define BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
 
@@ -16,46 +17,46 @@
 
 enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256, BAUM_I_SUNDIALS_VECTORS = 40 };
 
-/* First member of a run. */
+/* First member of the memory of a run. */
 typedef struct baum_i_sundials {
   const struct baum_i_sundials_method *method;
   SUNContext context;
   N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all vectors of a run, allocated together */
-  int taken;                                 /* of them */
+  int taken;                                 /* number of vectors in use */
   double *numbers;                           /* their memory */
   void *memory;                              /* of CVODE or IDA */
-  N_Vector y;                                /* end of the last step */
+  N_Vector y;                                /* unknowns at the end of the last step */
   N_Vector inside;                           /* interpolated */
   const double *present;                     /* q of the last evaluation */
-  const baum_i_problem *problem;             /* of the call under way */
-  bool unfinished;        /* since begin: a start or step that failed needs a restart */
-  bool stops;             /* a stop time is set */
-  bool stopped;           /* an evaluation of this call failed for good */
+  const baum_i_problem *problem;             /* of the present call */
+  bool unfinished;                           /* a start or step failed, so the next step restarts */
+  bool stops;                                /* a stop time is set */
+  bool stopped;                              /* an evaluation failed and no smaller step can help */
   baum_status evaluation; /* status of the last evaluation that failed, or BAUM_OK */
-  double origin;          /* [s] SUNDIALS is told t - origin: a late start costs no digits */
-  double t;               /* start of the step under way */
+  double origin;          /* [s] SUNDIALS' time is t - origin, to keep digits after a late start */
+  double t;               /* start of the present step */
   double evaluated_at;    /* start of the step in which that evaluation failed */
   char message[BAUM_I_MESSAGE_SIZE];              /* of that evaluation */
-  char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
-  bool pivots_forgotten;                          /* KLU must choose pivots again */
+  char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last error text of SUNDIALS; "": none */
+  bool pivots_forgotten;                          /* KLU must choose new pivots */
   int64_t full_factorizations;                    /* times KLU chose pivots */
-  baum_i_statistics before;                       /* counts up to the last restart */
+  baum_i_statistics before;                       /* counts before the last restart */
 } baum_i_sundials;
 
 /* Create a context with a silent error handler and vectors of length n. Close it after everything
- * that was created with it. A zeroed one may be closed. */
+ * that was created with it. A zeroed struct may be closed. */
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* Take one of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for
- * the few of this library. */
+/* Return one of the preallocated vectors. When SUNDIALS clones it, the clone is also preallocated.
+ * Returns NULL if none is left, which does not occur for vectors of this library. */
 N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
-/* Keep an error text of SUNDIALS. */
+/* Store an error text of SUNDIALS. */
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
-/* The return value of a callback: 0, +1 if a smaller step may help, otherwise -1. Stores a
- * failure. */
+/* Convert a status to the return value of a callback: 0 on success, +1 if a smaller step may help,
+ * otherwise -1. Stores a failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
 /* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */
@@ -64,21 +65,21 @@ void baum_i_sundials_pack(const baum_mechanism *mechanism, const double *q, cons
                           double *y);
 void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, double *q, double *v);
 
-/* y' at y, whose acceleration is workspace->a. */
+/* Set dy to y' at y, with the accelerations workspace->a. */
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
-/* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q
- * near the manifold: dq = N dx + n, with n = 0 where q is a vector. */
+/* Newton's iterations solve for displacements dx (nv) in place of dq (nq), at a q near the
+ * manifold: dq = N dx + n, where n is off the manifold, and n = 0 if q is a vector. */
 
-/* Returns dx, valid until workspace->work_q is used again. work_q also holds n for the next
- * call. */
+/* Return dx, which is valid until workspace->work_q is used again. work_q also stores n for
+ * baum_i_sundials_join(). */
 const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,
                                     const double *dq);
-/* dq = N dx + factor n. */
+/* Set dq = N dx + factor n. */
 void baum_i_sundials_join(const baum_i_sundials *sundials, const double *q, const double *dx,
                           double factor, double *dq);
 
-/* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
+/* Callback of CVODE and IDA: set the error weights 1 / tolerance of y. */
 int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run);
 
 #endif

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The driver of CVODE and IDA: creation, steps, stops, interpolation, restarts, counters and
- * messages of both.
+/* Common implementation of CVODE and IDA: creation, steps, stops, interpolation, restarts, counters
+ * and messages.
  *
- * SUNDIALS counts time from the last start, so that a late start costs no digits.
+ * The time given to SUNDIALS counts from the last start, so that steps lose no digits when t is
+ * large.
  */
 #include "integrate/integrator.h"
 
@@ -18,7 +19,7 @@
 
 /* ---- messages ---- */
 
-/* Flags by package, 0 if it has none, with their meaning and advice. */
+/* Flags of CVODE and IDA (0: the package has no such flag), with their meaning and advice. */
 static const struct {
   int flag[2];
   baum_status status;
@@ -52,7 +53,7 @@ static const struct {
    "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
   {{CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL},
    BAUM_ERR_SINGULAR,
-   "the linear solution in Newton's iteration failed; take rk8, or a smaller rtol"},
+   "the linear equations of Newton's iteration could not be solved; take rk8, or a smaller rtol"},
   {{CV_NLS_FAIL, IDA_NLS_FAIL},
    BAUM_ERR_CONVERGENCE,
    "the iteration failed; take rk8, or a smaller rtol"},
@@ -65,13 +66,13 @@ static const struct {
 
 enum { FLAG_COUNT = sizeof FLAGS / sizeof *FLAGS };
 
-/* step: 0 where none was tried. */
+/* step is 0 if no step was tried. */
 static baum_status fail_with_evaluation(const baum_i_sundials *run, double step)
 {
   return baum_i_fail_in_step(run->evaluation, run->message, run->method->name, run->t, step);
 }
 
-/* Fail with a flag; an evaluation that failed comes first. */
+/* Fail with the reason of a flag, or of an evaluation that failed. */
 static baum_status fail(const baum_i_sundials *run, int flag, double step)
 {
   if (run->evaluation != BAUM_OK) {
@@ -160,8 +161,8 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out)
 
 /* ---- one step ---- */
 
-/* Begin a step. If steps shrink towards a time where evaluations fail, the last evaluation may
- * succeed; a failure very close to it is still the reason. */
+/* Begin a step. A failure of an evaluation very close to this time is kept: if steps become too
+ * short, it is the reason, even if the last evaluation succeeds. */
 static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
 {
   bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;
@@ -170,23 +171,24 @@ static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, doub
   run->evaluation = evaluation;
 }
 
-/* Pass the stop time on. SUNDIALS 6.4 cannot cancel a stop, only postpone it. */
+/* Pass the stop time to SUNDIALS. SUNDIALS 6.4 cannot cancel a stop time; it is set to infinity
+ * instead. */
 static void give_stop(baum_i_sundials *run)
 {
   const baum_i_problem *problem = run->problem;
   if (problem->stops || run->stops) {
     double stop =
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
-    (void)run->method->package->set_stop(run->memory, stop); /* fails only if the stop is behind */
+    (void)run->method->package->set_stop(run->memory, stop); /* fails only for a past time */
     run->stops = problem->stops;
   }
 }
 
-/* Check a step between two times of SUNDIALS: BAUM_ERR_STEP if it did not advance. */
+/* Fail with BAUM_ERR_STEP if a step between two times of SUNDIALS did not advance. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  /* A first step may be smaller than the rounding of a late t, as long as the motion during that
-   * rounding is negligible. */
+  /* A first step may be smaller than the rounding of a large t, if the motion during that time is
+   * negligible. */
   double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
   if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;
@@ -200,8 +202,8 @@ static baum_status check_progress(const baum_i_sundials *run, double before, dou
                      run->t, run->method->name, fabs(after - before), run->problem->rtol);
 }
 
-/* SUNDIALS takes the direction from the target; a tenth of its distance, 10 T, limits the first
- * step. */
+/* The target determines the direction of time. SUNDIALS limits the first step to a tenth of the
+ * distance to the target, which is 10 T. */
 baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_sundials *run = self;
@@ -228,8 +230,8 @@ baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, b
 
 /* ---- inside the last step ---- */
 
-/* Convert t into the time of SUNDIALS, moved into the last step if it is outside by rounding; NaN
- * if it is further outside, where IDA would extrapolate. */
+/* Convert t to the time of SUNDIALS. A time outside of the last step by rounding is moved into it.
+ * Returns NaN if t is further outside, where IDA would extrapolate. */
 static double find_inside(const baum_i_sundials *run, double t)
 {
   double end = 0.0;

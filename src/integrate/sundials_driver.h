@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of CVODE and IDA: one driver for both. cvode.c and ida.c contain the differences, as a
- * table. Only they, the driver and tests include it, and only when the build has SUNDIALS. */
+/* Common implementation of CVODE and IDA. cvode.c and ida.c define their differences in a table.
+ * Only they, sundials_driver.c and tests include this header, and only if the build has
+ * SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 #define BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 
@@ -14,50 +15,51 @@ typedef enum baum_i_sundials_kind {
 typedef void baum_i_sundials_complain_fn(int flag, const char *module, const char *function,
                                          char *text, void *user);
 
-/* CVODE or IDA. Functions that return int return flags, 0 for success. */
+/* The table of CVODE or IDA. Functions that return int return a flag, which is 0 for success. */
 typedef struct baum_i_sundials_package {
   baum_i_sundials_kind kind;
 
-  /* Calls that differ between the two only by name: BAUM_I_SUNDIALS_CALLS. */
+  /* Calls that differ between CVODE and IDA only in their names: BAUM_I_SUNDIALS_CALLS. */
   int (*set_complain)(void *memory, baum_i_sundials_complain_fn *function, void *user);
   int (*set_user)(void *memory, void *user);
   int (*set_weigh)(void *memory, int (*weigh)(N_Vector y, N_Vector weights, void *user));
   int (*set_max_step)(void *memory, sunrealtype step);
   int (*set_stop)(void *memory, sunrealtype stop);
   int (*get_time)(void *memory, sunrealtype *t);
-  int (*get_step)(void *memory, sunrealtype *step); /* to be tried */
+  int (*get_step)(void *memory, sunrealtype *step); /* of the next step */
   int (*get_last_step)(void *memory, sunrealtype *step);
   int (*get_derivative)(void *memory, sunrealtype t, int order, N_Vector out);
   int (*count_error_failures)(void *memory, long *count);
   int (*count_solver_failures)(void *memory, long *count);
   int (*count_setups)(void *memory, long *count);
   int (*count_iterations)(void *memory, long *count);
-  void (*destroy)(void **memory); /* NULL is fine */
+  void (*destroy)(void **memory); /* NULL is allowed */
 
   int (*size)(const baum_i_problem *problem); /* n, length of y */
-  /* Complete the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
+  /* Complete the start at t. run->y contains (q, v), followed by zeros. NULL: nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
   void *(*create)(int multistep, SUNContext context); /* run->memory; NULL: out of memory */
   int (*init)(baum_i_sundials *run);
   int (*weigh)(N_Vector y, N_Vector weights, void *run);
   int (*restart)(baum_i_sundials *run);
-  /* Take one step towards target, into run->y; tau is its end. */
+  /* Take one step towards target. Its end is written to run->y, its time to *tau. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
-  /* Free the allocations of the method's `open` and `attach`; zeroes are fine. run->memory is freed
-   * before. */
+  /* Free the allocations of the method's `open` and `attach`, which may not have been called.
+   * run->memory is freed before this call. */
   void (*close)(baum_i_sundials *run);
 } baum_i_sundials_package;
 
-/* A method of a package. */
+/* An integrator of CVODE or IDA. */
 typedef struct baum_i_sundials_method {
   const char *name; /* in messages */
   const baum_i_sundials_package *package;
-  baum_status (*open)(baum_i_sundials *run); /* what a run needs beside SUNDIALS; NULL: nothing */
-  int multistep;                             /* of CVODE: CV_ADAMS or CV_BDF */
-  int (*attach)(baum_i_sundials *run);       /* attaches solvers and other settings, called last */
+  baum_status (*open)(baum_i_sundials *run); /* creates further memory of a run; NULL: none */
+  int multistep;                             /* CVODE: CV_ADAMS or CV_BDF */
+  int (*attach)(baum_i_sundials *run);       /* sets solvers and options; called last */
 } baum_i_sundials_method;
 
-/* From version 7 on the context has one error handler; before, each package has its own. */
+/* From version 7 the context has the error handler; in older versions CVODE and IDA each have
+ * one. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 #define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) NULL
 #else
@@ -84,7 +86,8 @@ typedef struct baum_i_sundials_method {
 
 /* ---- operations of an integrator ---- */
 
-/* The table is a baum_i_sundials_method; a run begins with its baum_i_sundials. */
+/* Members of baum_integrator. `table` points to a baum_i_sundials_method. The memory of a run
+ * begins with a baum_i_sundials. */
 baum_status baum_i_sundials_open_run(void *self, const void *table, const baum_i_problem *problem,
                                      const baum_i_state *start);
 void baum_i_sundials_close_run(void *self);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's matrix by KLU with kept pivots; see sundials_klu.h. */
+/* Factors Newton's matrix by KLU and keeps pivots; see sundials_klu.h. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -32,11 +32,11 @@ static baum_status make_arrays(baum_i_sundials_klu *klu, int n)
   return klu->right && klu->solution ? BAUM_OK : baum_i_fail_memory();
 }
 
-static baum_status make_solver(baum_i_sundials_klu *klu, int n)
+static baum_status make_solver(baum_i_sundials_klu *klu, const baum_i_compressed *pattern)
 {
   SUNContext context = klu->sundials->context;
-  sunindextype nonzeros = baum_i_residual_matrix_nonzeros(klu->form);
-  klu->matrix = SUNSparseMatrix(n, n, nonzeros, CSC_MAT, context);
+  int32_t n = pattern->n;
+  klu->matrix = SUNSparseMatrix(n, n, pattern->start[n], CSC_MAT, context);
   if (klu->matrix) {
     klu->solver = SUNLinSol_KLU(klu->right, klu->matrix, context);
   }
@@ -48,9 +48,9 @@ baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *
 {
   klu->sundials = sundials;
   BAUM_I_TRY(baum_i_residual_matrix_create(sundials->problem->workspace, index, &klu->form));
-  int n = baum_i_residual_matrix_size(klu->form);
-  BAUM_I_TRY(make_arrays(klu, n));
-  return make_solver(klu, n);
+  const baum_i_compressed *pattern = baum_i_residual_matrix_pattern(klu->form);
+  BAUM_I_TRY(make_arrays(klu, pattern->n));
+  return make_solver(klu, pattern);
 }
 
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu)
@@ -66,25 +66,22 @@ void baum_i_sundials_klu_close(baum_i_sundials_klu *klu)
 /* ---- the matrix ---- */
 
 /* Restore the pattern, which SUNDIALS may erase before each evaluation. */
-static void copy_pattern(const baum_i_residual_matrix *form, SUNMatrix matrix)
+static void copy_pattern(const baum_i_compressed *pattern, SUNMatrix matrix)
 {
-  const int32_t *columns = baum_i_residual_matrix_columns(form);
-  const int32_t *rows = baum_i_residual_matrix_rows(form);
   sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
   sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
-  sunindextype n = SUNSparseMatrix_Columns(matrix);
-  for (sunindextype i = 0; i <= n; i++) {
-    starts[i] = columns[i];
+  for (int32_t i = 0; i <= pattern->n; i++) {
+    starts[i] = pattern->start[i];
   }
-  for (sunindextype i = 0; i < columns[n]; i++) {
-    indices[i] = rows[i];
+  for (int32_t i = 0; i < pattern->start[pattern->n]; i++) {
+    indices[i] = pattern->row[i];
   }
 }
 
 baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy)
 {
-  copy_pattern(klu->form, klu->matrix);
+  copy_pattern(baum_i_residual_matrix_pattern(klu->form), klu->matrix);
   return baum_i_residual_matrix_fill(klu->form, klu->sundials->problem->workspace, dae, c, t, y, dy,
                                      SUNSparseMatrix_Data(klu->matrix));
 }
@@ -111,7 +108,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
   if (!numeric || klu->sundials->pivots_forgotten) {
     return choose_pivots(klu);
   }
-  /* The name of KLU's index type depends on its release. */
+  /* void pointers, because the name of KLU's index type depends on its release. */
   void *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
   void *indices = SUNSparseMatrix_IndexValues(klu->matrix);
   int kept = (int)sun_klu_refactor(starts, indices, SUNSparseMatrix_Data(klu->matrix),
@@ -122,7 +119,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 
 /* ---- solve ---- */
 
-/* Find the residual and the sizes of a solution x, which is not b. */
+/* Compute defect, size and entry of a solution x. x and b must be different arrays. */
 static void form_residual(const baum_i_sundials_klu *klu, const double *x, const double *b)
 {
   const sunindextype *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
@@ -144,8 +141,9 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   }
 }
 
-/* Is a solution accurate enough for Newton? The residual of rows scaled by their largest entry must
- * be within six digits of their terms. NaN is not accurate. */
+/* Tell whether a solution is accurate enough for Newton's iteration: with rows scaled by their
+ * largest entry, the residual of each row must be at most 1e-6 of the largest terms. NaN is not
+ * accurate. */
 static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
 {
   sunindextype n = SUNSparseMatrix_Columns(klu->matrix);

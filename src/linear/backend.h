@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The interface of a solver of the saddle-point system. To add one: write a file with a const
- * struct of these functions, declare it below, and give it a place in kkt.c. The front end (kkt.c)
- * computes residuals, refines, counts, judges the accuracy and falls back; a backend only factors
- * and solves. None of these functions sets a message. */
+/* The interface of a solver (backend) of the saddle-point system. To add a solver, write a file
+ * with a const struct of these functions, declare the struct below, and use it in kkt.c. A backend
+ * only factors and solves. The front end (kkt.c) computes residuals, refines, counts, checks the
+ * accuracy and chooses another solver if necessary. None of these functions sets a message. */
 #ifndef BAUM_I_LINEAR_BACKEND_H
 #define BAUM_I_LINEAR_BACKEND_H
 
 #include "linear/kkt.h"
 
-/* How much a factorization may cost. */
+/* How pivots of a factorization are chosen, from cheap to robust. */
 typedef enum baum_i_kkt_effort {
   BAUM_I_EFFORT_KEEP,   /* keep the pivots of the last factorization; allocates nothing */
-  BAUM_I_EFFORT_CHOOSE, /* choose pivots at these values */
-  BAUM_I_EFFORT_CAREFUL /* choose them for accuracy alone; for matrices close to singular */
+  BAUM_I_EFFORT_CHOOSE, /* choose pivots for the present values */
+  BAUM_I_EFFORT_CAREFUL /* choose pivots only for accuracy, if the matrix is nearly singular */
 } baum_i_kkt_effort;
 
 typedef struct baum_i_kkt_ops {
   const char *name;
   bool keeps_pivots; /* supports BAUM_I_EFFORT_KEEP */
 
-  /* BAUM_OK or BAUM_ERR_MEMORY, then *out is NULL. The structure outlives the backend. */
+  /* BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. The structure outlives the backend. */
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
-  /* Factor at finite values; `values` and `scale` (see scale.h) stay in place until the last solve.
-   * KEEP only after a factorization that succeeded. BAUM_OK, BAUM_ERR_SINGULAR (then nothing can be
-   * solved) or BAUM_ERR_MEMORY. */
+  /* Factor the matrix of finite values. `values` and `scale` (see scale.h) do not change until the
+   * last solve. KEEP requires an earlier factorization that succeeded. BAUM_OK, BAUM_ERR_SINGULAR
+   * (no solve may follow) or BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);
 
@@ -32,7 +32,8 @@ typedef struct baum_i_kkt_ops {
    * BAUM_ERR_MEMORY. */
   baum_status (*solve)(void *self, double *x);
 
-  /* Cheap estimate of the reciprocal condition of the scaled matrix; 0 if its rank is not full. */
+  /* Return a cheap estimate of the reciprocal condition number of the scaled matrix; 0 if its rank
+   * is not full. */
   double (*rcond)(const void *self);
 
   void (*destroy)(void *self); /* NULL does nothing */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Block solver: memory, masses and forces. block_structure.c finds the structure, block_hot.c
- * computes. */
+ * factors and solves. */
 #include "linear/block.h"
 
 #include <math.h>
@@ -9,10 +9,11 @@
 #include "base/alloc.h"
 #include "linear/block_builder.h"
 
-/* The result is refined if det D falls below this fraction of the product of the original diagonal
- * of S. The relative error of the multipliers is about the unit rounding divided by this fraction,
- * and several small pivots multiply it. In long ladders the pivots fall with the number of nodes
- * although the system is well-conditioned, so the limit falls with it. */
+/* The result is refined if, at any node, det D is less than weak_pivot times the product of the
+ * diagonal entries of S. The relative error of the multipliers is about the unit rounding divided
+ * by this fraction, and the errors of several small pivots multiply. In long ladders the pivots
+ * decrease with the number of nodes although the system is well-conditioned. With more than
+ * many_nodes nodes the limit is therefore lower. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -24,7 +25,7 @@ typedef struct array {
   size_t count;
 } array;
 
-enum { ARRAY_COUNT = 18, LINE = 8 /* numbers in a cache line */ };
+enum { ARRAY_COUNT = 18, LINE = 8 /* doubles in a cache line */ };
 
 static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
 {
@@ -54,8 +55,8 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
   memcpy(list, all, sizeof all);
 }
 
-/* All arrays share one arena. Each begins on a cache line, but never a whole number of pages after
- * another, because all of them would then compete for the same sets of the cache. */
+/* All arrays are in one allocation. Each begins on a cache line. The distance of two arrays is
+ * never a whole number of pages, because they would then compete for the same sets of the cache. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };
@@ -84,7 +85,7 @@ static baum_status make_arrays(baum_i_block *b)
   return BAUM_OK;
 }
 
-/* In terms of y = L^T a, masses and weights are one. */
+/* Dense bodies use y = L^T a in place of a, so their M and W are identities. */
 static void set_dense_weights(baum_i_block *b)
 {
   for (int t = 1 + b->structure->mass_block_count; t < b->body_block_count; t++) {
@@ -154,7 +155,7 @@ void baum_i_block_destroy(baum_i_block *block)
 
 /* ---- masses ---- */
 
-/* The values written for dense bodies are never read. */
+/* Values for dense bodies are written here, too, but not used. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
 {
   bool positive = true;
@@ -188,7 +189,7 @@ static bool factor_one(const double *m, int n, double *l)
         sum -= l[i * n + k] * l[j * n + k];
       }
       if (i == j) {
-        /* After strong cancellation the remaining diagonal entry is rounding. */
+        /* After strong cancellation the diagonal entry is only a rounding error. */
         positive = positive && sum > 1e-14 * m[i * n + i];
         l[i * n + i] = sqrt(sum);
       } else {

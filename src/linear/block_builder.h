@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* State that block_structure.c and block_couplings.c share while they build a structure. */
+/* Data that block_structure.c and block_couplings.c share while they build the structure of a
+ * solver. */
 #ifndef BAUM_I_LINEAR_BLOCK_BUILDER_H
 #define BAUM_I_LINEAR_BLOCK_BUILDER_H
 
 #include "linear/block.h"
 #include "linear/vector.h"
 
-/* A node before it is placed. */
+/* A node before its place in the order of elimination is known. */
 typedef struct baum_i_raw_node {
   int32_t row[2]; /* -1: none */
   int32_t first_side;
@@ -14,8 +15,8 @@ typedef struct baum_i_raw_node {
   bool is_pin;
 } baum_i_raw_node;
 
-/* A side before its node is placed. `number` is as in baum_i_full_pair, but arms are counted in the
- * order of the rows. */
+/* A side before the place of its node is known. `number` is as in baum_i_full_pair, but arms are
+ * counted in the order of rows instead of places. */
 typedef struct baum_i_raw_side {
   int32_t node;
   int32_t body_block;
@@ -27,23 +28,23 @@ typedef struct baum_i_block_builder {
   baum_i_block *block;
   int32_t *column_body;      /* (nv) mass block of each column */
   int32_t *body_block_of;    /* (mass_block_count) first body block */
-  int32_t *dense_of;         /* (mass_block_count) in dense[], -1: diagonal */
+  int32_t *dense_of;         /* (mass_block_count) index in dense[]; -1: none */
   baum_i_vector nodes;       /* baum_i_raw_node */
   baum_i_vector sides;       /* baum_i_raw_side */
   baum_i_vector full_sides;  /* int32_t body block */
   baum_i_vector entries;     /* baum_i_side_entry */
   baum_i_vector dense_sides; /* baum_i_dense_side */
   int raw_pins;
-  int32_t *sorted_start;    /* (body_block_count + 1) sides of a body block */
+  int32_t *sorted_start;    /* (body_block_count + 1) start of its sides in sorted[] */
   int32_t *sorted;          /* (sides.count) */
   int32_t *graph_start;     /* (nodes.count + 1) */
   baum_i_vector neighbours; /* int32_t */
-  int32_t *arm_of;          /* (nodes.count) pin's number in the order of places */
-  unsigned char *is_set;    /* (off_count) a pair sets it */
+  int32_t *arm_of;          /* (nodes.count) number of a pin's first arm, in the order of places */
+  unsigned char *is_set;    /* (off_count) 1: a pair sets this block */
   baum_i_vector alike, opposite, first_pairs, full_pairs, zeros, targets;
 } baum_i_block_builder;
 
-/* Tells whether W = 0 there, so that the body block couples nothing. */
+/* Tells whether W of a body block is 0, so that it couples no nodes. */
 static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body_block)
 {
   const unsigned char *fixed = u->block->fixed;
@@ -51,16 +52,16 @@ static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body
          (body_block <= u->layout->structure->mass_block_count && fixed[body_block - 1]);
 }
 
-/* Lists the couplings of nodes that share a body block, and the blocks to clear first. BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* Lists the pairs of nodes that share a body block, and the blocks that must be cleared first.
+ * BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 
-/* Lists the blocks that receive the products of a node's couplings: of the f-th with those before
- * it. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Lists the blocks that receive the products of a node's couplings. The f-th coupling is multiplied
+ * with all couplings before it. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
-/* Fills an empty block: everything of block.h but the numbers. Returns what baum_i_block_create()
- * returns; after a failure the caller destroys the block. */
+/* Sets all members of an empty block except the arrays of numbers. Statuses of
+ * baum_i_block_create(). After a failure the caller destroys the block. */
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings of the Schur complement in blocks: which two sides contribute to which block below the
- * diagonal, once nodes are placed. The first pair of pins sets its block; further pairs add to it.
+/* Couplings of the Schur complement in blocks. Once the order of nodes is known, this file finds
+ * which pairs of sides contribute to which block below the diagonal. The first pair that
+ * contributes to a block sets it; further pairs add to it.
  */
 #include <stdlib.h>
 
@@ -8,7 +9,7 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* Finds the block below the diagonal of two placed nodes. */
+/* Finds the block below the diagonal that belongs to two nodes, given by their places. */
 static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
 {
   int32_t low = order->start[earlier];
@@ -24,7 +25,7 @@ static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_
   return low;
 }
 
-/* Returns the number of a side, with arms counted by places. */
+/* Returns the number of a side, with arms counted in the order of places. */
 static int32_t number_of(const baum_i_block_builder *u, const baum_i_raw_side *side)
 {
   return side->number >= 0 ? side->number : ~(u->arm_of[side->node] + (~side->number) % 2);
@@ -59,7 +60,7 @@ static baum_status add_pair(baum_i_block_builder *u, const baum_i_raw_side *x,
 
 static int by_off(const void *a, const void *b)
 {
-  /* Both kinds of pair begin with the block. */
+  /* `off` is the first member of both kinds of pair. */
   int32_t x = *(const int32_t *)a;
   int32_t y = *(const int32_t *)b;
   return (x > y) - (x < y);

@@ -3,13 +3,14 @@
  *
  *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_2 c_n c_k^T
  *
- * The factorization is a right-looking L D L^T. With U = S_ik adj(D), every contribution of a pivot
- * is a product with U times 1 / det D, so the division runs in parallel with the products. The
- * right-hand side is eliminated along with the matrix.
+ * where G_n is the side of node n on the body block. The factorization is a right-looking L D L^T.
+ * With U = S_ik adj(D), every contribution of a pivot is a product with U times 1 / det D, so the
+ * processor can divide and multiply at the same time. The right-hand side is eliminated together
+ * with the matrix.
  *
  * Refinement corrects both equations, with a as an independent unknown (J. Demmel, 1997, 2.5). This
- * restores the digits that forming J W J^T loses. With t = W (f - M a - J^T lambda) and S d = J t -
- * (r - J a):
+ * restores the digits that are lost when J W J^T is computed. With t = W (f - M a - J^T lambda) and
+ * d from S d = J t - (r - J a):
  *
  *   a += t - W J^T d,   lambda += d */
 #include <math.h>
@@ -18,10 +19,10 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* Below this fraction (defined like weak_pivot of block.h) the solver reports bad pivots. */
+/* Pivots are bad if the smallest ratio of det D to `size` of a node is below this. */
 static const double bad_pivot = 1e-10;
 
-/* A residual of up to this many roundings of its terms counts as rounding. */
+/* A residual of up to this fraction of its terms is at rounding level. */
 static const double rounding = 0x1p-47;
 
 /* ---- what multipliers do to the motion ---- */
@@ -38,7 +39,8 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-/* The same for all general nodes. Also stores their rows of lambda unless rows is NULL. */
+/* motion -= W G^T lambda for the sides of all general nodes. Also stores their rows of lambda
+ * unless rows is NULL. */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;
@@ -84,7 +86,8 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   }
 }
 
-/* Couples a general side and a pin's, +- [ I  c ]; the rows are those of the general side. */
+/* Couples a general side and the side +- [ I c ] of a pin. The rows are those of the general
+ * side. */
 static inline baum_i_square couple_to_pin(const baum_i_block *b, int32_t side, int32_t arm,
                                           const double *w)
 {
@@ -133,9 +136,10 @@ static void couple(baum_i_block *b)
 
 /* ---- factor and solve ---- */
 
-/* The node of a pivot step, in registers: each number of D and of its right-hand side twice. */
+/* The node that a pivot step eliminates, in registers. Each number of D and of the right-hand side
+ * is stored twice. */
 typedef struct pivot_step {
-  baum_i_pair d[3];    /* D: first, off the diagonal, last */
+  baum_i_pair d[3];    /* D_00, D_01, D_11 */
   baum_i_pair inverse; /* 1 / det D */
   baum_i_pair right[2];
 } pivot_step;
@@ -147,7 +151,7 @@ static inline baum_i_square times_adjugate(baum_i_square x, const pivot_step *t)
     {x.column[0] * t->d[2] - x.column[1] * t->d[1], x.column[1] * t->d[0] - x.column[0] * t->d[1]}};
 }
 
-/* D^-1 times the right-hand side. */
+/* Returns D^-1 times the right-hand side. */
 static inline baum_i_pair solve_pivot(const pivot_step *t)
 {
   baum_i_pair corners = {t->d[2][0], t->d[0][0]};
@@ -156,8 +160,8 @@ static inline baum_i_pair solve_pivot(const pivot_step *t)
   return t->inverse * (corners * right - t->d[1] * other);
 }
 
-/* Subtracts the contribution of the coupling at x (rows of the later node `to`) from that node and
- * stores L^T in its place. Returns the coupling. */
+/* Subtracts the contribution of the coupling at x from the node `to`, the later one of the two
+ * coupled nodes, and replaces the coupling by L^T. Returns the coupling. */
 static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i_node *to)
 {
   baum_i_square s = baum_i_load_square(x);
@@ -173,8 +177,8 @@ static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i
   return s;
 }
 
-/* Eliminates all `count` couplings of a node that has several, from x on. `target` lists the blocks
- * that receive the products of the f-th with those before it. */
+/* Eliminates the `count` couplings of a node, from x on. `target` lists the blocks that receive the
+ * product of each coupling with all couplings before it. */
 static inline void eliminate_many(const pivot_step *t, double *x, const int32_t *later,
                                   ptrdiff_t count, const int32_t *target, baum_i_node *nodes,
                                   double *off)
@@ -191,7 +195,8 @@ static inline void eliminate_many(const pivot_step *t, double *x, const int32_t 
   }
 }
 
-/* Returns the smallest ratio of det D to the product of the original diagonal of S. */
+/* Returns the smallest ratio of det D to the product of the diagonal entries of S at the same
+ * node. */
 static double weakest(const baum_i_block *b)
 {
   double least = (double)INFINITY;
@@ -204,7 +209,7 @@ static double weakest(const baum_i_block *b)
 
 static baum_i_pivots eliminate(baum_i_block *b)
 {
-  /* Copied early, so that it is in the cache when substitution needs it. */
+  /* Copied early, so that the motion is in the cache when substitution needs it. */
   memcpy(b->motion, b->from, (size_t)b->motion_size * sizeof *b->motion);
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
@@ -243,13 +248,13 @@ static baum_i_pivots eliminate(baum_i_block *b)
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* Couplings that are still to be substituted, from the last to the first. */
+/* The couplings during backward substitution, from the last to the first. */
 typedef struct couplings {
-  const int32_t *start; /* of each node, in later[] and in off[] */
+  const int32_t *start; /* index in later[] and off[] of each node's first coupling */
   const int32_t *later;
   const double *off;
   baum_i_node *nodes;
-  ptrdiff_t end; /* of those of the next node */
+  ptrdiff_t end; /* end of the couplings of the next node */
 } couplings;
 
 /* lambda_k -= sum of L^T lambda_later */
@@ -267,8 +272,8 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
   return lambda;
 }
 
-/* Substitutes from the last node to the first and applies each lambda to the motion, which fills
- * the latency of the next one. rows (nc) receives lambda; NULL: not wanted. */
+/* Substitutes from the last node to the first. Each lambda is applied to the motion at once, while
+ * the processor already computes the next one. rows (nc) receives lambda; NULL: not wanted. */
 BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,
@@ -404,7 +409,8 @@ static void gather(const baum_i_block *b)
   }
 }
 
-/* Adds the saved lambda of all nodes; returns the largest change over the largest multiplier. */
+/* Adds the previous lambda of all nodes to the computed change. Returns the largest change divided
+ * by the largest multiplier. */
 static double add_change(const baum_i_block *b, const double *before)
 {
   double change = 0.0;
@@ -466,8 +472,8 @@ static void read_lambda(const baum_i_block *b, double *lambda)
   }
 }
 
-/* Copies and tells whether all numbers are finite: a sum of zeros is zero, or NaN where a number is
- * not finite. Two sums hide the latency of addition. */
+/* Copies numbers and tells whether all are finite: the sum of 0 x_i is 0, or NaN if a number is not
+ * finite. Two partial sums hide the latency of addition. */
 static bool copy_finite(const double *x, ptrdiff_t count, double *to)
 {
   baum_i_pair sum[2] = {{0.0, 0.0}, {0.0, 0.0}};

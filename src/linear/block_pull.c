@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solves for other right-hand sides with the factors of the last solution. A correction
- * (block_hot.c) that starts from zero motion and the residual (0, r) gives the solution of
+/* Solves for other right-hand sides with the factors of the last solution. If correct() of
+ * block_hot.c starts from zero motion and the residual (0, r), it solves
  *
  *   S lambda = -r,   a = -W J^T lambda,   so that J a = r */
 #include "linear/block_pull.h"

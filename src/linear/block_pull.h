@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Another solution with the factors of the last one. */
+/* Prepares another solution with the factors of the last one. */
 #ifndef BAUM_I_LINEAR_BLOCK_PULL_H
 #define BAUM_I_LINEAR_BLOCK_PULL_H
 
@@ -7,8 +7,7 @@
 
 /* Prepares a correction with the factors of the last solution: sets pull to x (nv), the motion to
  * -x, rest and multipliers to 0. The correction then gives the motion -W J^T S^-1 J x. For fixed
- * bodies x counts as
- * 0. */
+ * bodies 0 is used in place of x. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 
 #endif

@@ -4,8 +4,8 @@
  *   W (f - M a - J^T lambda)  and  r - J a
  *
  * Close to a singular configuration both are tiny differences of large numbers, and the multipliers
- * depend on every digit of them. Sums and products therefore keep their rounding errors (T. Ogita,
- * S. M. Rump, S. Oishi, 2005, Dot2). */
+ * depend on all digits of these differences. The rounding errors of sums and products are therefore
+ * added (T. Ogita, S. M. Rump, S. Oishi, 2005, Dot2). */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sides in pairs of numbers, shared by block_sides_hot.c and block_hot.c. */
+/* Functions for sides, used by block_sides_hot.c and block_hot.c. The two numbers of a column, one
+ * for each row, are processed as a pair. */
 #ifndef BAUM_I_LINEAR_BLOCK_SIDES_H
 #define BAUM_I_LINEAR_BLOCK_SIDES_H
 
@@ -16,9 +17,9 @@ static inline baum_i_columns baum_i_load_full(const double *side)
   return (baum_i_columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
 }
 
-/* Loads a side by its number as in baum_i_full_pair. The axes are read from memory: built from one
- * number they may take an instruction (vmovq between registers as 66 0F D6) that valgrind 3.19 does
- * not know. */
+/* Loads a side by its number, which may mean an arm (see baum_i_full_pair). The columns of I are
+ * read from memory, because the instructions that construct them (vmovq between registers as 66 0F
+ * D6) may be unknown to valgrind 3.19. */
 static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t number)
 {
   static const double AXES[2][4] = {{1.0, 0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0, -1.0}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* General nodes from the blocks of J that their joints give: sides in pairs of rows and body blocks
- * of columns, Phi', the right-hand side and pivots.
+/* Computes general nodes from the blocks of J: their sides, Phi', right-hand side and pivots. G is
+ * a side.
  *
  *   D = sum over sides of G W G^T,   J a0 - r = sum over sides of G a0 - r */
 #include <string.h>
@@ -40,7 +40,7 @@ static void set_force(baum_i_block *block, const double *force)
   }
 }
 
-/* Solves L y = G^T row by row for bodies with M = L L^T, over their body blocks. */
+/* Replaces the sides G of dense bodies by (L^-1 G^T)^T, as y = L^T a requires. */
 static void whiten(baum_i_block *b)
 {
   for (int i = 0; i < b->dense_side_count; i++) {
@@ -48,7 +48,7 @@ static void whiten(baum_i_block *b)
     const baum_i_dense_body *body = &b->dense[d->body];
     int n = b->structure->mass_blocks[body->mass_block].size;
     const double *l = b->factor + body->factor;
-    double *g = b->side + 6 * (size_t)d->side; /* column j is the j-th pair */
+    double *g = b->side + 6 * (size_t)d->side; /* g[2 j], g[2 j + 1]: column j */
     for (int j = 0; j < n; j++) {
       baum_i_pair sum = baum_i_load(g + 2 * j);
       for (int k = 0; k < j; k++) {
@@ -59,9 +59,9 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* Returns the velocities of all body blocks. This is v itself unless some body blocks lie outside
- * v; then it is a copy in pull[], which only refinement uses otherwise. For a dense body the copy
- * is L^T v, because its sides are multiplied by L^-T. */
+/* Returns the velocities of all body blocks. This is v itself unless some body blocks have numbers
+ * outside v. Then it is a copy in pull[], which is otherwise used by refinement only. For a dense
+ * body the copy contains L^T v. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -87,7 +87,7 @@ static const double *gather_velocities(const baum_i_block *b, const double *v)
   return b->pull;
 }
 
-/* Computes one row of a node: Phi' from J v, and r. */
+/* Computes one row of a node: sets Phi' = rate - nu and returns r. rate is J v. */
 static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
 {
   if (r < 0) {
@@ -100,19 +100,19 @@ static inline double set_row(const baum_i_block_rows *rows, int32_t r, double ra
 
 /* The sums of a node over its sides. */
 typedef struct sums {
-  baum_i_pair on;   /* the diagonal of D */
-  baum_i_pair off;  /* its off-diagonal number, twice */
+  baum_i_pair on;   /* diagonal entries of D */
+  baum_i_pair off;  /* off-diagonal entry of D, stored twice */
   baum_i_pair rate; /* J v */
   baum_i_pair free; /* J a0 */
 } sums;
 
-/* G times the three numbers at x. */
+/* Returns G times the three numbers at x. */
 static inline baum_i_pair times_side(const baum_i_columns *g, const double *x)
 {
   return x[0] * g->c[0] + x[1] * g->c[1] + x[2] * g->c[2];
 }
 
-/* Loads a side; one that comes from J as a whole is stored first. */
+/* Loads a side. If it is copied from J as a whole, also stores it in side[]. */
 static inline baum_i_columns take_side(const baum_i_block *b, ptrdiff_t side,
                                        const double *jacobian)
 {
@@ -174,7 +174,7 @@ static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
   }
   whiten(b);
   if (b->full_count > 0) {
-    const baum_i_block_rows at = *rows; /* stores cannot change a copy, so it stays in registers */
+    const baum_i_block_rows at = *rows; /* a local copy can stay in registers */
     const double *velocity = gather_velocities(b, rows->v);
     const baum_i_full_node *last = b->fulls + b->full_count;
     for (const baum_i_full_node *full = b->fulls; full < last; full++) {

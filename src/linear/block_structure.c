@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the structure of the Schur complement in blocks: nodes, sides, couplings, and the place of
- * each number.
+/* Finds the structure of the Schur complement in blocks: nodes, sides, couplings, and all indices.
  *
- * Rows in their order give nodes with sides. Sides on one body block couple their nodes. The graph
- * of nodes gives the order of elimination, which gives nodes their final numbers, their places. */
+ * The rows, in their order, are grouped into nodes with sides. Nodes with sides on the same body
+ * block are coupled. The graph of these couplings gives the order of elimination. The position of a
+ * node in this order is its *place*, and is its final number. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,9 +11,9 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* A body with more sides than MOST_SIDES makes a clique, and more couplings than MOST_COUPLINGS per
- * node make fill. Sparse elimination of the whole system is then faster, because it may eliminate
- * bodies or joints first. */
+/* A body with more sides than MOST_SIDES couples too many nodes with each other, and more couplings
+ * than MOST_COUPLINGS per node mean too much fill. Sparse elimination of the whole system is then
+ * faster, because it may eliminate bodies or joints first. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */
@@ -53,7 +53,7 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Diagonal body i is body block 1 + i, so body blocks and planar bodies share one numbering. */
+/* Diagonal body i is body block 1 + i, so a planar body and its body block have the same number. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
@@ -148,7 +148,8 @@ static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_
   return add_side(u, body_block, *number);
 }
 
-/* Sides of a dense body are added together, so that they are consecutive. */
+/* Finds or adds the sides of the present node on all body blocks of a dense body. They are added
+ * together, so that they are consecutive. */
 static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
 {
   int before = u->full_sides.count;
@@ -170,7 +171,7 @@ static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
   return BAUM_OK;
 }
 
-/* Adds one column of J over the rows of the present node. */
+/* Adds the entries of one column of J in the rows of the present node. */
 static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *rows, int c)
 {
   int32_t body = u->column_body[rows->col[c]];
@@ -206,7 +207,7 @@ static baum_status add_full(baum_i_block_builder *u, const baum_i_row_block *row
   return BAUM_OK;
 }
 
-/* Adds general nodes for the active rows, two by two. */
+/* Adds general nodes for the rows that are not omitted, two rows to a node. */
 static baum_status add_rows(baum_i_block_builder *u, const baum_i_row_block *rows)
 {
   int32_t pair[2] = {-1, -1};
@@ -238,7 +239,7 @@ static baum_status make_nodes(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Tells whether the next three entries are a whole side with its columns in the order of J. */
+/* Tells whether the next three entries are a whole side whose columns are consecutive in J. */
 static bool is_whole_side(const baum_i_side_entry *entry, int left)
 {
   bool whole = left >= 3 && entry->to % 6 == 0;
@@ -250,8 +251,8 @@ static bool is_whole_side(const baum_i_side_entry *entry, int left)
   return whole;
 }
 
-/* Sides that can be copied from J as a whole need no entries; those of dense bodies must be
- * whitened. */
+/* Removes the entries of sides that can be copied from J as a whole. Sides of dense bodies keep
+ * their entries, because they are multiplied by L^-1. */
 static baum_status find_sources(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
@@ -301,7 +302,7 @@ static baum_status sort_sides(baum_i_block_builder *u)
     return BAUM_ERR_MEMORY;
   }
   const baum_i_raw_side *sides = u->sides.items;
-  /* shifted by one, because filling moves each start to its end */
+  /* starts are one entry too far, because filling the list moves each start to the next */
   int32_t *place = u->sorted_start + 1;
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].body_block + 1]++;

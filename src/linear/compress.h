@@ -1,37 +1,37 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compresses a list of places in a square matrix to columns. */
+/* Converts a list of places in a square matrix to compressed columns. */
 #ifndef BAUM_I_LINEAR_COMPRESS_H
 #define BAUM_I_LINEAR_COMPRESS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include <baum/status.h>
 
-/* Places by row and column, in any order; places may be repeated. */
+/* A growing list of places, in any order. Places may be repeated. A zeroed list is empty. */
 typedef struct baum_i_places {
   size_t count;
-  int32_t *row;
-  int32_t *column;
+  struct baum_i_entry_place {
+    int32_t row;
+    int32_t column;
+  } * list;    /* (count) */
+  bool broken; /* memory has run out, or there are too many for an int32_t */
 } baum_i_places;
 
-/* Makes room for `most` places and lists none. BAUM_OK or BAUM_ERR_MEMORY, also when an int32_t
- * cannot count them; the list is then empty. Sets no message. */
-baum_status baum_i_places_create(size_t most, baum_i_places *places);
-void baum_i_places_clear(baum_i_places *places); /* a zeroed one is valid */
+void baum_i_places_add(baum_i_places *places, int32_t row, int32_t column);
 
-static inline void baum_i_places_add(baum_i_places *places, int32_t row, int32_t column)
-{
-  places->row[places->count] = row;
-  places->column[places->count] = column;
-  places->count++;
-}
+/* The pattern of an n x n matrix: distinct places by columns, rows ascending. */
+typedef struct baum_i_compressed {
+  int32_t n;
+  int32_t *start; /* (n + 1) */
+  int32_t *row;   /* (start[n]) */
+  int32_t *slot;  /* index of each listed place among the distinct ones */
+} baum_i_compressed;
 
-/* Compresses a list of places in an n x n matrix. start (n + 1) and row (places->count, of which
- * start[n] are used) receive the distinct places by columns, rows ascending; slot (places->count)
- * receives the index of each listed place among them. BAUM_OK or BAUM_ERR_MEMORY, without a
- * message. */
-baum_status baum_i_compress(const baum_i_places *places, int32_t n, int32_t *start, int32_t *row,
-                            int32_t *slot);
+/* Compresses a list, which is empty afterwards. BAUM_OK, or BAUM_ERR_MEMORY without a message; then
+ * *out is empty. */
+baum_status baum_i_compress(baum_i_places *places, int32_t n, baum_i_compressed *out);
+void baum_i_compressed_clear(baum_i_compressed *compressed); /* a zeroed pattern is allowed */
 
 #endif

@@ -3,9 +3,9 @@
  * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. Graphs
  * of joints are sparse and mostly stay sparse; otherwise the caller uses another solver.
  *
- * A node whose neighbours are already coupled with each other causes no fill, whatever its degree.
- * Such nodes come first, so that a round eliminates all ends of a mechanism and not only those of
- * least degree. */
+ * A node whose neighbours are already coupled with each other causes no fill, even if its degree is
+ * high. Such nodes are eliminated first, so that a round eliminates all ends of a mechanism and not
+ * only those of least degree. */
 #include "linear/elimination.h"
 
 #include <stdbool.h>
@@ -15,12 +15,13 @@
 #include "base/message.h"
 #include "linear/vector.h"
 
-/* State of the search. Nodes that are not yet eliminated are in buckets: nodes without fill in the
- * first, the others by degree. Nodes that a round has touched wait for the next round. */
+/* State of the search. Nodes that are not yet eliminated are in buckets: nodes that cause no fill
+ * in the first, the others by degree. Nodes whose neighbour has been eliminated in this round are
+ * in `waiting` until the next round. */
 typedef struct search {
   int count;
-  baum_i_vector *coupled; /* (count) int32_t, as the two below */
-  int32_t *head;          /* (count) first of each bucket, -1: empty */
+  baum_i_vector *coupled; /* (count) neighbours of each node */
+  int32_t *head;          /* (count) first node of each bucket; -1: empty */
   int32_t *next;          /* (count) */
   int32_t *previous;      /* (count) -1: first */
   int32_t *bucket;        /* (count) */
@@ -30,14 +31,14 @@ typedef struct search {
   int32_t round;
   int most;
   baum_i_vector waiting; /* touched in this round */
-  baum_i_vector later;   /* of all eliminated nodes, as nodes */
+  baum_i_vector later;   /* neighbours of all eliminated nodes */
   baum_i_elimination *out;
 } search;
 
 /* ---- buckets ---- */
 
-/* Tells whether all neighbours of a node are coupled with each other. Nodes with many neighbours
- * are not checked and give false. */
+/* Tells whether all neighbours of a node are coupled with each other. Returns false without a check
+ * for nodes with many neighbours. */
 static bool makes_no_fill(search *s, int32_t node)
 {
   enum { MANY = 8 };
@@ -89,7 +90,8 @@ static void leave(search *s, int32_t node)
 
 /* ---- elimination ---- */
 
-/* Makes the neighbours of `node`, which is eliminated, neighbours of `other`, one of them. */
+/* Makes all neighbours of `node`, which is eliminated, neighbours of `other`, which is one of
+ * them. */
 static baum_status couple(search *s, int32_t node, int32_t other)
 {
   const baum_i_vector *gone = &s->coupled[node];
@@ -114,7 +116,7 @@ static baum_status couple(search *s, int32_t node, int32_t other)
   return BAUM_OK;
 }
 
-/* Takes a node out of its bucket until the next round. */
+/* Moves a node from its bucket to `waiting`. */
 static baum_status touch(search *s, int32_t node)
 {
   if (s->touched[node] == s->round) {
@@ -183,7 +185,7 @@ static baum_status begin(search *s, const baum_i_graph *graph)
       BAUM_I_TRY(baum_i_vector_append_number(&s->coupled[i], graph->neighbour[k]));
     }
   }
-  /* The last node to enter a bucket leaves it first. */
+  /* The last node that enters a bucket leaves it first, so nodes enter in descending order. */
   for (int32_t i = (int32_t)s->count - 1; i >= 0; i--) {
     enter(s, i);
   }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Front end of the saddle-point solvers: scaling, accuracy checks, refinement, new pivots,
- * fallback.
+/* Front end of the saddle-point solvers. It scales, checks accuracy, refines, and requests new
+ * pivots or another solver.
  *
- * A ladder of efforts leads from cheap to robust factorizations:
+ * There is a ladder of factorizations, from cheap to robust:
  *
- *   KEEP     the pivots of the last factorization
- *   CHOOSE   pivots chosen at these values
- *   CAREFUL  pivots chosen for accuracy alone
+ *   KEEP keep the pivots of the last factorization
+ *   CHOOSE choose pivots for the present values
+ *   CAREFUL choose pivots only for accuracy
  *   LAST     rank-revealing QR, least squares
  *
- * Factoring climbs this ladder until the reciprocal condition number can be trusted. Solving climbs
- * further if refinement does not reduce the residual to rounding. */
+ * Factoring climbs this ladder until the estimated reciprocal condition number (rcond) is large
+ * enough. Solving climbs further if refinement does not reduce the residual to rounding. */
 #include "linear/kkt.h"
 
 #include <math.h>
@@ -23,18 +23,19 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* Below this, the next rung of the ladder is tried. If that does not help, the matrix counts as
- * near singular. */
+/* If rcond is below this, the next rung of the ladder is tried. If it stays below, the matrix
+ * counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
-/* New pivots are chosen if rcond is below the first number and has fallen to the second number
- * times its value when the pivots were chosen. rcond then shows neither the accuracy nor the
- * distance from a singular configuration. */
+/* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times its value when
+ * the pivots were chosen. With such old pivots rcond shows neither the accuracy nor the distance
+ * from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
-/* Below this even LU with pivots chosen for accuracy is useless. */
+/* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
 static const double least_rcond = 1e-15;
-/* Below this a pivot may be only a rounding error: those of dependent rows are up to 3e-15. */
-static const double rounding_rcond = 1e-14;
+/* If rcond is below this, a pivot may be only a rounding error. Pivots of dependent rows are up to
+ * 1e-14. */
+static const double rounding_rcond = 1e-13;
 /* Largest contradiction between dependent rows, relative to the right-hand side. */
 static const double contradiction = 1e-8;
 
@@ -44,21 +45,21 @@ typedef struct kkt_solver {
   const baum_i_kkt_ops *ops;
   void *self;
   bool has_pivots;
-  double chosen_rcond; /* when they were chosen */
+  double chosen_rcond; /* rcond when the pivots were chosen */
 } kkt_solver;
 
 struct baum_i_kkt {
   const baum_i_kkt_structure *structure;
   int n;
   kkt_solver first;
-  kkt_solver last;     /* of RUNG_LAST, created on first use */
-  kkt_solver *present; /* the one that factored last */
+  kkt_solver last;     /* solver of RUNG_LAST, created on first use */
+  kkt_solver *present; /* the solver of the last factorization */
   ladder_rung present_rung;
   ladder_rung top_rung;
   baum_i_kkt_quality quality;
   baum_i_kkt_counters counters;
   baum_i_kkt_values values;
-  double *memory; /* memory of the five below */
+  double *memory; /* memory of the five arrays below */
   double *scale;
   double *b;
   double *x;
@@ -89,9 +90,7 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
 {
   *out = NULL;
   baum_i_kkt *kkt = baum_i_alloc(1, sizeof *kkt);
-  if (!kkt) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(kkt));
   kkt->structure = structure;
   kkt->n = structure->nv + structure->nc;
   kkt->quality = BAUM_I_KKT_SINGULAR;
@@ -153,7 +152,7 @@ static double present_rcond(const baum_i_kkt *kkt)
   return kkt->present->ops->rcond(kkt->present->self);
 }
 
-/* The effort of the first solver follows the rung; the last solver has only one effort. */
+/* The effort of each rung. The solver of RUNG_LAST has only one. */
 static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
                                            [RUNG_CHOOSE] = BAUM_I_EFFORT_CHOOSE,
                                            [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
@@ -204,7 +203,7 @@ static baum_i_kkt_quality judge(const baum_i_kkt *kkt, baum_status status)
   return is_good ? BAUM_I_KKT_GOOD : BAUM_I_KKT_NEAR_SINGULAR;
 }
 
-/* Factors at the first trusted rung from `start` on, or at the top. */
+/* Factors, beginning at rung `start`, until the result is trusted or the top rung is reached. */
 static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
 {
   baum_status status = factor_at(kkt, start);
@@ -214,7 +213,7 @@ static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
   }
   if (status == BAUM_OK && kkt->present->ops->keeps_pivots && present_rcond(kkt) < least_rcond) {
     status =
-      BAUM_ERR_SINGULAR; /* LU would divide by rounding errors, and no residual would show it */
+      BAUM_ERR_SINGULAR; /* LU would divide by rounding errors, and residuals would not show this */
   }
   kkt->quality = judge(kkt, status);
   return status;
@@ -233,14 +232,14 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
   }
   kkt->values = *values;
   baum_i_scale_compute(kkt->structure, values, kkt->scale);
-  /* Close to a singularity kept pivots would fail. */
+  /* Kept pivots would fail close to a singular configuration. */
   bool keep = kkt->first.has_pivots && kkt->quality == BAUM_I_KKT_GOOD;
   return add_message(climb(kkt, keep ? RUNG_KEEP : RUNG_CHOOSE));
 }
 
 /* ---- solve ---- */
 
-/* The arrays may be NULL where count is 0. */
+/* The arrays may be NULL if count is 0. */
 static void copy(const double *from, int count, double *to)
 {
   for (int i = 0; i < count; i++) {
@@ -282,7 +281,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Tells whether the rows that fail are all negligible. Used only where more effort does not help.
+/* Tells whether all rows with a large residual are negligible. True only if no further rung can
+ * help.
  */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
@@ -296,7 +296,7 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether the rows that least squares could not meet are nearly met. Nothing else is checked
+/* Tells whether a least-squares solution nearly satisfies all rows. The usual test is not applied
  * then: if rows contradict each other, unknowns may be so large that rounding dominates the other
  * rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
@@ -304,24 +304,27 @@ static bool is_nearly_met(const baum_i_kkt *kkt)
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
 }
 
-/* Tells whether LU has divided a contradiction by rounding, which no residual shows: accelerations
- * are then as large as such a pivot makes them. Next to a singular configuration, where rows agree,
- * multipliers are large, too, but accelerations are not. */
+/* Tells whether rows contradict each other and the solver has divided by a rounding error. The
+ * residual does not show this, but accelerations are then as large as division by such a pivot
+ * makes them. If rows agree close to a singular configuration, multipliers may be as large, but
+ * accelerations are not. If rcond is below least_rcond, only rounding separates the configuration
+ * from a singular one, and large multipliers show a contradiction, too. */
 static bool is_divided_by_rounding(const baum_i_kkt *kkt)
 {
   double rcond = present_rcond(kkt);
-  double acceleration = 0.0;
+  double largest = 0.0;
   double side = 0.0;
-  if (!kkt->present->ops->keeps_pivots || rcond >= rounding_rcond) {
+  if (rcond >= rounding_rcond) {
     return false;
   }
   for (int i = 0; i < kkt->n; i++) {
     side = fmax(side, fabs(kkt->b[i] * kkt->scale[i]));
   }
-  for (int i = 0; i < kkt->structure->nv; i++) {
-    acceleration = fmax(acceleration, fabs(kkt->x[i] / kkt->scale[i]));
+  int count = rcond < least_rcond ? kkt->n : kkt->structure->nv;
+  for (int i = 0; i < count; i++) {
+    largest = fmax(largest, fabs(kkt->x[i] / kkt->scale[i]));
   }
-  return acceleration * rcond > contradiction * side;
+  return largest * rcond > contradiction * side;
 }
 
 /* Returns BAUM_ERR_SINGULAR if the residual stays large. */

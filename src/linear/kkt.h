@@ -4,9 +4,8 @@
  *   [ M   J^T ] [ a      ]   [ f ]
  *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
- * M is block diagonal, J a list of dense blocks. Both are given by their blocks, row-major, with a
- * fixed structure. An omitted row i is replaced by lambda_i = 0. Backends are selected through one
- * table of operations. */
+ * M is block diagonal, and J is a list of dense blocks. Both are given by their row-major blocks
+ * with a fixed structure. An omitted row i is replaced by lambda_i = 0. */
 #ifndef BAUM_I_LINEAR_KKT_H
 #define BAUM_I_LINEAR_KKT_H
 
@@ -28,7 +27,7 @@ typedef struct baum_i_row_block {
   int row; /* first row */
   int rows;
   int cols;
-  const int *col; /* (cols) columns, each once, any order; owned by the mechanism */
+  const int *col; /* (cols) columns, each once, in any order; the mechanism owns them */
   int value;      /* start of its rows x cols values */
 } baum_i_row_block;
 
@@ -51,14 +50,14 @@ typedef struct baum_i_kkt_values {
 /* How far the present factorization can be trusted. */
 typedef enum baum_i_kkt_quality {
   BAUM_I_KKT_GOOD,
-  /* solved, but the matrix is close to singular, or solved by least squares */
+  /* the matrix is close to singular, or the solution is one of least squares */
   BAUM_I_KKT_NEAR_SINGULAR,
   BAUM_I_KKT_SINGULAR /* no factorization */
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
   int64_t factorizations;      /* refactorizations and full ones */
-  int64_t full_factorizations; /* those that chose pivots again and may allocate */
+  int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t refinements;
   int64_t fallbacks; /* number of times that QR replaced an inaccurate LU */
 } baum_i_kkt_counters;
@@ -71,36 +70,36 @@ typedef struct baum_i_kkt baum_i_kkt;
 /* The structure's arrays must outlive the solver. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
-void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
+void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
-/* Factors at new values, which must stay in place until the last solve with them, because the
- * residual is formed from them. Refactors on the fixed pattern without allocation, and chooses
- * pivots again only where rcond or the residual requires it. BAUM_OK (see quality),
- * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Sets a message for memory only, because
- * only the caller knows time and names. */
+/* Factors the matrix of new values, which must not change until the last solve, because residuals
+ * are computed from them. Keeps the pivots, and then allocates nothing, unless rcond or the
+ * residual requires new pivots. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE. Sets a message only if out of memory, because only the caller knows time and
+ * names for a message. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
-/* Solves, and refines the residual of both equations (a and lambda are separate unknowns) to
- * rounding level. x = (a, lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (the residual
- * stays large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose pivots again or fall back to QR.
+/* Solves, and refines a and lambda until the residuals of both equations are at rounding level. (a,
+ * lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (the residual stays large),
+ * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose new pivots or use QR.
  */
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
-/* Factors and solves, for values with one right-hand side. */
+/* Factors and solves. For values with only one right-hand side. */
 baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
                                         const double *f, const double *r, double *a,
                                         double *lambda);
 
-/* Chooses pivots again at the next factorization, so that results do not depend on earlier ones. */
+/* Makes the next factorization choose new pivots, so that results do not depend on earlier ones. */
 void baum_i_kkt_forget(baum_i_kkt *kkt);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
-/* Returns a cheap estimate of the reciprocal condition of the scaled matrix at the present
- * factorization. It is free of units and continuous while pivots are kept; it jumps where they are
- * chosen again. 0 without a factorization or full rank. */
+/* Returns a cheap estimate of the reciprocal condition number of the present scaled matrix. It is
+ * free of units. It is continuous while pivots are kept and jumps when new pivots are chosen. It is
+ * 0 without a factorization, or if the rank is not full. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
-const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the last one used */
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr": the last used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 
 /* ---- plain products with the blocks, also used by dynamics ---- */
@@ -117,11 +116,12 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 
 /* ---- rank ---- */
 
-/* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is scaled by
- * column_scale[j], then every row to unit length; rows of zeros stay zero. `tolerance` applies to
- * the remaining column norms. independent[i] (nc) receives 1 for the rows of one largest
- * independent set, else 0. Rows marked in it beforehand are preferred, then earlier ones. BAUM_OK,
- * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
+/* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is first multiplied by
+ * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
+ * at most `tolerance` of it remains after orthogonalization. independent[i] (nc) receives 1 for the
+ * rows of one largest independent set, else 0. Rows with independent[i] != 0 on entry are
+ * preferred, then rows with a lower number. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE.
+ * Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

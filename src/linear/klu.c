@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
- * Factors with kept pivots may become useless, because pivots that were good at an earlier
- * configuration may have become small. This file detects it by the ratio of the smallest to the
- * largest pivot, the front end by the residual.
+ * Factors with kept pivots may be useless, because pivots that were good at an earlier
+ * configuration may have become small. This file checks the ratio of the smallest to the largest
+ * pivot, and the front end (kkt.c) checks the residual.
  *
- * There are two ways to choose pivots. Usually the scaled M has a unit diagonal and the diagonal is
- * preferred: masses are the pivots, and they stay good while the mechanism moves. Constraints then
- * enter as J M^-1 J^T, whose smallest eigenvalue is sigma^2 where the smallest singular value of
- * the scaled J is sigma. If accuracy matters most, M is weighted down,
+ * There are two ways to choose pivots. Usually diagonal entries are preferred. Masses, which are 1
+ * after scaling, are then the pivots, and they stay good while the mechanism moves. Their
+ * elimination leaves J M^-1 J^T, whose smallest eigenvalue is sigma^2 if sigma is the smallest
+ * singular value of the scaled J. If accuracy matters most, M is given a small weight w,
  *
  *   [ w M   J^T ]
  *   [ J    -S/w ]
  *
- * and the largest entry is the pivot. J itself is eliminated, which loses only sigma, and masses of
- * very different size do not disturb each other. Such pivots depend on the configuration and have
- * to be chosen more often. */
+ * and the largest entry is the pivot. Pivots are then entries of J. The condition number is only
+ * about 1/sigma, and masses of very different size do not cause cancellation. Such pivots depend on
+ * the configuration and have to be chosen more often. */
 #include "base/alloc.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"
 #include "linear/sparse_lu.h"
 
-/* Roots of the weight w, powers of two. */
+/* Square roots of the weight w. They are powers of two. */
 static const double usual_root = 1.0;
 static const double careful_root = 0x1p-13;
 
@@ -45,7 +45,7 @@ static baum_status create(const baum_i_kkt_structure *structure, void **out)
 {
   klu_backend *klu = *out = baum_i_alloc(1, sizeof *klu);
   if (!klu || baum_i_pattern_create(structure, &klu->pattern) != BAUM_OK ||
-      baum_i_sparse_lu_create(klu->pattern.n, klu->pattern.column_start, klu->pattern.row,
+      baum_i_sparse_lu_create(klu->pattern.n, klu->pattern.columns.start, klu->pattern.columns.row,
                               &klu->lu) != BAUM_OK) {
     destroy(klu);
     *out = NULL;

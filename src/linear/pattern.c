@@ -1,34 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pattern of the saddle-point matrix in compressed columns: lists all entries and compresses the
- * list. */
+/* Finds the pattern of the saddle-point matrix in compressed columns from a list of all entries. */
 #include "linear/pattern.h"
 
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "linear/compress.h"
 #include "linear/scale.h"
-
-static size_t count_mass_values(const baum_i_kkt_structure *structure)
-{
-  size_t count = 0;
-  for (int b = 0; b < structure->mass_block_count; b++) {
-    size_t size = (size_t)structure->mass_blocks[b].size;
-    count += size * size;
-  }
-  return count;
-}
-
-static size_t count_row_values(const baum_i_kkt_structure *structure)
-{
-  size_t count = 0;
-  for (int b = 0; b < structure->row_block_count; b++) {
-    const baum_i_row_block *block = &structure->row_blocks[b];
-    count += (size_t)block->rows * (size_t)block->cols;
-  }
-  return count;
-}
 
 static void list_mass(const baum_i_kkt_structure *structure, baum_i_places *places)
 {
@@ -60,61 +38,37 @@ static void list_jacobian(const baum_i_kkt_structure *structure, bool transposed
   }
 }
 
-static void list_all(const baum_i_kkt_structure *structure, baum_i_places *places)
-{
-  list_mass(structure, places);
-  list_jacobian(structure, false, places);
-  list_jacobian(structure, true, places);
-  for (int i = 0; i < structure->nv + structure->nc; i++) {
-    baum_i_places_add(places, i, i);
-  }
-}
-
-static baum_status compress(const baum_i_places *places, baum_i_pattern *pattern)
-{
-  pattern->column_start = baum_i_alloc((size_t)pattern->n + 1, sizeof *pattern->column_start);
-  pattern->row = baum_i_alloc(places->count, sizeof *pattern->row);
-  pattern->slot = baum_i_alloc(places->count, sizeof *pattern->slot);
-  if (!pattern->column_start || !pattern->row || !pattern->slot) {
-    return BAUM_ERR_MEMORY;
-  }
-  BAUM_I_TRY(
-    baum_i_compress(places, pattern->n, pattern->column_start, pattern->row, pattern->slot));
-  pattern->scale = baum_i_alloc((size_t)pattern->n, sizeof *pattern->scale);
-  pattern->matrix =
-    baum_i_alloc((size_t)pattern->column_start[pattern->n], sizeof *pattern->matrix);
-  return pattern->scale && pattern->matrix ? BAUM_OK : BAUM_ERR_MEMORY;
-}
-
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern)
 {
-  size_t mass = count_mass_values(structure);
-  size_t jacobian = count_row_values(structure);
-  size_t n = (size_t)structure->nv + (size_t)structure->nc;
-  *pattern = (baum_i_pattern){.structure = structure, .n = (int32_t)n};
-  baum_i_places places;
-  baum_status status = baum_i_places_create(mass + 2 * jacobian + n, &places);
-  if (status == BAUM_OK) {
-    list_all(structure, &places);
-    status = compress(&places, pattern);
+  int32_t n = structure->nv + structure->nc;
+  baum_i_places places = {0};
+  list_mass(structure, &places);
+  size_t mass = places.count;
+  list_jacobian(structure, false, &places);
+  size_t jacobian = places.count;
+  list_jacobian(structure, true, &places);
+  size_t transposed = places.count;
+  for (int32_t i = 0; i < n; i++) {
+    baum_i_places_add(&places, i, i);
   }
-  baum_i_places_clear(&places);
-  if (status != BAUM_OK) {
+  *pattern = (baum_i_pattern){.structure = structure, .n = n};
+  BAUM_I_TRY(baum_i_compress(&places, n, &pattern->columns));
+  pattern->scale = baum_i_alloc((size_t)n, sizeof *pattern->scale);
+  pattern->matrix = baum_i_alloc((size_t)pattern->columns.start[n], sizeof *pattern->matrix);
+  if (!pattern->scale || !pattern->matrix) {
     baum_i_pattern_clear(pattern);
-    return status;
+    return BAUM_ERR_MEMORY;
   }
-  pattern->mass = pattern->slot;
+  pattern->mass = pattern->columns.slot;
   pattern->jacobian = pattern->mass + mass;
-  pattern->transposed = pattern->jacobian + jacobian;
-  pattern->diagonal = pattern->transposed + jacobian;
+  pattern->transposed = pattern->mass + jacobian;
+  pattern->diagonal = pattern->mass + transposed;
   return BAUM_OK;
 }
 
 void baum_i_pattern_clear(baum_i_pattern *pattern)
 {
-  baum_i_free(pattern->column_start);
-  baum_i_free(pattern->row);
-  baum_i_free(pattern->slot);
+  baum_i_compressed_clear(&pattern->columns);
   baum_i_free(pattern->scale);
   baum_i_free(pattern->matrix);
   *pattern = (baum_i_pattern){0};
@@ -156,7 +110,7 @@ static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian)
   }
 }
 
-/* -S, and 1 for an omitted row. */
+/* Sets the diagonal: -S, and 1 for an omitted row. */
 static void fill_shift(const baum_i_pattern *pattern, const double *shift)
 {
   const double *e = pattern->scale + pattern->structure->nv;
@@ -174,7 +128,7 @@ void baum_i_pattern_fill(baum_i_pattern *pattern, const baum_i_kkt_values *value
                          const double *scale, double root)
 {
   baum_i_scale_weigh(pattern->structure, values, scale, root, pattern->scale);
-  memset(pattern->matrix, 0, (size_t)pattern->column_start[pattern->n] * sizeof *pattern->matrix);
+  memset(pattern->matrix, 0, (size_t)pattern->columns.start[pattern->n] * sizeof *pattern->matrix);
   fill_mass(pattern, values->mass);
   fill_jacobian(pattern, values->jacobian);
   fill_shift(pattern, values->shift);

@@ -2,36 +2,35 @@
 /* The saddle-point matrix in compressed columns. The pattern is found once; filling allocates
  * nothing.
  *
- * The pattern holds everything that can be non-zero, even where it is zero now, and the whole
+ * The pattern contains all entries that can be non-zero, even if they are zero now, and the whole
  * diagonal. Rows ascend within a column. The pattern is symmetric. */
 #ifndef BAUM_I_LINEAR_PATTERN_H
 #define BAUM_I_LINEAR_PATTERN_H
 
+#include "linear/compress.h"
 #include "linear/kkt.h"
 
 typedef struct baum_i_pattern {
   const baum_i_kkt_structure *structure;
-  int32_t n;             /* nv + nc */
-  int32_t *column_start; /* (n + 1) */
-  int32_t *row;          /* (column_start[n]) */
+  int32_t n;                 /* nv + nc */
+  baum_i_compressed columns; /* (n) */
 
-  /* Places in `row` of the block values, in the order of the blocks. */
-  int32_t *slot;             /* memory of the four below */
+  /* Indices in `matrix` of the values of all blocks, in the order of the blocks. */
   const int32_t *mass;       /* M */
   const int32_t *jacobian;   /* J */
-  const int32_t *transposed; /* J^T, listed as J */
+  const int32_t *transposed; /* J^T, in the order of J */
   const int32_t *diagonal;   /* (n) */
 
-  double *scale;  /* (n) D of the last filling */
-  double *matrix; /* (column_start[n]) D K D */
+  double *scale;  /* (n) D of the last baum_i_pattern_fill() */
+  double *matrix; /* (columns.start[n]) D K D */
 } baum_i_pattern;
 
-/* BAUM_OK or BAUM_ERR_MEMORY, then the pattern is empty. */
+/* BAUM_OK, or BAUM_ERR_MEMORY; the pattern is then empty. */
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
-void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is valid */
+void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed pattern is allowed */
 
-/* Fills the matrix for D = diag(scale), weighted by `root` as in baum_i_scale_weigh(). A row with
- * scale 0 is omitted. */
+/* Fills the matrix D K D for D = diag(scale), weighted by `root` as in baum_i_scale_weigh(). A row
+ * with scale 0 is omitted. */
 void baum_i_pattern_fill(baum_i_pattern *pattern, const baum_i_kkt_values *values,
                          const double *scale, double root);
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A velocity that occurs in one block only is free for that block. Where the rows of a block, of
- * unit length, are clearly independent over its free velocities alone, no sum of other rows can
- * cancel them: they are independent, and no dependence of other rows involves them. The block is
- * removed, and its other velocities may then be free for a neighbour. In this way an open chain
- * vanishes from its tip to its root, including its motors, and closed loops remain. */
+/* A velocity that occurs in only one block of rows is free for that block. If the rows of a block,
+ * scaled to unit length, are clearly independent in the columns of its free velocities, no
+ * combination of other rows can cancel them. They are then independent of the other rows, and the
+ * other rows of them. The block is removed, and its other velocities may then be free for a
+ * neighbour. In this way an open chain is removed from its tip to its root, including its motors,
+ * and closed loops remain. */
 #include "linear/peel.h"
 
 #include <math.h>
@@ -12,11 +13,11 @@
 
 #include "base/alloc.h"
 
-/* Larger blocks stay: they are few, and repeated checks would be expensive. */
+/* Larger blocks are not checked, because they are rare and repeated checks would be expensive. */
 enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
 
-/* Length that must remain of a unit row. It is large enough that every tolerance on the rank gives
- * the same result. */
+/* A row is clearly independent if more than this of its unit length remains after
+ * orthogonalization. The value is so large that the tolerance on the rank does not matter. */
 static const double clear = 1e-3;
 
 enum { GONE, LEFT, WAITING }; /* state of a block; WAITING includes LEFT */
@@ -25,8 +26,8 @@ typedef struct peeling {
   const baum_i_kkt_structure *structure;
   const double *jacobian;
   const double *column_scale;
-  int *users;  /* (nv) number of blocks that a velocity occurs in */
-  int *user;   /* (nv) exclusive or of their indices, which is the index if there is only one */
+  int *users;  /* (nv) number of blocks in which a velocity occurs */
+  int *user;   /* (nv) exclusive or of the indices of these blocks */
   int *state;  /* (row_block_count) */
   int *stack;  /* (row_block_count) blocks to examine */
   int waiting; /* how many */
@@ -55,7 +56,8 @@ static void orthogonalize(double *x, double rows[][MOST_COLUMNS], int count, int
   }
 }
 
-/* Loads row i of a block, scaled to unit length, over its free velocities. Returns their number. */
+/* Loads the entries of the free velocities of row i, after scaling the row to unit length. Returns
+ * their number. */
 static int load_row(const peeling *p, const baum_i_row_block *block, int i, double *out)
 {
   const double *value = p->jacobian + block->value + i * block->cols;
@@ -67,8 +69,7 @@ static int load_row(const peeling *p, const baum_i_row_block *block, int i, doub
   double size = size_of(row, block->cols);
   for (int k = 0; k < block->cols; k++) {
     if (p->users[block->col[k]] == 1) {
-      out[width++] =
-        row[k] / size; /* where squares overflow or vanish, no row is clearly independent */
+      out[width++] = row[k] / size; /* 0 if squares overflow */
     }
   }
   return width;
@@ -94,7 +95,7 @@ static bool is_independent(const peeling *p, const baum_i_row_block *block)
   return true;
 }
 
-/* Tells whether a velocity of a block has a non-zero entry, not only a place in the pattern. */
+/* Tells whether velocity k of a block has an entry that is not zero. */
 static bool occurs(const peeling *p, const baum_i_row_block *block, int k)
 {
   for (int i = 0; i < block->rows; i++) {

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Backend "qr": rank-revealing sparse QR, columns ordered by COLAMD.
  *
- * The scaled saddle-point matrix is weighted once more,
+ * M and S of the scaled saddle-point matrix are weighted with a small w:
  *
  *   K_w = [ w M   J^T ]
  *         [ J    -S/w ]
  *
- * with a small w. If the smallest singular value of the scaled J is sigma > w, that of K_w is about
- * sigma, but that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count as
- * dependent. The solution is the one of least norm among those that minimize the scaled residual.
- * K_w is symmetric, so its range is its row space, and it suffices to project the basic solution
- * onto it. Accelerations are unique where M is positive definite on ker J; multipliers have the
- * least norm in scaled rows. */
+ * If the smallest singular value of the scaled J is sigma > w, the smallest singular value of K_w
+ * is about sigma, but that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count
+ * as dependent. The solution is the one of least norm among those that minimize the scaled
+ * residual. K_w is symmetric, so its range is its row space, and the projection of the basic
+ * solution onto the range is the solution of least norm. Accelerations are unique where M is
+ * positive definite on ker J; multipliers have the least norm in scaled rows. */
 #include <colamd.h>
 #include <math.h>
 #include <string.h>
@@ -48,12 +48,12 @@ static void destroy(void *self)
 static int32_t *order_columns(const baum_i_pattern *pattern)
 {
   int statistics[COLAMD_STATS];
-  int32_t entries = pattern->column_start[pattern->n];
+  int32_t entries = pattern->columns.start[pattern->n];
   size_t room = colamd_recommended(entries, pattern->n, pattern->n); /* 0: too many */
   int32_t *row = room > 0 ? baum_i_alloc(room, sizeof *row) : NULL;
-  int32_t *order = baum_i_copy(pattern->column_start, (size_t)pattern->n + 1, sizeof *order);
+  int32_t *order = baum_i_copy(pattern->columns.start, (size_t)pattern->n + 1, sizeof *order);
   if (row && order) {
-    memcpy(row, pattern->row, (size_t)entries * sizeof *row);
+    memcpy(row, pattern->columns.row, (size_t)entries * sizeof *row);
     (void)colamd(pattern->n, pattern->n, (int32_t)room, row, order, NULL, statistics);
   }
   baum_i_free(row);
@@ -72,8 +72,8 @@ static baum_status set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
   int32_t *order = order_columns(pattern);
   baum_status status = BAUM_ERR_MEMORY;
   if (qr->work && order) {
-    const baum_i_sparse_columns columns = {pattern->n, pattern->n, pattern->column_start,
-                                           pattern->row};
+    const baum_i_sparse_columns columns = {pattern->n, pattern->n, pattern->columns.start,
+                                           pattern->columns.row};
     status = baum_i_sparse_qr_create(&columns, order, &qr->factors);
   }
   baum_i_free(order);
@@ -101,9 +101,9 @@ static void project_part(qr_backend *qr, int from, int to, double *x)
   memcpy(x + from, qr->work + from, count * sizeof *x);
 }
 
-/* x <- K_w^+ x. Because M and S are positive semidefinite, vectors of velocities alone and of
- * multipliers alone span the null space. They are projected separately, so that the rounding errors
- * of one, which w enlarges, do not enter the other. */
+/* x <- K_w^+ x. Because M and S are positive semidefinite, the null space is spanned by vectors
+ * that contain only velocities and vectors that contain only multipliers. Both parts are projected
+ * separately, so that the rounding errors of one part, which w enlarges, do not enter the other. */
 static void solve_scaled(qr_backend *qr, double *x)
 {
   baum_i_sparse_qr_solve(qr->factors, x);
@@ -123,8 +123,8 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank. Two steps, because one may miss a
- * singular vector. */
+/* Estimates 1 / (|K_w| |K_w^-1|) by inverse iteration, if the rank is full. There are two steps,
+ * because one may miss a singular vector. */
 static double estimate_rcond(qr_backend *qr)
 {
   int n = qr->pattern.n;
@@ -140,13 +140,13 @@ static double estimate_rcond(qr_backend *qr)
     solve_scaled(qr, qr->work);
     growth = fmax(growth, largest_of(qr->work, n));
   }
-  return 1.0 / (growth * fmax(largest_of(qr->pattern.matrix, qr->pattern.column_start[n]), 1.0));
+  return 1.0 / (growth * fmax(largest_of(qr->pattern.matrix, qr->pattern.columns.start[n]), 1.0));
 }
 
 static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
                           baum_i_kkt_effort effort)
 {
-  (void)effort; /* QR has only one effort */
+  (void)effort; /* `effort` is ignored */
   qr_backend *qr = self;
   baum_i_pattern_fill(&qr->pattern, values, scale, weight_root);
   qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->pattern.matrix, dependent, NULL);

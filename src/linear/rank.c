@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The rank of J, which is that of the columns of J^T, scaled to unit length, by sparse QR. Of
- * dependent columns the later ones are omitted, so the order expresses preference. */
+/* Finds the rank of J by sparse QR of J^T with columns scaled to unit length. Of dependent columns
+ * the later ones are omitted, so columns are ordered by preference. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 /* J^T in compressed columns. */
 typedef struct transposed {
-  unsigned char *peeled; /* (nc) rows of J known to be independent; they have no entries here */
+  unsigned char *peeled; /* (nc) 1: row of J that peel.c removed; it has no entries here */
   int32_t *order;        /* (nc) of preference */
   int32_t *start;        /* (nc + 1) */
   int32_t *velocity;     /* (start[nc]) */
@@ -33,7 +33,8 @@ static void count_entries(const baum_i_kkt_structure *structure, const transpose
   }
 }
 
-/* Scales to unit length, by the largest number first, so that squares neither overflow nor vanish.
+/* Scales x to unit length. x is first divided by its largest number, so that squares neither
+ * overflow nor vanish.
  */
 static void make_unit(double *x, int count)
 {
@@ -51,7 +52,7 @@ static void make_unit(double *x, int count)
   }
 }
 
-/* Returns false where a number is not finite; such rows are never peeled. */
+/* Returns false if a number is not finite. Rows with such numbers are never peeled. */
 static bool list_entries(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *column_scale, const transposed *columns)
 {
@@ -103,7 +104,7 @@ static baum_status find_rank(const baum_i_kkt_structure *structure, const transp
   return BAUM_OK;
 }
 
-/* Makes room for the entries that remain. */
+/* Allocates memory for the entries that remain after peeling. */
 static baum_status make_room(const baum_i_kkt_structure *structure, const double *jacobian,
                              const double *column_scale, transposed *columns)
 {

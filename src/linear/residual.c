@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual of the saddle-point system, and the test on it.
+/* Computes and tests the residual of the saddle-point system.
  *
- * Componentwise backward error (W. Oettli, W. Prager 1964): x solves a system whose every number is
- * changed by at most omega of itself, with
+ * Componentwise backward error (W. Oettli, W. Prager 1964): x is the exact solution of a system in
+ * which every number is changed by a relative amount of at most omega,
  *
  *   omega = max_i |b - K x|_i / (|K| |x| + |b|)_i .
  *
  * Each row is compared with itself, so units and masses of very different size do not matter. A row
- * whose denominator is only the rounding noise of other rows might never pass. After scaling, such
- * rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989). This is done
- * at once for rows of size eps^2, which one refinement leaves, and after refinement also for rows
- * of size eps. A residual also passes at once if it is below eps^2 of the largest row. Rows that
- * differ from zero only by rounding, such as those of a guide along an axis of the ground, cannot
- * be met more accurately. */
+ * whose denominator consists only of rounding errors of other rows might never pass. After scaling,
+ * such rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989). Rows of
+ * relative size eps^2, which remain after one refinement, are always compared in this way, and rows
+ * of relative size eps only by baum_i_residual_is_noise(). A residual below eps^2 of the largest
+ * row always passes, because rows that differ from zero only by rounding, such as those of a guide
+ * along an axis of the ground, cannot be solved more accurately. */
 #include "linear/residual.h"
 
 #include <float.h>
@@ -47,7 +47,7 @@ static void subtract_mass(const baum_i_kkt_structure *structure, const double *m
   }
 }
 
-/* Subtracts one row of a block of J in both equations. x = (a, lambda). */
+/* Subtracts the terms of one row of a block of J from both equations. x = (a, lambda). */
 static void subtract_row(const baum_i_row_block *block, const double *value, int row,
                          const double *x, double *residual, double *size)
 {
@@ -122,7 +122,8 @@ static double largest_scaled(int n, const double *scale, const double *x)
   return largest;
 }
 
-/* Compares rows of scaled size up to `negligible` of the largest with the largest. */
+/* Tests the residual. Rows of scaled size up to `negligible` times the largest are compared with
+ * the largest. */
 static bool is_rounding(int n, const double *scale, const double *residual, const double *size,
                         double negligible)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual b - K x of the saddle-point system, and whether it is at rounding level, independent of
- * units. */
+/* The residual b - K x of the saddle-point system, and tests whether it is at rounding level. The
+ * tests do not depend on units. */
 #ifndef BAUM_I_LINEAR_RESIDUAL_H
 #define BAUM_I_LINEAR_RESIDUAL_H
 
@@ -14,8 +14,8 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size);
 
-/* The same, but rows whose scaled size is only rounding of the largest row are compared with that
- * row. */
+/* The same, but a row whose scaled size is at rounding level of the largest row is compared with
+ * the largest row. */
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
                               const double *size);
 

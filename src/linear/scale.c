@@ -41,7 +41,7 @@ static double inverse_root(double x)
   return power_of_two(-(exponent - (exponent & 1)) / 2);
 }
 
-/* In the functions below, a scale of 0 is not yet known. */
+/* In the functions below, a scale of 0 means that the scale is not yet known. */
 
 static void scale_velocities(const baum_i_kkt_structure *structure, const double *mass, double *d)
 {
@@ -58,7 +58,7 @@ static void scale_velocities(const baum_i_kkt_structure *structure, const double
   }
 }
 
-/* Finds largest[i] of each row over the columns with a known scale. */
+/* Raises largest[i] to the largest scaled entry of row i in columns with a known scale. */
 static void measure_rows(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *d, double *largest)
 {
@@ -87,7 +87,7 @@ static void scale_constraints(const baum_i_kkt_structure *structure,
   }
 }
 
-/* Stores minus the largest scaled entry of each column without a known scale. */
+/* Sets d of each column without a known scale to minus its largest scaled entry. */
 static void measure_massless(const baum_i_kkt_structure *structure, const double *jacobian,
                              const double *e, double *d)
 {
@@ -104,7 +104,8 @@ static void measure_massless(const baum_i_kkt_structure *structure, const double
   }
 }
 
-/* Spreads scales from rows to their velocities without mass; true if any was found. */
+/* Finds scales of velocities without mass from the rows in which they occur. Returns true if it
+ * found any. */
 static bool spread_scales(const baum_i_kkt_structure *structure, const double *jacobian,
                           const double *e, double *d)
 {

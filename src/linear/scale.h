@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Symmetric scaling of the saddle-point matrix K to D K D by powers of two, which rounds nothing.
+/* Symmetric scaling of the saddle-point matrix K to D K D by powers of two, which causes no
+ * rounding errors.
  *
  *   d_j = 1 / sqrt(M_jj)          for velocities,   so that the scaled M has a unit diagonal,
  *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that scaled rows of J have entries up to 1,
  *
  * all rounded down to a power of two. A change of units multiplies K by a diagonal matrix from both
- * sides. D follows it, so D K D does not depend on units, except for the rounding to powers of two.
- * A velocity without mass takes its d_j from its rows. */
+ * sides. D changes by the inverse, so D K D does not depend on units, except for the rounding to
+ * powers of two. The d_j of a velocity without mass is computed from the rows in which it
+ * occurs. */
 #ifndef BAUM_I_LINEAR_SCALE_H
 #define BAUM_I_LINEAR_SCALE_H
 
 #include "linear/kkt.h"
 
-/* scale (nv + nc) = (d, e). e_i = 0 where row i is omitted, which removes the row from D K D and D
- * b. */
+/* Sets scale (nv + nc) = (d, e). If row i is omitted, e_i = 0, which removes the row from D K D and
+ * D b. */
 void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           double *scale);
 
-/* weighted (nv + nc) = (root d, e / root): D K D then has M times root^2, J as it is, and S over
- * root^2. Rows in which S would exceed one get less than e / root. root is a power of two up to
- * one. */
+/* Sets weighted (nv + nc) = (root d, e / root). D K D then contains M times root^2, J unchanged,
+ * and S divided by root^2. In rows in which S would exceed 1, the factor is less than e / root.
+ * root is a power of two, at most 1. */
 void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                         const double *scale, double root, double *weighted);
 

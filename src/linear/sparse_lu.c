@@ -2,8 +2,8 @@
 /* Sparse LU by KLU of SuiteSparse, 32-bit indices.
  *
  * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK with a useless result
- * if pivots have become small since they were chosen; klu_rcond, the ratio of the smallest to the
- * largest pivot, shows it. For pivots just chosen the ratio is accepted as it is. */
+ * if pivots have become small since they were chosen. klu_rcond, the ratio of the smallest to the
+ * largest pivot, then falls. For new pivots any ratio is accepted. */
 #include "linear/sparse_lu.h"
 
 #include <stdbool.h>
@@ -13,18 +13,18 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* New pivots are chosen if their ratio has fallen to this fraction of its value when they were
+/* New pivots are chosen if the ratio has fallen to this fraction of its value when the pivots were
  * chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* KLU takes them without const but does not change them */
+  int32_t *columns; /* KLU takes a pointer to non-const but does not change them */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;
   klu_numeric *numeric;
-  bool forgotten; /* pivots are to be chosen again */
+  bool forgotten; /* the next factorization chooses new pivots */
   double chosen;  /* rcond when the pivots were chosen */
   baum_i_sparse_lu_work work;
 };
@@ -48,7 +48,7 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu)
 static bool set_up(baum_i_sparse_lu *lu, const int32_t *columns, const int32_t *rows)
 {
   (void)klu_defaults(&lu->common); /* fails for NULL only */
-  lu->common.scale = 2;            /* by the largest entry of each row */
+  lu->common.scale = 2;            /* scale rows by their largest entry */
   lu->common.halt_if_singular = 1;
   lu->columns = baum_i_copy(columns, (size_t)lu->n + 1, sizeof *columns);
   lu->rows = baum_i_copy(rows, (size_t)columns[lu->n], sizeof *rows);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* LU factors of a general sparse square matrix with a fixed pattern. Rows are scaled by their
+/* LU factors of a general sparse square matrix with a fixed pattern. Rows are divided by their
  * largest entry. */
 #ifndef BAUM_I_LINEAR_SPARSE_LU_H
 #define BAUM_I_LINEAR_SPARSE_LU_H
@@ -13,38 +13,39 @@ typedef struct baum_i_sparse_lu baum_i_sparse_lu;
 /* Work so far. */
 typedef struct baum_i_sparse_lu_work {
   int64_t factorizations;
-  int64_t full_factorizations; /* those that chose pivots again and may allocate */
+  int64_t full_factorizations; /* those that chose new pivots and may allocate */
 } baum_i_sparse_lu_work;
 
 /* Creates factors of an n x n matrix in compressed columns with ascending rows. The pattern is
  * copied. BAUM_OK or BAUM_ERR_MEMORY; *out is then NULL. */
 baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int32_t *rows,
                                     baum_i_sparse_lu **out);
-void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is fine */
+void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
 
-/* Factors with the last pivots, and without allocation, as long as these are good. BAUM_OK,
- * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
+/* Factors the matrix. Keeps the last pivots, and then allocates nothing, as long as they are good.
+ * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
-/* The least share of the largest entry of its column that makes a diagonal entry the pivot. */
+/* A diagonal entry is the pivot if it is at least this fraction of the largest entry of its
+ * column. */
 #define BAUM_I_USUAL_THRESHOLD 0.001
 
-/* The two parts of factoring, for a caller that decides about pivots. keep needs existing pivots
- * and returns BAUM_OK, even if they have become useless, or BAUM_ERR_SINGULAR. choose returns
- * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+/* The two parts of factoring, for a caller that decides when pivots are chosen. _keep() requires
+ * pivots and returns BAUM_OK, even if they have become useless, or BAUM_ERR_SINGULAR. _choose()
+ * returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values);
 baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold);
 
 /* Returns the ratio of the smallest to the largest pivot; 0 after a failure. */
 double baum_i_sparse_lu_rcond(const baum_i_sparse_lu *lu);
 
-/* Declares values as scaled: rows are not scaled by their largest entry. */
+/* Declares that values are scaled, so that rows are not divided by their largest entry. */
 void baum_i_sparse_lu_take_scaled(baum_i_sparse_lu *lu);
 
-/* Chooses pivots again at the next factorization, so that results do not depend on earlier ones. */
+/* Makes the next factorization choose new pivots, so that results do not depend on earlier ones. */
 void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu);
 
-/* Replaces the right-hand side x (n) by the solution. Needs a factorization. */
+/* Replaces the right-hand side x (n) by the solution. Requires a factorization. */
 void baum_i_sparse_lu_solve(baum_i_sparse_lu *lu, double *x);
 
 baum_i_sparse_lu_work baum_i_sparse_lu_get_work(const baum_i_sparse_lu *lu);

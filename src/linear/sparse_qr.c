@@ -1,39 +1,40 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A = Q R of a sparse m x n matrix by Householder reflections, with its rank.
+/* Factors a sparse m x n matrix A = Q R by Householder reflections and finds its rank.
  *
- * Structure. Number the columns in their order of elimination. R lies within the pattern of the
- * Cholesky factor of A^T A (George & Heath 1980), of which
+ * Structure. Columns are numbered in their order of elimination. The Cholesky factor of A^T A
+ * contains the pattern of R (George & Heath 1980). The columns form a tree with
  *
  *   parent(k) = min { j > k : R_kj may be non-zero }
  *
- * makes a tree; R_kj may be non-zero where k is on the path up from the first column of a row of A
- * to another column j of that row (Liu 1986). A chain of columns and parents whose rows of R have
+ * R_kj may be non-zero if k is on the path in the tree from the first column of a row of A up to
+ * another column j of that row (Liu 1986). A chain of columns and parents whose rows of R have
  * nearly the same pattern is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
- * 2011). A front assembles the rows of A that begin with one of its columns, the pivots, and the
- * rows that fronts below it in the tree hand on, ordered by the column with which they begin:
+ * 2011). The columns of the chain are the pivots of the front. A front consists of the rows of A
+ * that begin with one of its pivots, and of the rows that remain from the fronts below it in the
+ * tree. Rows are ordered by the column with which they begin:
  *
  *     pivots  others
  *   [ R   R | R  R  R ]   independent pivots: rows of R
  *   [ v   R | R  R  R ]
- *   [     v | r  r  r ]   handed on to the parent
+ *   [     v | r  r  r ]   remaining rows, passed to the parent
  *   [     v | v  r  r ]
- *   [       | v  v  r ]   under the staircase of beginnings, v: the reflections 1 - tau v v^T
+ *   [       | v  v  r ]   v: vectors of the reflections 1 - tau v v^T
  *
- * Rank (Heath 1982). A pivot column whose remaining norm is at most the tolerance gets neither a
- * reflection nor a row of R; its rows pass to later columns. The remainder of a column depends only
- * on the columns below it in the tree, so the result is the same as with one column after the other
- * in the given order.
+ * Rank (Heath 1982). A pivot column whose remaining norm is at most the tolerance has neither a
+ * reflection nor a row of R; its rows are passed to later columns. The remaining norm of a column
+ * depends only on the columns below it in the tree, so the rank is the same as if columns were
+ * eliminated one by one in the given order.
  *
- * Memory. The other columns are reduced, too, so a front hands on no more rows than it has columns
- * left, whichever pivots are dependent. This bounds all fronts once and for all.
+ * Memory. The other columns of a front are also reduced to a triangle, so the front passes on at
+ * most as many rows as it has other columns, even if pivots are dependent. All sizes are therefore
+ * known in advance.
  *
  *   A. George, M. T. Heath, Linear Algebra Appl. 34 (1980) 69-83
  *   I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302-325
  *   M. T. Heath, SIAM J. Sci. Stat. Comput. 3 (1982) 223-237
  *   J. W. H. Liu, ACM Trans. Math. Softw. 12 (1986) 127-148
  *   T. A. Davis, Direct Methods for Sparse Linear Systems, SIAM 2006;
- *                ACM Trans. Math. Softw. 38 (2011) 8:1-22
- */
+ *                ACM Trans. Math. Softw. 38 (2011) 8:1-22 */
 #include "linear/sparse_qr.h"
 
 #include <math.h>
@@ -46,40 +47,39 @@
 
 enum { NONE = -1 };
 
-/* How much wider a front may be than the pattern of a row of R: as a fraction of it, and in
- * columns.
- */
+/* A front may be wider than the pattern of each of its rows of R by 1 / SLACK_SHARE of the pattern
+ * plus SLACK columns. */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
-  int32_t parent; /* fronts, rows of A: index or NONE */
+  int32_t parent; /* indices of fronts and rows of A, or NONE */
   int32_t first_child;
   int32_t next_child;
-  int32_t first_row; /* of those that begin here */
-  int32_t rows;      /* at most */
+  int32_t first_row; /* first row of A that begins with a pivot of this front */
+  int32_t rows;      /* largest number of rows */
   int32_t columns;
-  int32_t pivots; /* the first of the columns */
-  int32_t *place; /* (columns) in the order of elimination, ascending */
-  int32_t *end;   /* (columns) rows that begin with this column or one before */
-  /* (columns) number of reflections after this column, which is the rows of R and r */
+  int32_t pivots; /* number of pivots, which are the first columns */
+  int32_t *place; /* (columns) number in the order of elimination, ascending */
+  int32_t *end;   /* (columns) number of rows that begin with this or an earlier column */
+  /* (columns) number of reflections up to and including this column */
   int32_t *done;
-  int32_t *row;  /* (rows) row of A whose place in Q^T x each row takes */
-  double *tau;   /* (columns) of its reflection */
-  double *value; /* (rows x columns) by rows */
+  int32_t *row;  /* (rows) row of A whose component of x this row represents */
+  double *tau;   /* (columns) tau of its reflection */
+  double *value; /* (rows x columns) row-major */
 } front;
 
 struct baum_i_sparse_qr {
   int32_t m;
   int32_t n;
   int32_t front_count;
-  front *fronts;      /* a parent after its children */
-  int32_t *memory;    /* of the six below */
-  int32_t *order;     /* (n) column of A at each place */
-  int32_t *position;  /* (n) of each place in the present front */
-  int32_t *row_start; /* (m + 1) entries of A by rows, places ascending */
-  int32_t *next_row;  /* (m) that begins in the same front, or NONE */
+  front *fronts;      /* each parent after its children */
+  int32_t *memory;    /* memory of the six arrays below */
+  int32_t *order;     /* (n) column of A with each number */
+  int32_t *position;  /* (n) index of each column in the present front */
+  int32_t *row_start; /* (m + 1) start of each row of A in place[] and source[] */
+  int32_t *next_row;  /* (m) next row that begins in the same front, or NONE */
   int32_t *place;     /* (entries) */
-  int32_t *source;    /* (entries) among the values */
+  int32_t *source;    /* (entries) index in the values of A */
   double *work;       /* (max(m, n)) */
   int32_t *indices;   /* of all fronts */
   double *numbers;    /* of all fronts */
@@ -87,16 +87,16 @@ struct baum_i_sparse_qr {
 
 /* ---- structure ---- */
 
-/* Data that only creation needs. */
+/* Data that are needed only at creation. */
 typedef struct plan {
   const baum_i_sparse_columns *pattern;
-  int32_t *memory;   /* of the six below, (n) each */
-  int32_t *parent;   /* of a column, or NONE */
-  int32_t *mark;     /* of a search */
-  int32_t *count;    /* size of the pattern of a row of R */
-  int32_t *below;    /* the column below in the same front, or NONE */
-  int32_t *front_of; /* each column */
-  int32_t *listed;   /* columns of each front so far */
+  int32_t *memory;   /* memory of the six arrays below, (n) each */
+  int32_t *parent;   /* parent of each column, or NONE */
+  int32_t *mark;     /* mark of a search */
+  int32_t *count;    /* number of entries in each row of R */
+  int32_t *below;    /* column below each column in its front, or NONE */
+  int32_t *front_of; /* front of each column */
+  int32_t *listed;   /* number of columns listed so far in each front */
 } plan;
 
 static void fill(int32_t *x, int32_t count, int32_t value)
@@ -131,8 +131,8 @@ static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
   return qr->place[qr->row_start[row]];
 }
 
-/* Each row of A links its columns, one to the next; mark is the shortened path up the tree so
- * far. */
+/* Finds the tree. Each row of A connects each of its columns with the next one. mark contains
+ * shortcuts to the root of the tree so far. */
 static void find_parents(const baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *last = qr->next_row; /* scratch: last column of each row so far */
@@ -152,7 +152,7 @@ static void find_parents(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Adds column k to the pattern of row i of R, and to its front once fronts exist. */
+/* Adds column k to the pattern of row i of R, and to the front of i if fronts exist. */
 static void add_to_pattern(const baum_i_sparse_qr *qr, plan *p, int32_t i, int32_t k)
 {
   p->mark[i] = k;
@@ -182,11 +182,12 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Chains columns to their parents as long as the front is little wider than each pattern. */
+/* Joins columns and their parents to fronts, as long as a front is little wider than each
+ * pattern. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
-  int32_t *length = p->mark;    /* of the chain up to a column */
-  int32_t *least = p->front_of; /* of the patterns in it */
+  int32_t *length = p->mark;    /* length of the chain up to each column */
+  int32_t *least = p->front_of; /* least pattern in this chain */
   fill(p->below, qr->n, NONE);
   for (int32_t k = 0; k < qr->n; k++) {
     int32_t below = p->below[k];
@@ -206,7 +207,8 @@ static void find_fronts(baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Lists are filled from the end, so that they ascend. */
+/* Lists the children and first rows of fronts. Lists are filled from the end, so that they
+ * ascend. */
 static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
 {
   for (int32_t f = 0; f < qr->front_count; f++) {
@@ -214,7 +216,7 @@ static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
   }
   for (int32_t k = qr->n - 1; k >= 0; k--) {
     front *f = &qr->fronts[p->front_of[k]];
-    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column comes first */
+    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column is the first */
     int32_t up = p->parent[k] == NONE ? NONE : p->front_of[p->parent[k]];
     if (up != NONE && up != p->front_of[k]) {
       f->parent = up;
@@ -360,7 +362,8 @@ static double *row_of(const front *f, int32_t i)
   return f->value + (ptrdiff_t)i * f->columns;
 }
 
-/* Tells whether column j has a reflection, and so a row of R or r. It is the last so far. */
+/* Tells whether column j has a reflection. The row of R or r that belongs to it is row done[j] -
+ * 1. */
 static bool is_reduced(const front *f, int32_t j)
 {
   return f->done[j] > (j > 0 ? f->done[j - 1] : 0);
@@ -371,7 +374,7 @@ static const front *front_at(const baum_i_sparse_qr *qr, int32_t index)
   return index == NONE ? NULL : &qr->fronts[index];
 }
 
-/* Sets end to the first row that begins with each column. Returns the number of rows. */
+/* Sets end[j] to the first of the rows that begin with column j. Returns the number of rows. */
 static int32_t count_rows(const baum_i_sparse_qr *qr, const front *f)
 {
   fill(f->end, f->columns, 0);
@@ -392,7 +395,7 @@ static int32_t count_rows(const baum_i_sparse_qr *qr, const front *f)
   return begin;
 }
 
-/* Loads row i of A; end grows to its final value. */
+/* Loads row i of A, and increments `end` of its first column. */
 static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i, const front *f)
 {
   int32_t row = f->end[qr->position[first_of_row(qr, i)]]++;
@@ -402,7 +405,7 @@ static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i
   }
 }
 
-/* Loads the rows that a child hands on. */
+/* Loads the rows that a child front passes on. */
 static void load_child(const baum_i_sparse_qr *qr, const front *c, const front *f)
 {
   for (int32_t j = c->pivots; j < c->columns; j++) {
@@ -442,8 +445,7 @@ static double sum_of_squares(const front *f, int32_t j, int32_t first)
   return sum;
 }
 
-/* Turns column j, of the given length from row `first` on, into -+length, v_1, v_2, ... with v_0 =
- * 1. */
+/* Replaces column j from row `first` on by -+length, v_1, v_2, ... with v_0 = 1. Returns tau. */
 static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
   double *x = &row_of(f, first)[j];
@@ -455,7 +457,7 @@ static double make_reflection(const front *f, int32_t j, int32_t first, double l
   return (*x - before) / *x;
 }
 
-/* row += factor other, from column j on */
+/* row += factor * other, from column j on */
 static void add_row(double factor, const double *restrict other, int32_t j, int32_t columns,
                     double *restrict row)
 {
@@ -468,7 +470,7 @@ static void add_row(double factor, const double *restrict other, int32_t j, int3
   }
 }
 
-/* Applies the reflection of column j to the columns behind it; sum (columns) is scratch. */
+/* Applies the reflection of column j to all later columns. sum (columns) is scratch memory. */
 static void reflect(const front *f, int32_t j, int32_t first, double *sum)
 {
   double *top = row_of(f, first);
@@ -517,7 +519,7 @@ int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, doub
 
 /* ---- use ---- */
 
-/* Applies the reflection of column j, if there is one. */
+/* Applies the reflection of column j to x, if there is one. */
 static void reflect_by(const front *f, int32_t j, double *x)
 {
   if (!is_reduced(f, j)) {
@@ -555,7 +557,7 @@ static void multiply(const baum_i_sparse_qr *qr, double *x)
   }
 }
 
-/* Computes x (n) by places from y = Q^T b; zero for dependent columns. */
+/* Solves R x = y = Q^T b for x (n), in the order of elimination. x is zero in dependent columns. */
 static void solve_triangle(const baum_i_sparse_qr *qr, const double *y, double *x)
 {
   for (int32_t i = qr->front_count - 1; i >= 0; i--) {

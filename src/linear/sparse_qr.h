@@ -7,7 +7,7 @@
 
 #include <baum/status.h>
 
-/* Compressed columns: each place once, rows in any order. */
+/* The pattern of a matrix in compressed columns: each entry once, rows in any order. */
 typedef struct baum_i_sparse_columns {
   int32_t rows;
   int32_t columns;
@@ -17,22 +17,22 @@ typedef struct baum_i_sparse_columns {
 
 typedef struct baum_i_sparse_qr baum_i_sparse_qr;
 
-/* Creates the factors. order (columns) lists the columns in their order of elimination; NULL: as
- * they are. Neither argument is needed afterwards. BAUM_OK or BAUM_ERR_MEMORY, without a message;
- * *out is then NULL. */
+/* Finds the structure of the factors. order (columns) lists the columns in their order of
+ * elimination; NULL: ascending. Both arguments may be freed afterwards. BAUM_OK or BAUM_ERR_MEMORY,
+ * without a message; *out is then NULL. */
 baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const int32_t *order,
                                     baum_i_sparse_qr **out);
-void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is fine */
+void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is allowed */
 
-/* Factors finite values, listed as the rows of the pattern, and returns the rank. A column is
- * dependent when at most `tolerance` of its length remains beside the independent columns before
+/* Factors finite values, in the order of pattern->row, and returns the rank. A column is dependent
+ * if its norm is at most `tolerance` after orthogonalization against the independent columns before
  * it. independent (columns), which may be NULL, receives 1 or 0. This and the two functions below
  * allocate nothing. */
 int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
                                 unsigned char *independent);
 
-/* Replaces the right-hand side b in x, which has room for the larger of rows and columns, by an x
- * that minimizes |A x - b| and is zero in dependent columns. */
+/* Replaces the right-hand side b in x by the x that minimizes |A x - b| and is zero in dependent
+ * columns. The length of the array is the larger of rows and columns. */
 void baum_i_sparse_qr_solve(baum_i_sparse_qr *qr, double *x);
 
 /* Projects x (rows) orthogonally onto the span of the independent columns. */

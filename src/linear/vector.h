@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A growing array of items of one kind, used while a structure is found. */
+/* A growing array of items of one type, used while structures are built. */
 #ifndef BAUM_I_LINEAR_VECTOR_H
 #define BAUM_I_LINEAR_VECTOR_H
 
@@ -17,7 +17,7 @@ typedef struct baum_i_vector {
   size_t size; /* of an item */
 } baum_i_vector;
 
-/* Appends a zeroed item; NULL when out of memory. */
+/* Appends a zeroed item and returns it, or NULL when out of memory. */
 static inline void *baum_i_vector_append(baum_i_vector *v)
 {
   if (v->count == v->room) {
@@ -44,7 +44,7 @@ static inline baum_status baum_i_vector_append_number(baum_i_vector *v, int32_t 
   return BAUM_OK;
 }
 
-/* Hands the array to the caller. */
+/* Transfers the array to the caller, who frees it. */
 static inline void *baum_i_vector_give(baum_i_vector *v, int *count)
 {
   void *items = v->items;

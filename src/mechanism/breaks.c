@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Break times, at which loads on a mechanism jump: one rising list. */
+/* The ascending list of break times of a mechanism, at which loads jump. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* Find the place of t in the list. */
+/* Find the index of the first break time >= t. */
 static int place_of(const baum_mechanism *mechanism, double t)
 {
   int k = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Operations on definitions: set defaults, check, copy into an element, read back, replace.
  *
- * Every add and set prepares the new element first. It changes the mechanism only when nothing can
- * fail any more.
+ * Every add and set first prepares the new element. The mechanism is changed only after everything
+ * that can fail has succeeded.
  */
 #include "mechanism/definition.h"
 
@@ -18,15 +18,15 @@
 
 /* ---- a caller's struct, which may be of an older version ---- */
 
-/* Versions only append fields. A smaller struct is therefore of an older version, and the fields
- * that it lacks have their defaults. */
+/* New versions only append fields. A smaller struct is therefore of an older version, and the
+ * missing fields get their defaults. */
 typedef union whole_def {
   baum_i_def_head head;
   double numbers[32];
   unsigned char bytes[256];
 } whole_def;
 
-/* Number of bytes in a struct of that size that hold fields of its version. The rest is padding,
+/* Return the number of bytes that fields occupy in a struct of that size. The rest is padding,
  * which a later version may use for a field. */
 static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
@@ -87,8 +87,7 @@ static const char *name_by_number(const char *family, int number, char text[BAUM
   return text;
 }
 
-/* Fill an element from a definition whose fields are already checked; on failure it owns
- * nothing. */
+/* Fill an element from a checked definition. On failure the element owns no memory. */
 static baum_status fill(baum_i_element *element, const void *def)
 {
   const baum_i_definition *definition = element->definition;
@@ -98,7 +97,7 @@ static baum_status fill(baum_i_element *element, const void *def)
   element->name = baum_i_copy_text(name);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
-    baum_i_free(element->def); /* which owns nothing */
+    baum_i_free(element->def); /* which owns no memory */
     element->def = NULL;
   }
   if (!element->name || !element->def) {
@@ -109,7 +108,8 @@ static baum_status fill(baum_i_element *element, const void *def)
   return BAUM_OK;
 }
 
-/* Find the bodies of an element. A body acts on itself. On failure the span owns nothing. */
+/* Find the bodies on which an element acts. A body acts on itself. On failure the span owns no
+ * memory. */
 static baum_status make_span(const baum_mechanism *mechanism, const baum_i_definition *definition,
                              const void *def, int number, baum_i_span *span)
 {
@@ -154,7 +154,7 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
 
 /* ---- add ---- */
 
-/* Complete a definition, and check it for element `number` of its family. */
+/* Complete a definition of a caller and check it for element `number` of its family. */
 static baum_status check(const baum_mechanism *mechanism, const baum_i_family *family,
                          const baum_i_definition *definition, const void *def, int number,
                          whole_def *out)
@@ -180,7 +180,7 @@ baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *f
 
 /* ---- get and set ---- */
 
-/* Find the element of an id. */
+/* Find the element that has an id. */
 static baum_status find(const baum_mechanism *mechanism, const baum_i_family *family,
                         const baum_i_definition *definition, baum_i_id id, baum_i_element **out)
 {
@@ -214,7 +214,7 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
   return BAUM_OK;
 }
 
-/* Check that a new definition keeps the counts, joints and bodies of the element. */
+/* Check that a new definition has the same counts, joints and bodies as the element. */
 static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
                               const void *def, baum_i_element *element)
 {

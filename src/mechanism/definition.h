@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions of elements. A type's file ends with the macro below, which defines the four public
- * functions of the type.
+/* Definitions of elements. The file of an element type ends with the macro BAUM_I_DEFINE, which
+ * defines the four public functions of the type.
  */
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H
@@ -10,14 +10,14 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Whether a caller's struct_size can belong to this struct or to an older version of it: whole
- * words, with at least the first two fields. */
+/* Tell whether a caller's struct_size can be the size of this struct or of an older version. It
+ * must be a whole number of words and contain at least the first two fields. */
 static inline bool baum_i_is_struct_size(size_t size, size_t present)
 {
   return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
 }
 
-/* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY with its
+/* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY and sets its
  * message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   const baum_i_definition *definition, const void *def);
@@ -33,7 +33,7 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,
                                const baum_i_definition *definition, baum_i_id id, const void *def);
 
-/* FAMILY is body, joint or force; NAME as in baum_NAME_def; TYPE the type struct. */
+/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the type struct. */
 #define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                          \
   const baum_i_definition *const baum_i_##NAME##_definition = &(TYPE).definition;                  \
   void baum_##NAME##_def_init(baum_##NAME##_def *def, size_t caller_size)                          \

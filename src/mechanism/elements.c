@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elements by number and by name. */
+/* Public functions that return elements by number and by name. */
 #include <baum/elements.h>
 
 #include <string.h>
 
 #include "mechanism/identify.h"
 
-/* The id of element k of a family, from 0, or none. */
+/* The id of element k of a family, from 0, or the empty id if there is no such element. */
 #define ID_AT(FAMILY, MECHANISM, K)                             \
   ((K) >= 0 && (K) < baum_mechanism_##FAMILY##_count(MECHANISM) \
      ? (baum_##FAMILY##_id){(K) + 1, (MECHANISM)->tag}          \

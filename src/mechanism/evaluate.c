@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism: one call per group, or per element where speed matters
- * little. */
+/* Evaluation of a whole mechanism: one call per group of elements, or one call per element where
+ * speed matters little. */
 #include <string.h>
 
 #include "base/message.h"
@@ -148,11 +148,11 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 /* ---- energy ----
  *
  * User functions give a potential, but not its gradient. The power of these elements is therefore
- * that of the whole force, and the energy stored in the potential is the difference of its values,
- * which is exact.
+ * the power of the whole force. The energy stored in the potential is the exact difference of two
+ * values of the potential.
  */
 
-/* whole_power: include only types whose power is that of the whole force. */
+/* If whole_power, include only types whose power is that of the whole force. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

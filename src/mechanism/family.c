@@ -6,7 +6,7 @@
 
 /* ---- lists and groups, the same code for three types ---- */
 
-/* The first FIRST elements of LIST are not counted. */
+/* The first FIRST elements of LIST (ground) are not counted. */
 #define LIST_FUNCTIONS(FAMILY, LIST, FIRST)                                                    \
   static baum_i_element *FAMILY##_at(const baum_mechanism *mechanism, int k)                   \
   {                                                                                            \

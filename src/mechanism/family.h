@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies, joints and forces as families of elements, so that code for elements is written once. */
+/* The families of elements: bodies, joints and forces. Code that is common to all elements is
+ * written once, for a family. */
 #ifndef BAUM_I_MECHANISM_FAMILY_H
 #define BAUM_I_MECHANISM_FAMILY_H
 
 #include "mechanism/model.h"
 
-/* Numbers of columns or rows, and of values in blocks, that a family has so far. */
+/* The counts of columns or rows, and of values in blocks, of a family so far. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies, rows of joints */
@@ -13,24 +14,26 @@ typedef struct baum_i_totals {
   int64_t squares; /* nl x nl each */
 } baum_i_totals;
 
-/* How families differ. Each has its own element struct, which begins with a baum_i_element. */
+/* The differences between families. Each has its own element struct, which begins with a
+ * baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
   size_t size;      /* of an element */
   size_t span;      /* offset of its baum_i_span */
-  size_t count;     /* offset of their number in the mechanism, an int */
+  size_t count;     /* offset of their count (an int) in the mechanism */
   baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* from 0, without ground */
-  /* Functions that can fail return BAUM_ERR_MEMORY with its message. */
+  /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*prepare)(baum_i_element *element); /* set the type, and sizes by the definition */
-  /* At freeze: rows or velocities of one element; where its blocks begin; sizes of the family. */
+  void (*prepare)(baum_i_element *element); /* set the type, and sizes from the definition */
+  /* At freeze: return the rows or velocities of one element, set the start of its blocks, and set
+   * the sizes of the family. */
   int (*rows)(const baum_i_element *element);
   void (*place)(baum_i_element *element, const baum_i_totals *before);
   void (*close)(baum_mechanism *mechanism, const baum_i_totals *all);
   /* Lists of elements of one type. */
   baum_status (*open_groups)(baum_mechanism *mechanism);
   baum_status (*join_group)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*free_groups)(baum_mechanism *mechanism); /* none is fine */
+  void (*free_groups)(baum_mechanism *mechanism); /* allowed without groups */
 } baum_i_family;
 
 extern const baum_i_family baum_i_body_family;

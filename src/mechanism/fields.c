@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Defaults, checks, copies, digests and bodies of definitions by their tables of fields. */
+/* Defaults, checks, copies, digests and bodies of definitions, by means of their tables of
+ * fields. */
 #include "mechanism/fields.h"
 
 #include <stdio.h>
@@ -9,8 +10,8 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* More rows or coordinates in one element are refused as a mistake. Products of two such numbers
- * fit an int. */
+/* More rows or coordinates in one element are refused as a mistake. The product of two such counts
+ * does not overflow an int. */
 enum { COUNT_MAX = 10000 };
 
 /* ---- defaults ---- */
@@ -33,8 +34,7 @@ void baum_i_fields_set(const baum_i_definition *definition, void *def)
 
 /* ---- numbers ---- */
 
-/* Numbers that each rule allows in addition to positive finite ones, and the remedy in its
- * message. */
+/* What each rule allows in addition to positive finite numbers, and the end of its message. */
 static const struct {
   bool nan, negative, zero;
   const char *remedy;
@@ -68,7 +68,7 @@ baum_status baum_i_check_number(const char *label, const char *field, const char
                      unit[0] ? " " : "", unit, rules[rule].remedy);
 }
 
-/* Check one of several numbers of a field. */
+/* Check number k of a field with several numbers. */
 static baum_status check_entry(const baum_i_def_field *f, const double *values, int k,
                                const char *label)
 {
@@ -119,7 +119,7 @@ static void set_pointer(const baum_i_def_field *f, void *def, const void *pointe
   memcpy((char *)def + f->offset, &pointer, sizeof pointer);
 }
 
-/* Number of entries of an array. */
+/* Return the number of entries of an array. */
 static int32_t count_of(const baum_i_def_field *f, const void *def)
 {
   const char *bytes = def;
@@ -242,7 +242,7 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
   case BAUM_I_FIELD_FUNCTION: return check_function(f, def, label);
-  default: return BAUM_OK; /* either every value is allowed, or the definition checks it */
+  default: return BAUM_OK; /* every value is allowed, or the definition checks the field */
   }
 }
 
@@ -324,7 +324,7 @@ static bool own_arrays(const baum_i_definition *definition, void *def)
 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def)
 {
-  /* own() comes first: if it fails, all pointers are still the caller's. */
+  /* own() must be called first, because if it fails all pointers must still be the caller's. */
   if (definition->own) {
     BAUM_I_TRY(definition->own(def));
   }
@@ -343,7 +343,7 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
     const void *at = baum_i_field_at(f, def);
     if (f->kind == BAUM_I_FIELD_FLAG) {
       baum_i_digest_add_integer(sum, *(const bool *)at);
-    } else if (f->kind == BAUM_I_FIELD_OWN_COUNT) {
+    } else if (f->kind == BAUM_I_FIELD_OWN_COUNT || f->kind == BAUM_I_FIELD_COORDINATE) {
       baum_i_digest_add_integer(sum, *(const int32_t *)at);
     } else if (f->kind == BAUM_I_FIELD_INPUT) {
       baum_i_digest_add_integer(sum, ((const baum_input_id *)at)->index1);
@@ -354,10 +354,10 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
   }
 }
 
-/* A growing list of bodies; ids are checked. */
+/* A growing list of bodies, whose ids have been checked. */
 typedef struct list {
   int count;
-  int *bodies; /* NULL: only count, repeated bodies several times */
+  int *bodies; /* NULL: only count, and count repeated bodies each time */
 } list;
 
 static void include(list *all, int body)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A fingerprint that identifies a frozen mechanism in another process. */
+/* A fingerprint of a frozen mechanism, by which another process recognizes the same mechanism. */
 #ifndef BAUM_I_MECHANISM_FINGERPRINT_H
 #define BAUM_I_MECHANISM_FINGERPRINT_H
 
 #include "mechanism/identify.h"
 
-/* A fingerprint covers neither user functions nor names of elements. */
+/* User functions and names of elements do not affect a fingerprint. */
 typedef struct baum_i_fingerprint {
   uint64_t structure; /* kinds of elements in their order, their bodies, names of inputs */
   uint64_t numbers;   /* masses, lengths and all other parameters */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed bodies: bodies that a chain of welds connects to ground. The welds determine their
- * poses. */
+/* Finds fixed bodies, which a chain of welds connects to ground, and their poses, which the welds
+ * determine. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"
 
-/* If one body of a weld is fixed, fix the other one. */
+/* If exactly one body of a weld is fixed, mark the other one as fixed and find its pose. */
 static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
 {
   const baum_i_body *a = m->bodies[joint->span.bodies[0]];
@@ -24,7 +24,8 @@ static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
   return true;
 }
 
-/* Passes alternate in direction, so a chain of welds in either order takes one pass. */
+/* Passes over the joints alternate in direction, so a chain of welds in either order needs at most
+ * two passes. */
 static void fix_bodies(baum_mechanism *m)
 {
   bool found = true;

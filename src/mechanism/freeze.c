@@ -2,8 +2,8 @@
 /* Freezing turns definitions into the constant structure of a mechanism.
  *
  * It numbers columns and rows in the order in which elements were added, gathers elements of one
- * type into groups and writes all numbers to the parameter array. On failure it undoes everything,
- * and the mechanism stays open.
+ * type into groups and writes all numbers to the parameter array. On failure everything is undone,
+ * and the mechanism stays open for changes.
  */
 #include <limits.h>
 #include <math.h>
@@ -55,8 +55,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 
 /* ---- numbering ---- */
 
-/* Provide scratch memory for an element with these local columns and rows. Returns false when it is
- * too large. */
+/* Enlarge scratch_size for an element with these local columns and rows. Returns false if it is too
+ * large. */
 static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
 {
   int64_t size = baum_i_scratch_size(columns, rows);
@@ -101,8 +101,7 @@ static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *spa
   return BAUM_OK;
 }
 
-/* Every index of the frozen structure is an int. Mechanisms whose indices would not fit are refused
- * here. */
+/* Indices of the frozen structure are ints. Refuse mechanisms whose indices would overflow. */
 static baum_status number_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   baum_i_element *element, baum_i_totals *totals)
 {
@@ -117,7 +116,8 @@ static baum_status number_element(baum_mechanism *mechanism, const baum_i_family
   if (totals->blocks > INT_MAX || totals->squares > INT_MAX ||
       !widen_scratch(mechanism, span->ql > span->nl ? span->ql : span->nl, rows)) {
     char label[BAUM_I_LABEL_SIZE];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism has more than %d matrix entries here",
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: with this element the mechanism has more than %d matrix entries",
                        baum_i_label(element, label), INT_MAX);
   }
   element->parameter = mechanism->parameter_count;
@@ -149,8 +149,9 @@ void baum_i_box_include(baum_i_box *box, double x, double y, double z)
   }
 }
 
-/* Size of the design configuration: the diagonal of the box around all bodies and all points of
- * joints. 1 for mechanisms without such points, as of user coordinates alone. */
+/* Return the size of the design configuration: the diagonal of the box around all bodies and all
+ * points of joints, or 1 if there are no such points, as in a mechanism with only user
+ * coordinates. */
 static double design_size(const baum_mechanism *mechanism)
 {
   baum_i_box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -171,7 +172,7 @@ static double design_size(const baum_mechanism *mechanism)
     return diagonal;
   }
   double offset =
-    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* one particle: its distance from the origin */
+    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* a single point: its distance from the origin */
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 

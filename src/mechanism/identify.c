@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ids, labels and the checks of both. */
+/* Ids, labels, and checks of ids. */
 #include "mechanism/identify.h"
 
 #include <stdio.h>

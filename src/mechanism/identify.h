@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ids, owners of rows and columns, labels for messages, and checks of ids and of the stage of a
- * mechanism. */
+/* Ids, owners of rows and columns, labels for messages, and checks of ids and of whether a
+ * mechanism is frozen. */
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
@@ -12,20 +12,22 @@ typedef struct baum_i_id {
   uint32_t tag;
 } baum_i_id;
 
-/* Number of an id's element in its family, from 0. -1 for ground, none, foreign ids and ids out of
- * range. */
+/* Return the number, from 0, in its family of the element with an id. Returns -1 for ground, the
+ * empty id, ids of other mechanisms and ids out of range. */
 int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
 
-/* Number of the first element of that name, from 0, or -1. */
+/* Return the number, from 0, of the first element with that name, or -1. */
 int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
                          const char *name);
 
-/* Index of an id's element; -1 for none, foreign ids and ids out of range. 0 for ground. */
+/* Return the index of the element with an id. Returns -1 for the empty id, ids of other mechanisms
+ * and ids out of range, and 0 for ground. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
 
-/* Check an id in a definition. The message says whether it is none or of another mechanism. */
+/* Check an id in a definition. The message tells whether the id is empty or of another
+ * mechanism. */
 baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
                             baum_i_id id, const char *label, const char *field);
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
@@ -38,7 +40,7 @@ baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id
 baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
                                      const char *call, double value);
 
-/* Initial inputs (input_count); NULL while there are none. */
+/* Return the initial inputs (input_count), or NULL if there are none. */
 const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
 
 /* Check that a mechanism is not frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL) or BAUM_ERR_STATE. */

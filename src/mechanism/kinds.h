@@ -39,6 +39,7 @@
   KIND(force, planar_load)            \
   KIND(force, spatial_spring)         \
   KIND(force, spatial_load)           \
+  KIND(force, joint_spring)           \
   KIND(force, user_force)
 
 #define BAUM_I_DECLARE_DEFINITION(FAMILY, NAME) \

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The configuration manifold: positions q (nq), velocities v (nv) and q' = N(q) v.
  *
- * Where every body's q is a vector (mechanism->flat), N is the identity and moving q is adding.
- * Elsewhere `move` moves q and `difference` compares configurations; nothing of velocity size is
- * ever added to q. Integrators that combine rates q' = N v, which have position size, add these and
+ * If q of every body is a vector (mechanism->flat), N is the identity and moving q is an addition.
+ * Otherwise `move` moves q and `difference` compares configurations; vectors of length nv are never
+ * added to q. Integrators that combine rates q' = N v, which have length nq, add these to q and
  * normalize the configurations that they accept.
  */
 #ifndef BAUM_I_MECHANISM_MANIFOLD_H
@@ -13,7 +13,7 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; like the functions without `bodies` below ---- */
+/* ---- for mechanisms that are not flat; documented below under names without `bodies` ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -34,7 +34,7 @@ static inline void baum_i_add_scaled(int n, double h, const double *restrict x, 
   }
 }
 
-/* dq (nq) = N(q) v. q may be as far off the manifold as the stages of an integrator are. */
+/* Set dq (nq) = N(q) v. q may be off the manifold as far as stages of an integrator are. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
 {
@@ -45,8 +45,8 @@ static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q,
   }
 }
 
-/* Move q by h v (nv): to where it is after the time h at constant v, to second order in h. The
- * result is on the manifold. */
+/* Move q by h v (nv). The result is the configuration after the time h at constant v, to second
+ * order in h, and is on the manifold. */
 static inline void baum_i_move(const baum_mechanism *mechanism, double h, const double *v,
                                double *q)
 {
@@ -57,7 +57,7 @@ static inline void baum_i_move(const baum_mechanism *mechanism, double h, const 
   baum_i_add_scaled(mechanism->nv, h, v, q);
 }
 
-/* Likewise, but start at `from` and write to q; the two do not overlap. */
+/* The same from `from` to q, which do not overlap. */
 static inline void baum_i_move_from(const baum_mechanism *mechanism, const double *restrict from,
                                     double h, const double *restrict v, double *restrict q)
 {
@@ -71,11 +71,11 @@ static inline void baum_i_move_from(const baum_mechanism *mechanism, const doubl
   }
 }
 
-/* dx (nv) such that baum_i_move() with h = 1 leads from `from` to `to`. */
+/* Find dx (nv) such that baum_i_move() by dx with h = 1 leads from `from` to `to`. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
 
-/* Move q to the nearest point of the manifold; does nothing where the mechanism is flat. */
+/* Move q to the nearest point of the manifold. Does nothing if the mechanism is flat. */
 static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
 {
   if (!mechanism->flat) {
@@ -83,10 +83,10 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
   }
 }
 
-/* The next three functions write their result to `room` and return it. Where the mechanism is flat
- * they return their last vector instead. */
+/* The next three functions write their result to `room` and return it. If the mechanism is flat,
+ * they return their argument before `room` instead. */
 
-/* N(q) v (nq); room (nq). */
+/* Return N(q) v (nq). room (nq). */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,
                                          const double *v, double *room)
 {
@@ -97,23 +97,23 @@ static inline const double *baum_i_rates(const baum_mechanism *mechanism, const 
   return room;
 }
 
-/* q'' = N(q) a + (N v)_q N v (nq); room (4 nq). */
+/* Return q'' = N(q) a + (N v)_q N v (nq). room (4 nq). */
 static inline const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q,
                                                 const double *v, const double *a, double *room)
 {
   return mechanism->flat ? a : baum_i_second_rates_of_bodies(mechanism, q, v, a, room);
 }
 
-/* N^+ dq (nv), the velocities nearest to rates dq (nq), for q on the manifold. room (3 nq) must not
- * be dq. */
+/* Return N^+ dq (nv), the velocities that correspond best to the rates dq (nq). q must be on the
+ * manifold. room (3 nq) must not be dq. */
 static inline const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q,
                                            const double *dq, double *room)
 {
   return mechanism->flat ? dq : baum_i_tangent_of_bodies(mechanism, q, dq, room);
 }
 
-/* N^+ (N v)_q N, the derivative of rates at constant v by a displacement of q: blocks nv x nv at
- * the `mass` of bodies with a manifold. work (6 nq). */
+/* Set blocks to N^+ (N v)_q N, the derivative of rates at constant v by a displacement of q. The
+ * blocks nv x nv of bodies with a manifold begin at their `mass`. work (6 nq) is scratch memory. */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 

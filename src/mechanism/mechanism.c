@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism as an object: create, copy, share, destroy, and settings of the whole. */
+/* A mechanism as an object: create, copy, share, destroy, and settings of the whole mechanism. */
 #include "mechanism/mechanism.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@
 
 /* ---- life ---- */
 
-/* Make a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
- * probability of 2^-32. A counter would be global state. */
+/* Compute a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
+ * probability of 2^-32. A counter is not used, because it would be global state. */
 static uint32_t make_tag(const void *address)
 {
   struct timespec now = {0};
@@ -69,7 +69,7 @@ baum_status baum_mechanism_create(baum_mechanism **out)
 
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
 {
-  /* The reference count is the only member of a constant mechanism that changes. */
+  /* The reference count is the only member that changes after freeze. */
   baum_mechanism *counted = baum_i_mutable(mechanism);
   atomic_fetch_add(&counted->references, 1);
   return mechanism;

@@ -2,12 +2,12 @@
 /* The types of a mechanism: elements (bodies, joints, forces), their types, the point where they
  * are evaluated, and the frozen structure. Functions of the whole mechanism are in mechanism.h.
  *
- * An element type is one const struct of functions; adding a joint is one file with such a struct
- * and its four public functions (definition.h). Functions work on groups: all elements of
- * one type in one call. Structure and numbers are apart: after freeze the structure is constant,
- * and every mass, length and stiffness lives in one parameter array.
+ * An element type is a const struct of functions. The file of a type contains this struct and the
+ * four public functions of the type (definition.h). Functions process groups: all elements of one
+ * type in one call. Structure and numbers are separate: after freeze the structure is constant, and
+ * every mass, length and stiffness is in one parameter array.
  *
- * Body 0 is ground. A body id's index1 is the index here; BAUM_GROUND's is -1.
+ * Body 0 is ground. index1 of a body id is the index in `bodies`; that of BAUM_GROUND is -1.
  */
 #ifndef BAUM_I_MECHANISM_MODEL_H
 #define BAUM_I_MECHANISM_MODEL_H
@@ -27,15 +27,15 @@
 typedef struct baum_i_element {
   const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
-  void *def;     /* own copy; its name points to `name` or is NULL */
-  char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */
-  int index;     /* in its family; bodies from 1 */
+  void *def;     /* own copy; its `name` points to `name` below or is NULL */
+  char *name;    /* the given name, or "body<k>", "joint<k>", "force<k>" */
+  int index;     /* in its family, from 1 */
   int parameter; /* start of its numbers in the parameter array; set at freeze */
 } baum_i_element;
 
-/* The bodies that an element acts on, with their velocities and positions. The local columns are
- * those of the bodies one after the other, without ground. Freeze sets all but bodies and
- * body_count. */
+/* The bodies on which an element acts, with their velocities and positions. The local columns are
+ * those of the bodies one after the other, without ground. Freeze sets all members except bodies
+ * and body_count. */
 typedef struct baum_i_span {
   int body_count;
   int *bodies;    /* (body_count) indices, 0 = ground */
@@ -46,7 +46,7 @@ typedef struct baum_i_span {
   bool flat;      /* none of the bodies has a manifold */
 } baum_i_span;
 
-/* Which coordinates give a body's frame. */
+/* Kinds of bodies, by the coordinates that determine their frame. */
 typedef enum baum_i_frame_kind {
   BAUM_I_FRAME_NONE,     /* user coordinates: no position */
   BAUM_I_FRAME_PARTICLE, /* x, y */
@@ -70,7 +70,7 @@ typedef struct baum_i_body {
   baum_i_element element;
   const baum_i_body_type *type;
   const baum_i_manifold *manifold; /* NULL: q is a vector and v = q' */
-  baum_i_span span;                /* itself; columns set at freeze */
+  baum_i_span span;                /* the body itself; columns are set at freeze */
   int q;                           /* first position */
   int nq;                          /* number of positions */
   int v;                           /* first velocity */
@@ -88,7 +88,7 @@ typedef struct baum_i_joint {
   int jacobian; /* start of its rows x nl values */
   int square;   /* start of its nl x nl values, for second derivatives */
   bool fixed;   /* between fixed bodies */
-  bool fixes;   /* the weld that fixes one of them */
+  bool fixes;   /* a weld that determines the pose of a fixed body */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -118,7 +118,7 @@ typedef struct baum_i_force_group {
 
 /* ---- a point in state space ---- */
 
-/* Pose and velocities of a body. Every planar element reads this instead of q. One cache line. */
+/* Pose and velocities of a body, in one cache line. Planar elements read this instead of q. */
 typedef struct baum_i_frame {
   double x, y;   /* origin */
   double vx, vy; /* velocities; zero at position level */
@@ -127,15 +127,15 @@ typedef struct baum_i_frame {
   double angle;  /* continuous */
 } baum_i_frame;
 
-/* Likewise in space, for spatial elements. */
+/* Pose and velocities of a body in space. Spatial elements read this instead of q. */
 typedef struct baum_i_spatial_frame {
   double r[3];    /* origin */
   double v[3];    /* velocities in ground axes; zero at position level */
   double w[3];    /* angular velocity in ground axes */
-  double axes[9]; /* A by rows: turns body axes into ground axes */
+  double axes[9]; /* A, row-major: from body axes to ground axes */
 } baum_i_spatial_frame;
 
-/* Where a body's frame finds its coordinates. */
+/* The coordinates from which the frame of a body is computed. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
   int32_t v;    /* first velocity */
@@ -146,46 +146,48 @@ typedef struct baum_i_frames_kernel baum_i_frames_kernel;
 
 baum_i_frame_kind baum_i_frame_of(const baum_i_body *body);
 
-/* Frame of a body at its q, and its v or NULL for rest. Bodies without a position are at the
+/* Return the frame of a body at its q, at rest. Bodies without a position are at the
  * origin. */
-baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v);
+baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q);
 
-/* A point at which functions are evaluated. Only one thread at a time may use it. */
+/* A point in state space, at which functions are evaluated. Only one thread at a time may use
+ * it. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
-  const double *parameters; /* of the mechanism, or a caller's own copy */
+  const double *parameters; /* those of the mechanism, or a copy of the caller */
   double t;
-  const double *q;      /* normalized, in own memory, where the mechanism is not flat */
+  const double *q;      /* if the mechanism is not flat, = normalized */
   const double *v;      /* NULL at position level */
-  double *normalized;   /* (nq); NULL where the mechanism is flat */
+  double *normalized;   /* (nq) normalized q; NULL if the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
-  baum_i_spatial_frame *spatial; /* likewise; NULL where nothing is spatial */
-  /* (joint_count, 2) angle and rate of spatial joints at angles[2 joint_count], a time: angles are
-   * the nearest to those that go on at these rates. */
+  baum_i_spatial_frame *spatial; /* (body_count + 1); NULL if nothing is spatial */
+  /* Angles of spatial joints, see general/coordinate.h: the own ones, or those of a run. */
   double *angles;
-  const double *inputs; /* (input_count) present values; NULL while there are none */
-  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
-  bool retry;           /* set when the last failure may vanish with a smaller step */
-  bool asking;          /* a user function is running, which must not use this point */
+  double *own_angles;
+  const double *inputs;  /* (input_count) present values; NULL: none */
+  const double *moments; /* (nv) in place of the gyroscopic moments of rigid bodies, or NULL */
+  double *scratch;       /* (mechanism->scratch_size) for user functions and differences */
+  bool retry;            /* a smaller step may avoid the last failure */
+  bool asking;           /* a user function is running and must not use this point */
 } baum_i_point;
 
-/* Frame of a body in the design configuration at rest, from its definition; valid before freeze. */
+/* Return the frame of a body in the design configuration at rest. May be called before freeze. */
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
-/* Create a point with the mechanism's numbers and initial inputs. BAUM_OK or BAUM_ERR_MEMORY;
- * release it in both cases. */
+/* Create a point with the parameters and initial inputs of the mechanism. BAUM_OK or
+ * BAUM_ERR_MEMORY. It must be released in both cases. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
-void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
+void baum_i_point_release(baum_i_point *point); /* a zeroed point is allowed */
 
 /* ---- spatial/spatial_frames.c ---- */
 
-/* Frame of a body at its q, and its v or NULL for rest. Kinds without a place have that of
- * ground. */
+/* Return the frame of a body at its q and v. v = NULL means rest. Kinds without a position have the
+ * frame of ground. */
 baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
                                              const double *v);
 
-/* Frame of a body in the design configuration, at rest. Valid before freeze. */
+/* Return the frame of a body in the design configuration at rest. May be called before freeze. */
 baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int body);
 
 /* Set the spatial frames of a point. */
@@ -195,8 +197,8 @@ void baum_i_point_set_spatial(baum_i_point *point);
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 
-/* Set t, q, v (or NULL) and the frames. The point refers to v, and to q where the mechanism is
- * flat, without a copy. */
+/* Set t, q, v (or NULL) and the frames. The point refers to v, and if the mechanism is flat to q,
+ * without a copy. */
 static inline void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
   if (point->normalized) {
@@ -216,18 +218,18 @@ typedef struct baum_i_box {
 
 void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
-/* What to evaluate of all constraint rows; NULL members are not wanted. Scleronomic joints leave
- * their rows of nu alone, which hold zeros. */
+/* Results of the evaluation of all constraint rows. Members that are NULL are not evaluated.
+ * Scleronomic joints (Phi without t) do not set their rows of nu, which must be zeroed before. */
 typedef struct baum_i_rows {
   double *phi;      /* (nc) */
   double *jacobian; /* (jacobian_size) */
   double *nu;       /* (nc) */
-  double *gamma;    /* (nc); needs velocities */
+  double *gamma;    /* (nc); requires velocities */
 } baum_i_rows;
 
-/* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the
- * joint's `jacobian` (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted.
- * Set, not added. */
+/* Arrays for the second derivatives of joints. The block of a joint is row-major over its local
+ * columns and starts at its `jacobian` (rows x nl) or `square` (nl x nl). NULL: not evaluated.
+ * Blocks are set, not added to. */
 typedef struct baum_i_joint_blocks {
   double *jw_q;    /* (J w)_q, rows x nl */
   double *jtl_q;   /* (J^T lambda)_q, nl x nl */
@@ -236,20 +238,22 @@ typedef struct baum_i_joint_blocks {
   double *nu_q;    /* rows x nl */
 } baum_i_joint_blocks;
 
-/* Blocks of a body, nv x nv at its `mass`. Set, not added. */
+/* Arrays for the derivatives of bodies. The block nv x nv of a body starts at its `mass`. Blocks
+ * are set, not added to. */
 typedef struct baum_i_body_blocks {
   double *ma_q; /* (M a)_q */
   double *force_q;
   double *force_v;
 } baum_i_body_blocks;
 
-/* Blocks of a force, nl x nl at its `square`. Set, not added. */
+/* Arrays for the derivatives of forces. The block nl x nl of a force starts at its `square`. Blocks
+ * are set, not added to. */
 typedef struct baum_i_force_blocks {
   double *force_q;
   double *force_v;
 } baum_i_force_blocks;
 
-/* Powers [W] by class, for the energy account of a run. */
+/* Classes of powers [W] in the energy account of a run. */
 typedef enum baum_i_power {
   BAUM_I_POWER_LOADS,
   BAUM_I_POWER_SPRINGS,
@@ -259,14 +263,14 @@ typedef enum baum_i_power {
   BAUM_I_POWERS
 } baum_i_power;
 
-/* Manifold of a body whose positions are not a vector: q' = N(q) v, with q (nq) and v (nv). dx has
- * velocity size. See manifold.h. */
+/* Manifold of a body whose positions are not a vector: q' = N(q) v with q (nq) and v (nv). dx has
+ * length nv. See manifold.h. */
 struct baum_i_manifold {
-  /* dq = N(q) v. q may be as far off the manifold as an integrator's stage. */
+  /* Set dq = N(q) v. q may be off the manifold as far as stages of an integrator are. */
   void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
-  /* Move q to where it is after the time h at constant v, to second order in h. */
+  /* Move q by h v: to the configuration after the time h at constant v, to second order in h. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
-  /* dx such that `move` with h = 1 leads from one to the other. */
+  /* Find dx such that `move` by dx with h = 1 leads from `from` to `to`. */
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
   /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
@@ -275,127 +279,144 @@ struct baum_i_manifold {
 struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
-  bool scleronomic;                  /* mass and force of the type never depend on t */
-  bool constant_force;               /* force of the type depends on parameters only */
-  int nq, nv;                        /* of all of the type; 0: see size() and positions() */
-  int (*size)(const void *def);      /* nv of one; or NULL */
-  int (*positions)(const void *def); /* nq of one; or NULL */
-  /* Of one; NULL, or returning NULL: q is a vector and v = q'. */
+  bool scleronomic;                  /* mass and force never depend on t */
+  bool constant_force;               /* force depends only on parameters */
+  int nq, nv;                        /* of every body; 0: see size(), positions() */
+  int (*size)(const void *def);      /* nv of a body, or NULL */
+  int (*positions)(const void *def); /* nq of a body, or NULL */
+  /* Manifold of a body. If this or its result is NULL, q is a vector and v = q'. */
   const baum_i_manifold *(*manifold)(const void *def);
   bool (*constant_mass)(const void *def);       /* NULL: always */
-  bool (*depends_on_velocity)(const void *def); /* force() does; NULL: never */
-  /* Numbers of this body; NULL: none. */
+  bool (*depends_on_velocity)(const void *def); /* whether force() does; NULL: never */
+  /* Rigid bodies in space: the tensor (9) in the axes of the body, about which its velocities 3 to
+   * 5 turn it. force() depends on velocities by the gyroscopic moment alone. NULL for others. */
+  const double *(*inertia)(const baum_i_body *body, const double *parameters);
+  /* Set the parameters of a body. NULL: there are none. */
   void (*lower)(const baum_i_body *body, double *parameters);
-  /* Design pose, and given velocities or NaN. */
+  /* Set the design pose, given velocities or NaN, and which are held. */
   void (*design)(const void *def, double *q, double *v, bool *held);
-  /* (nv) relevant change of each coordinate. */
+  /* Set the scale (nv) of each coordinate, which is the size of a relevant change. */
   void (*scale)(const void *def, double length, double *scale);
-  /* (nq) relevant change of each position; NULL where there is no manifold. */
+  /* Set the scale (nq) of each position. NULL if there is no manifold. */
   void (*position_scale)(const void *def, double length, double *scale);
-  /* Sets its blocks. */
+  /* Sets the mass blocks of the group. */
   baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
-  /* Adds to (nv). */
+  /* Adds to force (nv). */
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
-  /* One body: adds; NULL: 0. */
+  /* Adds the potential of one body to *sum. NULL: it is 0. */
   baum_status (*potential)(const baum_i_body *body, baum_i_point *point, double *sum);
-  /* One body. a (nv). The blocks are zeroed before. NULL: they stay zero. */
+  /* Sets the blocks of one body, which are zeroed before. a (nv). NULL: they are zero. */
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
-  /* One body: adds g^T v + v^T M' v / 2, including the power of the potential. NULL: the potential
-   * gives all forces, and M' = 0. */
+  /* Adds g^T v + v^T M' v / 2 of one body, including the power of the potential. NULL: all forces
+   * have the potential, and M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
-/* Columns of a body in the kernels of elements of the plane and of space. */
+/* Numbers of columns of a body in planar and in spatial elements (general/columns.h). */
 enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPACE };
 
-/* A joint's coordinate for drivers and channels, over the columns of both bodies, as many as its
- * type is wide: in the plane x_a y_a angle_a x_b y_b angle_b. */
+/* Most coordinates of a joint. */
+enum { BAUM_I_COORDINATES = 3 };
+
+/* A joint's coordinate over the columns of both bodies, as many as its type is wide: in the plane
+ * x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
   double gradient[BAUM_I_PAIR_COLUMNS];
-  double gamma; /* so that gradient a = (coordinate)'' + gamma */
+  double gamma; /* value'' = gradient a - gamma */
 } baum_i_coordinate;
 
-/* Second derivatives of a coordinate: for w and a multiplier l, as in baum_i_joint_blocks. */
+/* Second derivatives of a coordinate for w and a multiplier lambda, as in baum_i_joint_blocks. */
 typedef struct baum_i_coordinate_blocks {
   double jw_q[BAUM_I_PAIR_COLUMNS];
   double jtl_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
   double gamma_q[BAUM_I_PAIR_COLUMNS];
   double gamma_v[BAUM_I_PAIR_COLUMNS];
+  double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */
 } baum_i_coordinate_blocks;
+
+/* One coordinate of a joint. */
+typedef struct baum_i_joint_coordinate {
+  const baum_i_joint *joint;
+  int number; /* in the list of its type */
+} baum_i_joint_coordinate;
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  int width;        /* BAUM_I_PLANE or BAUM_I_SPACE: its reaction is force and moment; 0: neither */
+  int width;        /* BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction has no force and moment */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are exactly those of pin_rows.h */
-  /* One row: the coordinate of that joint minus a function of time; NULL: no driver. Its width is
-   * that of the joint. */
-  const baum_i_joint *(*driven)(const baum_mechanism *mechanism, const void *def);
+  /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
+   * joint. */
+  baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
   /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
-  /* Replace the law of a driver, in its numbers, by s + s' (t - t0) + s'' (t - t0)^2 / 2. NULL for
-   * joints that are not drivers. */
+  /* Set the parameters of a driver such that its law becomes s + s' (t - t0) + s'' (t - t0)^2 / 2.
+   * NULL for joints that are not drivers. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int row_count;                /* of all of the type; 0: see rows() */
-  int (*rows)(const void *def); /* of one; or NULL */
-  /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
-   * message. */
+  int row_count;                /* of every joint; 0: see rows() */
+  int (*rows)(const void *def); /* rows of a joint, or NULL */
+  /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
+   * BAUM_ERR_ARGUMENT and sets the message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() calls evaluate_one(). */
+  /* Sets the rows and blocks of the group in members that are not NULL. baum_i_evaluate_each()
+   * calls evaluate_one() for every joint. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
                               const baum_i_rows *rows);
-  /* One joint. w (nv), lambda (nc). The blocks are zeroed before. NULL: they stay zero. */
+  /* Sets the blocks of one joint, which are zeroed before. w (nv), lambda (nc). NULL: they are
+   * zero. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
-  /* Find the pose of one body from that of the other (body_a's if from_a; NULL: ground). NULL: the
-   * type is no weld. */
+  /* Welds: find the pose q of one body from the known pose of the other, which is body_a if from_a.
+   * known = NULL means ground. NULL: the type is not a weld. */
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
-  /* The joint's point on body_b in ground axes, for reactions and drawing; NULL without width. */
+  /* Find the joint's point on body_b in ground axes, for reactions and drawing. NULL if width is
+   * 0. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
-  /* Spatial joints: add the generalized force -J^T lambda of the rows over six columns of body_b,
-   * also those that a planar body or a particle does not have. */
+  /* Spatial joints: add the generalized force -J^T lambda over all six columns of body_b, including
+   * those that a planar body or a particle does not have. */
   void (*force_on_b)(const baum_i_joint *joint, const baum_i_point *point, const double *lambda,
                      double six[BAUM_I_SPACE]);
-  /* Its rows are fulfilled, but it is mounted the wrong way round; NULL: it cannot be. */
+  /* Tell whether the rows are fulfilled but axes are opposite instead of parallel. NULL: never. */
   bool (*is_reversed)(const baum_i_joint *joint, const baum_i_point *point);
-  /* Include its points in the design configuration; NULL: it has none. */
+  /* Include the points of the joint in the design configuration. NULL: it has none. */
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
-  /* Only joints with a coordinate, else NULL. */
-  bool is_angle; /* [rad], else [m] */
-  /* Check that a joint with a checked definition has it; NULL: all have. */
+  /* Its coordinates; the list ends with BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinates[BAUM_I_COORDINATES + 1];
+  /* Check that a joint with a checked definition has them; NULL: all have. */
   baum_status (*check_coordinate)(const baum_mechanism *mechanism, const void *def,
                                   const char *label);
-  void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
-  void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
+  void (*coordinate)(const baum_i_joint *joint, int number, const baum_i_point *point,
+                     baum_i_coordinate *out);
+  void (*coordinate_linearize)(const baum_i_joint *joint, int number, const baum_i_point *point,
                                const double *w, double lambda, baum_i_coordinate_blocks *out);
-  /* Relative error of derivatives by differences; NULL: none are taken. */
+  /* Return the relative error of derivatives by differences. NULL: the type uses no differences. */
   double (*noise)(const void *def);
 };
 
-/* The `evaluate` of types that evaluate joint by joint. */
+/* The `evaluate` of types that evaluate one joint at a time. */
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
 struct baum_i_force_type {
   baum_i_definition definition;
-  bool spatial; /* reads spatial frames */
+  bool spatial; /* requires spatial frames */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
-  /* Adds to (nv). */
+  /* Adds to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   bool (*depends_on_velocity)(const void *def); /* NULL: never */
-  /* One force: adds; NULL: 0. */
+  /* Adds the potential of one force to *sum. NULL: it is 0. */
   baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
-  /* One force. The blocks are zeroed before. */
+  /* Sets the blocks of one force, which are zeroed before. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* One force: adds g^T v by class, without the power of the potential; with it where
+  /* Adds g^T v of one force by class. The power of the potential is included only if
    * power_is_whole. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
@@ -438,14 +459,14 @@ struct baum_mechanism {
   bool spatial;              /* has a spatial body, joint or force */
   double *parameters;
   double *design_q;               /* (nq) */
-  double *design_v;               /* (nv) NaN where free */
+  double *design_v;               /* (nv) NaN: free */
   bool *held;                     /* (nv) */
-  double *scale;                  /* (nv) relevant change of each coordinate */
-  double *position_scale;         /* (nq) likewise of each position */
+  double *scale;                  /* (nv) size of a relevant change of each coordinate */
+  double *position_scale;         /* (nq) size of a relevant change of each position */
   int fixed_count;                /* fixed bodies without ground */
   int fixed_nv;                   /* number of their velocities */
   double *fixed_q;                /* (nq) their positions */
-  baum_i_body_group *body_groups; /* each list ends with a group without a type */
+  baum_i_body_group *body_groups; /* each list of groups ends with one without a type */
   baum_i_joint_group *joint_groups;
   baum_i_force_group *force_groups;
 };

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/hot.h"
 #include "base/message.h"
+#include "mechanism/general/coordinate.h"
 #include "mechanism/planar/frames.h"
 
 /* ---- frames ---- */
@@ -14,7 +15,7 @@ baum_i_frame_kind baum_i_frame_of(const baum_i_body *body)
   return body->type ? body->type->frame : BAUM_I_FRAME_GROUND;
 }
 
-baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v)
+baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q)
 {
   baum_i_frame frame = {.c = 1.0};
   if (kind != BAUM_I_FRAME_PARTICLE && kind != BAUM_I_FRAME_BODY) {
@@ -22,13 +23,10 @@ baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const doub
   }
   frame.x = q[0];
   frame.y = q[1];
-  frame.vx = v ? v[0] : 0.0;
-  frame.vy = v ? v[1] : 0.0;
   if (kind == BAUM_I_FRAME_BODY) {
     frame.angle = q[2];
     frame.c = cos(q[2]);
     frame.s = sin(q[2]);
-    frame.w = v ? v[2] : 0.0;
   }
   return frame;
 }
@@ -43,19 +41,21 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body)
     bool held;
     designed->type->design(designed->element.def, q, v, &held);
   }
-  return baum_i_frame_at(kind, q, NULL);
+  return baum_i_frame_at(kind, q);
 }
 
 /* ---- points ---- */
 
-/* Memory that mechanisms with spatial elements need beside the rest. */
+/* Allocate the memory that only mechanisms with spatial elements need. */
 static baum_status create_spatial(const baum_mechanism *mechanism, baum_i_point *point)
 {
   if (!mechanism->spatial) {
     return BAUM_OK;
   }
   point->spatial = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial);
-  point->angles = baum_i_alloc(2 * (size_t)mechanism->joint_count + 1, sizeof *point->angles);
+  point->own_angles =
+    baum_i_alloc((size_t)baum_i_angles_size(mechanism), sizeof *point->own_angles);
+  point->angles = point->own_angles;
   if (!point->spatial || !point->angles) {
     return baum_i_fail_memory();
   }
@@ -88,7 +88,7 @@ void baum_i_point_release(baum_i_point *point)
   baum_i_free(point->scratch);
   baum_i_free(point->normalized);
   baum_i_free(point->spatial);
-  baum_i_free(point->angles);
+  baum_i_free(point->own_angles);
 }
 
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v)

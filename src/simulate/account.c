@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The energy account of a run.
  *
- * With T = v^T M v / 2, M v' + J^T lambda = g and J v = nu + Phi' (3),
+ * The kinetic energy is T = v^T M v / 2. From M v' + J^T lambda = g and J v = nu + Phi' (3) it
+ * follows that
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * where the potential V accounts for its part of g. Powers are integrated over each step by Gauss'
- * rule. At the nodes inside the step, lambda comes from (5) or (7), whichever is integrated. (5)
- * also serves the formulations of index 2 and 3, because the second line of (5) is the derivative
- * of J v = nu or Phi = 0, which their motion keeps. The power of the gains,
+ * The part of g that has the potential V changes V and does no further work. The powers are
+ * integrated over each step by Gauss' rule. At the nodes inside the step, lambda is computed from
+ * the integrated equations, (5) or (7). (5) is also used for the formulations of index 2 and 3,
+ * because the second line of (5) is the derivative of J v = nu or Phi = 0, which their motion
+ * satisfies. The power of the gains,
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5),
  *
- * is a part of the work of drivers and violation. docs/theory/energy.md.
+ * is part of the work of drivers and of the work of the violation (docs/theory/energy.md).
  *
- * States inside a step come from the method's own interpolant. Fixed steps up to order 4 use
- * Hermite polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5. Fixed
- * steps above order 4 use shorter steps of the method from the same start. So do variable steps
- * with a large projection, as from a start off the constraints, because the interpolants of the
- * pairs end at the projected state, which the motion itself did not reach.
+ * States inside a step are computed by the method's own interpolant. For fixed steps of methods up
+ * to order 4 they are Hermite polynomials of degree 5 in q and 3 in v, whose error over a step is
+ * of order 5. For fixed steps of methods above order 4 they are ends of shorter steps from the same
+ * start. Variable steps with a large projection, for example after a start off the constraints, are
+ * also replaced by shorter steps from the same start, because the interpolant of a Runge-Kutta pair
+ * ends at the projected state and not at the state before the projection.
  *
  * IDA first moves a given start onto the constraints of its formulation. This move counts as a
  * projection.
@@ -38,30 +41,30 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* Displacements by projections of more than this many tolerances are not errors of the method. */
+/* A projection by more than this many tolerances does not correct an error of the method. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
-  /* Plain numbers up to `workspace`, which are saved. */
+  /* The members before `workspace` are plain numbers, which are saved. */
   double before[BAUM_I_WORKS]; /* works up to the last step */
-  double last[BAUM_I_WORKS];   /* of it */
+  double last[BAUM_I_WORKS];   /* works of the last step */
   double read[BAUM_I_WORKS];   /* works up to the requested state */
   int32_t broken;              /* a work could not be evaluated */
 
   baum_workspace *workspace;
-  baum_i_problem problem; /* the run's problem, with that workspace */
+  baum_i_problem problem; /* the run's problem, with this workspace */
   int nodes;
-  bool fresh;        /* no step since the method restarted */
+  bool fresh;        /* no step since the last restart of the method */
   bool far;          /* the projection of the last step moved far */
-  void *stepper;     /* a second instance of the method, for shorter steps; NULL: none */
+  void *stepper;     /* second instance of the method, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */
   baum_i_state node;
-  double *unprojected; /* (nq + nv) the end of the last step, or a sample, before projection */
-  double *end_a;       /* (nv) acceleration there, fixed step */
+  double *unprojected; /* (nq + nv) end of the last step, or a sample, before projection */
+  double *end_a;       /* (nv) fixed step: acceleration at the end of the last step */
   double *lambda;      /* (nc) of (5) */
 };
 
-/* Gauss' rules over (-1, 1); row n - 1 for n nodes. */
+/* Nodes of Gauss' rules over (-1, 1). Row n - 1 is the rule with n nodes. */
 static const double PLACE[MOST_NODES][MOST_NODES] = {
   {0.0},
   {-0.5773502691896257, 0.5773502691896257},
@@ -75,7 +78,7 @@ static const double WEIGHT[MOST_NODES][MOST_NODES] = {
   {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538},
 };
 
-/* A part of the motion: from account->from to the state (q, v) at t. */
+/* A part of the motion, from account->from to the state (q, v) at t. */
 typedef struct stretch {
   double t;
   const double *q;
@@ -96,7 +99,8 @@ static double product(int n, const double *x, const double *y)
   return sum;
 }
 
-/* Solve for lambda of the integrated equations, into the workspace, and for lambda of (5). */
+/* Find lambda of the integrated equations, in the workspace, and lambda of (5), in
+ * account->lambda. */
 static baum_status solve(baum_i_account *account, const baum_i_state *at)
 {
   baum_workspace *w = account->workspace;
@@ -125,7 +129,8 @@ static baum_status power_at(baum_i_account *account, const baum_i_state *at,
 
 /* ---- states inside a step ---- */
 
-/* Polynomials of degree 5 in q and 3 in v through values and rates at both ends; x from 0 to 1. */
+/* Evaluate the polynomials of degree 5 in q and 3 in v through values and rates at both ends, at
+ * the fraction x of the stretch. */
 static void find_by_hermite(baum_i_account *account, const stretch *s, double x)
 {
   const baum_mechanism *m = account->workspace->mechanism;
@@ -158,7 +163,7 @@ static void find_by_hermite(baum_i_account *account, const stretch *s, double x)
   }
 }
 
-/* Find the state at a share x of a stretch, in account->node. */
+/* Find the state at the fraction x of a stretch and write it to account->node. */
 static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 {
   baum_i_account *account = run->account;
@@ -182,7 +187,8 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add factor times the potentials that the powers do not contain. */
+/* Add `factor` times the potentials whose power the powers include
+ * (baum_i_mechanism_potential_of_whole()). */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {
@@ -215,7 +221,7 @@ static baum_status integrate_powers(baum_simulation *run, const stretch *s,
   return add_potentials(account, 1.0, s->t, s->q, s->v, works);
 }
 
-/* Add the energy that a projection from one state to another has brought. */
+/* Add the change of energy by a projection from one state to another. */
 static baum_status add_projection(baum_i_account *account, double t, const double *from,
                                   const double *q, const double *v, double works[BAUM_I_WORKS])
 {
@@ -228,21 +234,21 @@ static baum_status add_projection(baum_i_account *account, double t, const doubl
   return BAUM_OK;
 }
 
-/* Move to where IDA started, which may be off the given state. */
+/* Move account->from to the state from which IDA started, which may differ from the given state. */
 static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
   const baum_i_state *from = &account->from;
   const baum_i_state *node = &account->node;
   BAUM_I_TRY(run->integrator->interpolate(run->self, &account->problem, from->t, node->q, node->v));
-  /* A state's q and v are one after the other. */
+  /* q and v of a state are contiguous. */
   BAUM_I_TRY(add_projection(account, from->t, from->q, node->q, node->v, works));
   account->node.t = from->t;
   baum_i_run_copy(run, node, &account->from);
   return BAUM_OK;
 }
 
-/* Did the projection displace a state by far more than the tolerated errors? */
+/* Tell whether the projection has displaced a state by far more than the tolerances. */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -258,7 +264,7 @@ static bool moved_far(const baum_simulation *run, const baum_i_state *state)
   return far;
 }
 
-/* Choose how states inside a stretch are found. */
+/* Choose the method that finds states inside a stretch. */
 static baum_status choose_nodes(baum_simulation *run, stretch *s)
 {
   baum_i_account *account = run->account;
@@ -282,7 +288,8 @@ static baum_status choose_nodes(baum_simulation *run, stretch *s)
   return status;
 }
 
-/* Add the works from account->from to a state, projected if the formulation includes it. */
+/* Add the works from account->from to a state, including that of the projection if the formulation
+ * includes projection. */
 static baum_status work_to(baum_simulation *run, const baum_i_state *state,
                            double works[BAUM_I_WORKS])
 {
@@ -306,7 +313,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
     return;
   }
   baum_i_run_share_equations(run, &run->account->problem);
-  /* Only IDA begins at another state than it was given. */
+  /* Only IDA may start from another state than the given one. */
   bool moves =
     account->fresh && run->integrator->solves_residuals && !baum_i_run_has_fixed_step(run);
   baum_status status = moves ? move_start(run, account->before) : BAUM_OK;
@@ -381,8 +388,9 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* With a fixed step, a sample is a trial state, whose step does not count. With variable steps, a
- * sample may be inside the last step, and powers are integrated up to it. */
+/* With a fixed step, a sample is the end of a trial step, which is not part of the motion. With
+ * variable steps, a sample may be inside the last step, and powers are integrated up to the
+ * sample. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
@@ -406,8 +414,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
     return baum_i_fail(BAUM_ERR_STATE, "channel: the run keeps no energy account; set the option "
                                        "energy_account");
   }
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_i_account_read(run, state);
   baum_status status =
     baum_i_energy(account->workspace, state->t, state->q, state->v, &out[0], &out[1]);
@@ -422,7 +429,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
 
 /* ---- life ---- */
 
-/* Number of nodes that suffices for the order of the method. */
+/* Return the number of nodes that the order of the method requires. */
 static int node_count(const baum_simulation *run)
 {
   int order = run->integrator->order;
@@ -448,7 +455,7 @@ static baum_status make_memory(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* A second stepper is needed where projections may move far. */
+/* Create the second instance of the method if projections may be large. */
 static baum_status make_stepper(baum_simulation *run)
 {
   const baum_integrator *method = run->integrator;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loop of a run.
  *
- * Fixed step: times are origin + k h. A step is tried on the trial state, projected there if the
- * formulation includes it, and checked; only then does it become the present state. A sample off
- * the grid is a trial that is not kept.
+ * Fixed step: times are origin + k h. A step is tried on the trial state, projected if the
+ * formulation includes projection, and checked. Only then does the trial state become the present
+ * state. A sample off the grid is a trial that is discarded.
  *
- * Variable step: the method runs ahead by whole steps, whose lengths it chooses. Reported states
- * are interpolated inside the last step, and these copies are projected if the formulation includes
- * it. */
+ * Variable step: the method takes whole steps, whose lengths it chooses, up to or beyond the
+ * requested time. Reported states are interpolated inside the last step and projected if the
+ * formulation includes projection. */
 #include <math.h>
 
 #include "mechanism/definition.h"
@@ -16,14 +16,14 @@
 #include "simulate/crossing.h"
 #include "simulate/events.h"
 
-/* Times that differ by less than this share of a step are the same. */
+/* Times that differ by less than this fraction of a step are equal. */
 static const double SAME_TIME = 1e-9;
 
 /* ---- one step of fixed length, on the trial state ---- */
 
 static void keep_trial(baum_simulation *run)
 {
-  baum_i_run_follow_angles(run, run->state.t, &run->trial);
+  (void)baum_i_run_follow_angles(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
   if (run->account) {
@@ -42,7 +42,8 @@ static double grid_time(const baum_simulation *run, int64_t k)
   return run->grid.origin + (double)k * run->options.step;
 }
 
-/* Start a new grid after a step off the grid; the history of the method belongs to the old one. */
+/* Start a new grid after a step off the grid. The method discards its history, which belongs to the
+ * old grid. */
 static void leave_grid(baum_simulation *run)
 {
   run->counters.short_steps++;
@@ -50,8 +51,8 @@ static void leave_grid(baum_simulation *run)
   run->grid = (baum_i_grid){.origin = run->state.t};
 }
 
-/* Search the step to t_next, which has just been tried, for events. BAUM_STOP_EVENT: the step is
- * kept up to a terminal event. */
+/* Search the step to t_next, which has just been tried, for events. If there is a terminal event,
+ * keep the step up to the event and return BAUM_STOP_EVENT. */
 static baum_status watch_step(baum_simulation *run, double t_next)
 {
   baum_status status = run->events ? baum_i_events_watch(run, t_next) : BAUM_OK;
@@ -78,11 +79,10 @@ static baum_status whole_step(baum_simulation *run, int direction)
 {
   double t_next = grid_time(run, run->grid.k + direction);
   if (t_next == run->state.t) {
-    return baum_i_fail(
-      BAUM_ERR_STEP,
-      "t = %.17g s: the step of %g s is smaller than the rounding of the time; take a "
-      "larger step",
-      run->state.t, run->options.step);
+    return baum_i_fail(BAUM_ERR_STEP,
+                       "t = %.17g s: the step of %g s is smaller than the rounding error of the "
+                       "time; take a larger step",
+                       run->state.t, run->options.step);
   }
   baum_status status = kept_step(run, t_next);
   run->grid.k += status == BAUM_OK ? direction : 0;
@@ -106,7 +106,7 @@ static baum_status next_fixed(baum_simulation *run, int direction)
   return breaks ? break_step(run, next, t) : whole_step(run, direction);
 }
 
-/* The time at which the step of next_fixed() ends. */
+/* Return the time at which the step of next_fixed() ends. */
 static double next_time(const baum_simulation *run, int direction)
 {
   double t = grid_time(run, run->grid.k + direction);
@@ -114,8 +114,8 @@ static double next_time(const baum_simulation *run, int direction)
   return direction * (t - far) >= -SAME_TIME * run->options.step ? far : t;
 }
 
-/* Take whole steps that do not pass t. Afterwards the present time is t, if that is on the grid, or
- * less than a step before it. */
+/* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid, or
+ * less than a step before t. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
@@ -154,7 +154,7 @@ static baum_status internal_step(baum_simulation *run)
   if (run->account) {
     baum_i_account_step(run);
   }
-  baum_i_run_follow_angles(run, run->ahead.t, &run->trial);
+  (void)baum_i_run_follow_angles(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->counters.steps++;
   BAUM_I_TRY(baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v));
@@ -180,7 +180,7 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
-/* Pass a break at the end of the last step, and breaks that are too close to it for a step in
+/* Pass a break at the end of the last step, and further breaks that are too close for a step in
  * between. */
 static baum_status pass_breaks(baum_simulation *run)
 {
@@ -195,8 +195,8 @@ static baum_status pass_breaks(baum_simulation *run)
   return status;
 }
 
-/* Take one more step. If the step or a search inside it fails, the run stays where the step
- * began. */
+/* Take one more step. If the step or the search for events in it fails, the run stays at the start
+ * of the step. */
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
   catch_up(run);
@@ -212,7 +212,7 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
   while (run->problem.direction * (t - run->ahead.t) > 0.0) {
     BAUM_I_TRY(pass_breaks(run));
     if (run->problem.direction * (t - run->ahead.t) <= 0.0) {
-      return BAUM_OK; /* t is at the break */
+      return BAUM_OK; /* t is the time of the break */
     }
     BAUM_I_TRY(next_step(run, (*taken)++));
     BAUM_I_TRY(watch_last(run, t));
@@ -229,7 +229,7 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 /* ---- beginning and end of every call ---- */
 
 /* Set the direction of the run towards t. If a multistep method cannot restart from the present
- * state, the direction stays. */
+ * state, the direction does not change. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -254,7 +254,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
                                         : advance_variable(run, t, taken);
 }
 
-/* Data of a call from its beginning. */
+/* Data that a call stores at its beginning. */
 typedef struct public_call {
   struct timespec start;
   baum_i_kept_message before;
@@ -266,21 +266,20 @@ static void begin_call(baum_simulation *run, public_call *c)
   (void)clock_gettime(CLOCK_MONOTONIC, &c->start);
   run->last_progress = c->start;
   c->taken = 0;
-  baum_i_message_keep(&c->before);
+  c->before = baum_i_message_keep();
 }
 
-/* End a call: monitor its last state, which no step has evaluated yet. */
+/* End a call. Evaluate and monitor its last state, which no step has evaluated. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
-  baum_i_kept_message reason;
-  baum_i_message_keep(&reason);
+  baum_i_kept_message reason = baum_i_message_keep();
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_end_call(run);
   }
-  atomic_store(&run->cancelled, 0); /* also by functions that were called here */
+  atomic_store(&run->cancelled, 0); /* also requests from user functions during this call */
   run->counters.wall += baum_i_seconds_since(&c->start);
   if (status == BAUM_OK && look != BAUM_OK) {
     return baum_i_run_fail(run, look);
@@ -382,8 +381,7 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   return check_times(run, times, n);
 }
 
-/* Advance to a sample time: by whole steps, and from there by a trial step, whose end is the
- * sample. */
+/* Advance to a sample time: take whole steps, and then a trial step that ends at the sample. */
 static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken,
                                   const baum_i_state **at)
 {

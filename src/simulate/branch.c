@@ -2,45 +2,50 @@
 /* Decides which branch a motion has taken after a singular configuration.
  *
  * Several branches of motion cross at such a configuration, each with its own direction. The smooth
- * motion is the one whose velocity is continuous. Polynomials through positions and velocities of
- * the clear states before it are extrapolated to the first clear state after it, and their velocity
- * is compared with v, in the scales of the coordinates:
+ * motion is the one whose velocity is continuous. Clear states are states far enough from the
+ * configuration. Polynomials p through positions and velocities of the clear states before the
+ * configuration are extrapolated to the first clear state after it, and p' is compared with the
+ * velocity v there:
  *
- *   jump   max |v_i - p_i'| / s_i  over  max |v_i| / s_i
- *   error  likewise the difference of two polynomials of degrees 2 m - 1 and 2 m - 3; m is chosen
- *          for the least one
+ *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
+ *   error   the same for the difference of two polynomials of degrees 2 m - 1 and 2 m - 3
+ *
+ * m is chosen for the least error.
  *
  * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
- * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then no
- * configuration in between is both singular and assembled. The constraints are therefore evaluated
- * where the motion has its smallest pivot: a violation that neither the run nor the polynomial
- * explains shows such a gap. Steps that resolve the turn follow the right branch. */
+ * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then there
+ * is a gap between the branches: no configuration in between is singular and satisfies the
+ * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. A
+ * violation that is larger than that of the run and the error of the polynomial shows a gap. Runs
+ * whose steps resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 
 #include "base/least.h"
 #include "simulate/crossing.h"
 
-/* The velocities of two branches differ by about the size of the velocity: runs that left their
- * branch had jumps of at least 0.9. Polynomials over the longest steps have errors of 0.06. */
+/* The velocities of two branches differ by about the size of the velocity: runs that changed to
+ * another branch had jumps of at least 0.9. Over the longest steps the error of polynomials is
+ * 0.06. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
-/* Smaller jumps that exceed their estimated error this many times come from steps with inaccurate
- * accelerations. None of 2688 right runs had one. */
+/* Jumps above KICK and above SURELY times their estimated error are caused by steps with inaccurate
+ * accelerations. None of 2688 correct runs had such a jump. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* For larger jumps a smaller multiple suffices, because such runs mostly fail at the next crossing.
- * The estimated error depends on the steps, and so on the tolerance; in right runs it may be more
- * than ten times too small. */
+/* Above LARGE_KICK the multiple LIKELY suffices, because such runs are mostly wrong after the next
+ * crossing. The estimated error depends on the steps, and therefore on the tolerance; in correct
+ * runs it may be more than ten times too small. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
-static const double KNOWN = 0.1;      /* largest error of a jump up to which it is judged */
-static const double SMALL_TURN = 0.4; /* jump of a step that follows a sharp turn */
-/* A violation opens a gap; in an example its smallest pivot was about five times as large. */
+static const double KNOWN = 0.1;      /* a jump with a larger estimated error is not judged */
+static const double SMALL_TURN = 0.4; /* relative change of v in a step that resolves a turn */
+/* A violation of a singular configuration causes a gap. Its smallest pivot may be OPENED times as
+ * large as the violation explains; in an example the factor was about five. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 static const double GAP =
-  1e-5; /* in configurations, as a displacement; that of crossing branches is 0 */
+  1e-5; /* smallest violation of a gap, as a displacement; 0 if branches cross */
 
 /* ---- smallest pivot of the motion ---- */
 
@@ -52,7 +57,7 @@ static void follow(const baum_simulation *run, const baum_i_knot *knots, int cou
   baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
 }
 
-/* The motion that is searched, and the joint of its smallest pivot so far. */
+/* The motion whose smallest pivot is searched, and the joint of the smallest pivot so far. */
 typedef struct look {
   baum_simulation *run;
   const baum_i_knot *knots;
@@ -61,7 +66,7 @@ typedef struct look {
   int joint;
 } look;
 
-/* Pivot at t of the motion, relative to the usual one. */
+/* Return the pivot of the motion at t, relative to the usual one. */
 static double pivot_at(void *user, double t)
 {
   look *in = user;
@@ -82,7 +87,7 @@ static double pivot_at(void *user, double t)
   return pivot;
 }
 
-/* If the time is accurate to a millionth of the span, the pivot is accurate to the square of
+/* The time is located to a millionth of the interval, and the error of the pivot is the square of
  * that. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
@@ -98,8 +103,7 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 
 /* ---- gap ---- */
 
-/* Largest violation as a displacement relative to the scales; INFINITY if it cannot be
- * evaluated. */
+/* Return the largest violation as a scaled displacement, or INFINITY if it cannot be evaluated. */
 static double violation_at(baum_simulation *run, const baum_i_knot *at)
 {
   baum_workspace *w = run->workspace;
@@ -108,7 +112,7 @@ static double violation_at(baum_simulation *run, const baum_i_knot *at)
   return status == BAUM_OK ? baum_i_row_sizes(w, w->phi, &row) : (double)INFINITY;
 }
 
-/* Largest difference of two positions, relative to the scales. */
+/* Return the largest scaled difference of two configurations. */
 static double apart(const baum_simulation *run, const double *q, const double *p)
 {
   baum_workspace *w = run->workspace;
@@ -116,7 +120,8 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
-/* The pivot of a state of the run is that of a gap if its violation does not explain it. */
+/* A small pivot at a state of the run shows a gap unless the violation of the state explains its
+ * size. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -124,7 +129,8 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
-/* Between states a violation shows a gap if neither the run nor the polynomial has it. */
+/* Between two states a violation shows a gap if it is larger than the violation of the run and the
+ * error of the polynomial. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;
@@ -140,8 +146,8 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   return violation > noise || (pivot > noise && pivot > OPENED * violation);
 }
 
-/* Branches that cross no longer do so where the constraints are violated: the motion of a run that
- * has drifted turns sharply from one to the other. */
+/* If the constraints are violated, branches that cross are separated by a gap, and the motion of a
+ * run that has drifted turns sharply from one branch to the other. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
   const baum_i_crossings *p = run->crossings;

@@ -1,39 +1,40 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks of the mechanism and of scheduled inputs. At its time b a function already has
- * the value that it has afterwards. A step forward in time therefore ends a few roundings before b,
- * where all functions have their values from before, and the next one begins at b. Backward in time
- * a step ends at b and the next begins before it. Nothing moves in between. Methods with a history
- * restart there (restart.c). */
+/* Declared breaks of the mechanism and of scheduled inputs. A break divides time into an earlier
+ * and a later side. At the time b of the break functions already have the values of the later side.
+ * A step forward in time therefore ends a few roundings before b, where all functions have the
+ * values of the earlier side, and the next step begins at b. Backward in time a step ends at b, and
+ * the next step begins a few roundings before b. The state does not change in between. Methods with
+ * a history restart there (restart.c). */
 #include <float.h>
 #include <math.h>
 
 #include "base/hot.h"
 #include "simulate/run.h"
 
-/* Size of the gap, relative to the largest time that the method computes with: times of stages must
- * not round to b. */
+/* Distance of the earlier side from b, relative to the largest time with which the method computes.
+ * It must be so large that times of stages are not rounded to b. */
 static const double ROUNDINGS = 16.0;
 
-/* Distance of the earlier side of a break from b. */
+/* Return the distance of the earlier side of a break from b. */
 static double gap(const baum_simulation *run, double b)
 {
   double largest = fmax(fmax(fabs(b), fabs(run->origin)), 1.0 / run->problem.rate);
   return ROUNDINGS * DBL_EPSILON * largest;
 }
 
-/* Is t on the later side of b? A time that equals b up to rounding is. */
+/* Tell whether t is on the later side of b, which includes times equal to b up to rounding. */
 static bool is_later(const baum_simulation *run, double t, double b)
 {
   return b <= (run->problem.direction > 0.0 ? t : t + 0.5 * gap(run, b));
 }
 
-/* The next of `count` rising times after t in the given direction; infinite if there is none. The
- * times are `stride` bytes apart. */
+/* Return the next of `count` ascending times after t in the direction of the run, or an infinite
+ * time if there is none. The times are `stride` bytes apart. */
 BAUM_I_INLINE double find_next(const baum_simulation *run, const void *times, size_t stride,
                                int count, double t)
 {
   const char *at = times;
-  double found = -(double)INFINITY; /* the last one not later than t */
+  double found = -(double)INFINITY; /* the last time <= t */
   int first = 0;
   int end = count;
   while (first < end) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chooses the gains of a run, and the rate of the motion that the rule `auto` uses. */
+/* Chooses the gains of a run. Finds the rate of the motion, which the rule `auto` requires. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,10 +8,10 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding errors. Gravity defines which motion
- * is slow. Without gravity, nothing below this counts as motion. */
+/* [1/s] sqrt(|a| / scale) below which accelerations count as rounding errors in mechanisms without
+ * gravity. With gravity, AT_REST is the limit. */
 static const double ROUNDING_RATE = 1e-7;
-static const double AT_REST = 1e-3; /* fraction of the rate at which gravity swings the mechanism */
+static const double AT_REST = 1e-3; /* relative to the rate at which gravity swings the mechanism */
 
 double baum_i_rest_rate(const baum_mechanism *m)
 {
@@ -20,8 +20,8 @@ double baum_i_rest_rate(const baum_mechanism *m)
   return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
 }
 
-/* At rest in an equilibrium the accelerations are only rounding errors. Then gravity defines the
- * rate; without gravity there is none. */
+/* At rest in an equilibrium the accelerations are only rounding errors. The rate is then that of
+ * gravity, or 0 without gravity. */
 double baum_i_run_start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -33,7 +33,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-/* Measure the rate of the motion. A mechanism that hardly moves has the rate of gravity. */
+/* Find the rate of the motion. For a mechanism that hardly moves it is the rate of gravity. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -89,7 +89,7 @@ static baum_status copy_row_gains(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Keep the worst amplification of all rows for the run. */
+/* Update the worst amplification of all rows of the run. */
 static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 {
   baum_i_gain_choice *all = &run->gains;
@@ -99,7 +99,7 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
-/* Add the name of the row to a refusal. */
+/* Add the name of the row to the message of a refusal. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   char label[BAUM_I_LABEL_SIZE];
@@ -107,7 +107,7 @@ static baum_status name_row(const baum_simulation *run, int row, baum_status sta
                      baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
 }
 
-/* Check every factor that differs from the factor of the row before. */
+/* Check the gains of all rows. Equal factors of successive rows are checked once. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
   double last = 1.0;

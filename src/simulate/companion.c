@@ -2,21 +2,21 @@
 /* A second integration of the motion beside a run.
  *
  * Fixed-step methods have no tolerance and take many short steps where rk8 with projection takes
- * one long step. A companion that uses rk8 therefore costs little. It starts as soon as the error
- * of such a run may matter: when the sum of its local errors could become large in a motion that
- * amplifies perturbations by 1e4. If a variable-step run has a loose tolerance, the companion
- * starts at the first singularity crossing, because crossings amplify errors. It starts from a
- * state some steps earlier, which was still accurate. If run and companion differ by more than
- * DOUBTFUL for some time, the run warns. Short peaks do not count, for example when a light rod
+ * one long step. Beside a fixed-step run the companion therefore uses rk8, which costs little. It
+ * starts as soon as the error of the run may matter: when the sum of its local errors, amplified by
+ * 1e4, could be large. If a variable-step run has a loose tolerance, the companion starts at the
+ * first singularity crossing, because crossings amplify errors. The companion starts from a state
+ * some steps earlier, which was still accurate. If run and companion differ by more than DOUBTFUL
+ * for some time, the run warns. Short peaks are ignored; they occur, for example, if a light rod
  * flips a little too late.
  *
- * With the option error_check the companion starts with the run. For a variable-step run it is then
- * the same method with three hundredths of the tolerance. With a tenth, run and companion had the
- * same wrong motion in one of 2000 mechanisms.
+ * With the option error_check the companion starts with the run. Beside a variable-step run it then
+ * uses the same method with 0.03 times the tolerance. With 0.1 times the tolerance, run and
+ * companion had the same wrong motion in one of 2000 mechanisms.
  *
  * The companion has a separate workspace, so its evaluations do not touch the run's solver or
- * counters. If it fails, or costs more than the run itself, as with stiff forces, it ends and the
- * error is unknown. */
+ * counters. If it fails, or costs too much compared with the run, for example because of stiff
+ * forces, it ends and the error is unknown. */
 #include "simulate/companion.h"
 
 #include <math.h>
@@ -29,47 +29,47 @@
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
 
-/* Errors relative to the scales: a right result is within 0.01, a wrong one is off by 0.1. This
- * value lies in between. */
+/* Difference, relative to the scales, above which the run is doubtful. The error of a correct
+ * result is below 0.01, that of a wrong one above 0.1. */
 static const double DOUBTFUL = 0.03;
-/* Time for which the two must differ, as a fraction of 1/rate. */
+/* The run warns if the difference lasts longer than this fraction of 1/rate. */
 static const double LASTING = 0.1;
-/* Error that the recommended step aims at; it is small because the error keeps growing after the
- * warning. */
+/* The warning recommends the step at which the run would have about this error. It is well below
+ * DOUBTFUL, because the error continues to grow after the warning. */
 static const double FINE = 0.002;
-/* Limit on the sum of local errors: amplified by less than 1e3 it is negligible, and amplified by
- * less than 1e4 it does not make the result wrong. */
+/* Sum of local errors below which no companion is necessary. Amplified by 1e3 it is negligible, and
+ * amplified by 1e4 it does not make the result wrong. */
 static const double NEGLIGIBLE = 1e-5;
-/* If (angle of a step)^order is above this, errors may matter before the first of them can be
+/* If (angle of a step)^order is above this, errors may matter before the first error has been
  * estimated. */
 static const double COARSE = 1e-3;
-/* Tolerance of rk8: if errors are amplified by up to 1e3, its own error is still that of a right
+/* rtol of rk8. Even if errors are amplified by 1e3, the error of the companion is that of a correct
  * result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
-/* Largest number of evaluations of the companion per evaluation of the run, because a check that
- * nobody requested must not slow a run down much. A few more are allowed, because short runs with
- * long steps take few evaluations. */
+static const double LEAST_RTOL = 1e-13; /* below this, rounding dominates */
+/* Largest number of evaluations of the companion per evaluation of the run: MOST_COST for a check
+ * that was not requested, so that it does not slow the run down much. FREE further evaluations are
+ * allowed, because short runs with long steps take few evaluations. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
 
 enum {
-  STRIDE = 8, /* steps between states that are kept */
-  UNSEEN = 16 /* steps whose errors may stay unknown, and a quarter of all */
+  STRIDE = 8, /* number of steps between stored states */
+  UNSEEN = 16 /* largest number of steps with unknown error, plus a quarter of all */
 };
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
-  /* Plain numbers up to `method`, which are saved. */
-  int64_t unseen; /* steps whose local errors are not known */
-  int64_t begun;  /* evaluations of the run before the companion started */
+  /* The members before `method` are plain numbers, which are saved. */
+  int64_t unseen; /* number of steps whose local errors are unknown */
+  int64_t begun;  /* number of evaluations of the run before the companion started */
   double sum;     /* of local errors */
-  double apart;   /* [s] time since which the two differ; NaN: they agree */
+  double apart;   /* [s] time since which run and companion differ; NaN: they agree */
   int32_t doing;  /* a state_of_companion */
 
   const baum_integrator *method;
@@ -77,9 +77,9 @@ struct baum_i_companion {
   baum_i_problem problem; /* of the companion */
   void *self;
   baum_i_local_error local; /* of the run */
-  baum_i_state state;       /* state at which its next step begins */
+  baum_i_state state;       /* start of the companion's next step */
   baum_i_state at;          /* present state of the run */
-  baum_i_state kept[2];     /* states of the run, at least and less than STRIDE steps ago */
+  baum_i_state kept[2];     /* states of the run STRIDE or more, and less than STRIDE, steps ago */
 };
 
 /* ---- life ---- */
@@ -163,8 +163,8 @@ static void warn_of_error(baum_simulation *run, double t)
     baum_i_print(advice, sizeof advice, "take a step below %.1g s", advised);
   }
   baum_i_run_warn(run, BAUM_WARNING_ACCURACY, t, BAUM_I_NO_JOINT,
-                  "t = %.9g s: the estimated error of the positions by %s is %.2g, relative to the "
-                  "characteristic length and to radians; %s",
+                  "t = %.9g s: the estimated error of the positions by %s is %.2g (lengths "
+                  "relative to the characteristic length, angles in radians); %s",
                   t, run->integrator->name, error, advice);
   run->companion->doing = run->options.error_check ? GOES_ALONG : ENDED;
 }
@@ -184,7 +184,8 @@ static void compare_positions(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-/* At the end of a call the reported state counts, however short the difference has lasted. */
+/* Warn if the difference has lasted long enough. At the end of a call, warn even if it has lasted a
+ * short time only, because the state is reported. */
 static void warn_if_apart(baum_simulation *run, double t, bool ends)
 {
   const baum_i_companion *c = run->companion;
@@ -196,8 +197,7 @@ static void warn_if_apart(baum_simulation *run, double t, bool ends)
 
 /* ---- following the run ---- */
 
-/* Find the companion's state at the time of the run, which lies inside the companion's last
- * step. */
+/* Find the companion's state at the time of the run, which is inside the companion's last step. */
 static baum_status interpolate_at(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
@@ -228,7 +228,7 @@ static baum_status go_to(baum_simulation *run, double t)
   return interpolate_at(run, t);
 }
 
-/* Compare at a state of the run. A failure here says nothing about the run. */
+/* Follow the run to a state and compare. A failure of the companion does not concern the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
@@ -300,7 +300,7 @@ void baum_i_companion_begin(baum_simulation *run)
   }
 }
 
-/* Is it time to start? */
+/* Tell whether errors may matter, so that the companion must start. */
 static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
@@ -309,7 +309,7 @@ static bool may_matter(baum_simulation *run)
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;
   if (c->unseen > UNSEEN && 4 * c->unseen > run->counters.steps) {
-    run->counters.error_estimate = (double)NAN; /* inputs change every few steps */
+    run->counters.error_estimate = (double)NAN; /* unknown, because inputs change every few steps */
   }
   c->sum += baum_i_local_error_of_step(&c->local, run);
   return !(c->sum <= NEGLIGIBLE);

@@ -5,26 +5,26 @@
 
 #include "simulate/run.h"
 
-/* Does a run whose problem is chosen need a companion? */
+/* Tell whether a run needs a companion. The problem must have been chosen. */
 bool baum_i_companion_is_wanted(const baum_simulation *run);
 
-/* Create it at the trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+/* Create the companion at the trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_companion_create(baum_simulation *run);
 void baum_i_companion_destroy(baum_i_companion *companion);
 
 /* The following functions do nothing if run->companion is NULL. */
 
-/* Start at the present state, which has no error. */
+/* Start at the present state, which is assumed to be exact. */
 void baum_i_companion_begin(baum_simulation *run);
 
-/* Follow the run to `state`, the end of its last step, and warn if the two differ. */
+/* Follow the run to `state`, the end of its last step, and warn if run and companion differ. */
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 
 /* Compare at the present state, where a call that advances the run ends. */
 void baum_i_companion_end_call(baum_simulation *run);
 
-/* For changes of inputs, laws and the like at the present state: settle() follows the run to this
- * state before the change, restart() continues from it after the change. */
+/* Used when equations change at the present state, for example by inputs. Before the change
+ * settle() follows the run to this state. After the change restart() continues from it. */
 void baum_i_companion_settle(baum_simulation *run);
 void baum_i_companion_restart(baum_simulation *run);
 

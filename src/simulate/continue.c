@@ -5,12 +5,12 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* The present state of a run, with its inputs and driver laws. */
+/* Copies of the present state, inputs and driver laws of a run. */
 typedef struct standing {
   double *q;          /* (nq) */
   double *v;          /* (nv) */
   double *inputs;     /* (input_count) */
-  double *parameters; /* as of a run; NULL: the mechanism's */
+  double *parameters; /* own parameters of the run; NULL: those of the mechanism */
   baum_i_schedule schedule;
 } standing;
 
@@ -38,7 +38,7 @@ static void clear_standing(standing *s)
   baum_i_free(s->schedule.jumps);
 }
 
-/* Exchange inputs, parameters and schedule with those of the run. */
+/* Exchange these inputs, parameters and schedule with those of the run. */
 static void exchange(baum_simulation *run, standing *s)
 {
   baum_workspace *w = run->workspace;
@@ -72,13 +72,12 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
 {
   standing theirs;
   BAUM_I_TRY(check_both(simulation, from));
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
-    /* The other method may have left a violation that this one does not accept. Projection removes
-     * it by the least change of q and v. */
+    /* The other run may have a violation that this one does not accept. Projection removes it by
+     * the least change of q and v. */
     if (simulation->options.start != BAUM_START_AS_GIVEN) {
       status = baum_i_project(simulation->workspace, from->state.t, theirs.q, theirs.v);
     }

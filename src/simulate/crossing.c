@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Near-singular intervals of a run.
+/* Finds near-singular intervals of a run.
  *
- * Each accepted state has a pivot p: the smallest pivot of the equations there, relative to the
- * largest one of the run so far. Near a singular configuration p = (distance)^2 / (unit)^2, so
- * sqrt(p) falls to zero and rises again linearly.
+ * The pivot p of a state is the smallest pivot of the equations there, relative to the largest one
+ * of the run so far. Near a singular configuration p is proportional to the square of the distance,
+ * so sqrt(p) falls linearly to zero and rises again linearly.
  *
- *   p < NEAR            the run is inside an interval; the last state before and the first after
- *                       are its ends
- *   minimum of sqrt(p)  among three states, with slopes that could reach zero between them: the
- *                       least p of the motion through the three is searched, because fixed steps
- *                       may jump over a singular configuration
- *   least p < SINGULAR  the interval was a crossing, unless J keeps its rank there: it is recorded,
- *                       its branch decided (branch.c), and the run warns; other intervals are only
- *                       configurations with worse pivots than usual */
+ * - While p < NEAR, the run is inside an interval, whose ends are the last state before it and the
+ *   first state after it.
+ * - If sqrt(p) has a minimum among three states, and its slopes could reach zero between them, the
+ *   least p of the motion through the three states is searched, because fixed steps may jump over a
+ *   singular configuration.
+ * - If the least p < SINGULAR, the interval is a crossing, unless J keeps its rank: it is recorded,
+ *   its branch is decided (branch.c), and the run warns. Other intervals only have worse pivots
+ *   than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -22,12 +22,19 @@
 #include "base/sized.h"
 #include "mechanism/definition.h"
 
-/* Largest pivot of a crossing: its distance is at most a thirtieth of that of ordinary
- * configurations. */
+/* Largest pivot of a crossing. The distance from the singular configuration is then at most a
+ * thirtieth of the usual one. */
 static const double SINGULAR = 1e-3;
 
-/* [rad] Distance between clear states, so that rounding and tolerances are not amplified in
- * extrapolation. */
+/* lowest.pivot of a crossing that has been recorded. The interval continues without another
+ * warning. */
+static const double RECORDED = -1.0;
+
+/* [rad] Path length after a singular configuration by which the pivot should have risen. */
+static const double STAY = 0.05;
+
+/* [rad] Least distance between clear states. If they were closer, extrapolation would amplify
+ * rounding and errors of the order of the tolerance. */
 static const double SPACING = 0.1;
 
 /* ---- memory ---- */
@@ -85,7 +92,7 @@ static void set_knot(const baum_mechanism *m, double t, double pivot, const doub
   memcpy(to->v, v, (size_t)m->nv * sizeof *v);
 }
 
-/* Make room for a new last knot; if the list is full, remove the first. */
+/* Return a new last knot. If the list is full, remove the first knot. */
 static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 {
   if (*count < most) {
@@ -143,7 +150,7 @@ static bool is_near(const baum_i_knot *state)
   return state->pivot < BAUM_I_NEAR_PIVOT;
 }
 
-/* Could sqrt(p) have been zero between the last three states? */
+/* Tell whether sqrt(p) may have been zero between the last three states. */
 static bool may_have_jumped(const baum_i_crossings *p)
 {
   const baum_i_knot *k = p->recent;
@@ -179,21 +186,23 @@ static void open_crossing(baum_i_crossings *p, double from)
   p->present = (baum_i_crossing){.from = from, .joint = -1};
 }
 
-/* Does a pivot belong to a singular configuration, or to a gap that a violation has opened? */
+/* Tell whether a pivot is that of a singular configuration, or of a gap that a violation has
+ * caused. */
 static bool is_singular(baum_simulation *run, double pivot)
 {
   return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
 }
 
-/* Do the rows of J keep their rank where the pivot is small? Omitted rows may keep it where the
- * active ones do not. Also, if only a light body moves in the direction of a row, the pivot falls
- * to the ratio of masses, but no further. */
+/* Tell whether the rows of J keep their rank although the pivot is small. Together with omitted
+ * rows they may keep it although the active rows alone lose it. A light body is the other cause of
+ * a small pivot at full rank: when a light rod comes taut, the pivot falls to the ratio of the
+ * masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
-/* Record a pivot if it is the smallest singular one so far. */
+/* Record a pivot if it is singular and the smallest so far. Returns whether it is. */
 static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
@@ -221,7 +230,7 @@ static void search_least_pivot(baum_simulation *run)
   }
 }
 
-/* Consider the last state, which is near, for the smallest pivot. */
+/* Examine the last state, which is near-singular, for the smallest pivot. */
 static void examine_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -251,12 +260,13 @@ static void record_crossing(baum_simulation *run, double to)
     entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
     (void)baum_i_joint_label(run->workspace->mechanism, p->present.joint, label);
   }
-  baum_i_run_warn(
-    run,
-    entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED : BAUM_WARNING_BRANCH,
-    entry.t, p->present.joint,
-    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e times the usual one, %s): %s",
-    entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
+  baum_i_run_warn(run,
+                  entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED
+                                                        : BAUM_WARNING_BRANCH,
+                  entry.t, p->present.joint,
+                  "t = %.9g s to %.9g s: near a singular configuration (smallest pivot %.1e, "
+                  "relative to the usual one, %s): %s",
+                  entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_NEAR_SINGULAR_KEPT) {
     p->kept[run->counters.near_singular_intervals] = entry;
   }
@@ -267,15 +277,34 @@ static void record_crossing(baum_simulation *run, double to)
   }
 }
 
-/* End a crossing. Only now is the violation known that may have opened a gap. */
-static void close_crossing(baum_simulation *run)
+/* Record the interval if it was a crossing and is not recorded yet. */
+static void decide_crossing(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   double pivot = p->lowest.pivot;
-  if (is_singular(run, pivot) && !keeps_its_rank(run, p->lowest.t, p->lowest.q, pivot)) {
+  if (pivot != RECORDED && is_singular(run, pivot) &&
+      !keeps_its_rank(run, p->lowest.t, p->lowest.q, pivot)) {
     record_crossing(run, baum_i_last_knot(p)->t);
+    p->lowest.pivot = RECORDED;
   }
-  p->open = false;
+}
+
+/* End a crossing. The violation that may have caused a gap is known only now. */
+static void close_crossing(baum_simulation *run)
+{
+  decide_crossing(run);
+  run->crossings->open = false;
+}
+
+/* Behind a singular configuration p rises with the square of the path length. Where it does not,
+ * the motion has taken a branch of singular configurations, and the interval might never end. */
+static bool stays_singular(const baum_simulation *run)
+{
+  const baum_i_crossings *p = run->crossings;
+  const baum_i_knot *last = baum_i_last_knot(p);
+  double rate = baum_i_scaled_size(run->workspace->mechanism, last->v);
+  double path = rate * fabs(last->t - p->lowest.t);
+  return path > STAY && last->pivot < SINGULAR * path * path;
 }
 
 static void examine_inside(baum_simulation *run)
@@ -287,12 +316,15 @@ static void examine_inside(baum_simulation *run)
   }
   if (is_near(baum_i_last_knot(p))) {
     examine_last(run);
+    if (stays_singular(run)) {
+      decide_crossing(run);
+    }
   } else {
     close_crossing(run);
   }
 }
 
-/* Was a singular configuration jumped over between the last three states? */
+/* Tell whether the run has jumped over a singular configuration between the last three states. */
 static bool has_jumped(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -305,8 +337,8 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* Store the last state but one as a clear state, unless a crossing has begun or been jumped
- * over. */
+/* Store the last state but one as a clear state, unless a crossing has begun or the run has jumped
+ * over one. */
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -333,7 +365,7 @@ static void examine_outside(baum_simulation *run)
   }
 }
 
-/* Most states need no further examination. */
+/* Examine the state that was noted last. Most states return early. */
 void baum_i_crossings_look(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -366,10 +398,45 @@ void baum_i_crossings_end(baum_simulation *run)
   p->usual = 0.0;
 }
 
+/* Find the pivots of states again; *usual: at least the largest of them. */
+static baum_status find_pivots(baum_workspace *w, baum_i_knot *knots, int count, double *usual)
+{
+  for (int k = 0; k < count; k++) {
+    BAUM_I_TRY(baum_i_find_pivot(w, knots[k].t, knots[k].q, knots[k].v));
+    knots[k].pivot = baum_i_smallest_pivot(w, NULL);
+    *usual = fmax(*usual, knots[k].pivot);
+  }
+  return BAUM_OK;
+}
+
+void baum_i_crossings_renew(baum_simulation *run)
+{
+  baum_i_crossings *p = run->crossings;
+  baum_i_probe probe;
+  double usual = 0.0;
+  baum_i_probe_begin(&probe, run->workspace);
+  baum_status status = find_pivots(run->workspace, p->clear, p->clear_count, &usual);
+  if (status == BAUM_OK) {
+    status = find_pivots(run->workspace, p->recent, p->recent_count, &usual);
+  }
+  (void)baum_i_probe_end(&probe, BAUM_OK);
+  if (status != BAUM_OK || !(usual > 0.0)) {
+    baum_i_crossings_end(run);
+    return;
+  }
+  p->usual = usual;
+  for (int k = 0; k < p->recent_count; k++) {
+    p->recent[k].pivot /= usual;
+  }
+  for (int k = 0; k < p->clear_count; k++) {
+    p->clear[k].pivot /= usual;
+  }
+}
+
 /* ---- steps of variable length ---- */
 
-/* [rad] Motion in a step above which states inside it are examined: near singular configurations,
- * and elsewhere if the step may lead across one. */
+/* [rad] States inside a step are examined if the motion in the step is larger than LONG_NEAR near a
+ * singular configuration, or than LONG elsewhere, if the step may lead across one. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
@@ -377,7 +444,7 @@ static const double PIVOT = 0.5;
 
 enum { INSIDE = 16 }; /* at most */
 
-/* Number of pieces into which the step to `end` is cut. */
+/* Return the number of parts into which the step to `end` is divided. */
 static int count_pieces(const baum_simulation *run, const baum_i_state *end, double pivot)
 {
   const baum_i_crossings *p = run->crossings;
@@ -405,7 +472,7 @@ static void examine_between(baum_simulation *run, double t)
   }
 }
 
-/* Failures here are not reported: they recur in the next step, which reports them. */
+/* Failures are not reported here, because the next step has them again and reports them. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
   baum_i_crossings *p = run->crossings;
@@ -441,7 +508,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* in a restored run it may have another tag */
+  if (entry.joint.index1 > 0) { /* a restored run may have another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The search for events, the same for all integrators. g(t) is the value of an event in the motion
- * that outputs show: the interpolant of the last step, projected if the formulation includes it, or
- * with fixed steps the end of a shorter step from the same start. docs/theory/events.md.
+/* The search for events, which is the same for all integrators (docs/theory/events.md). g(t) is the
+ * value of an event in the motion that outputs show. With variable steps this motion is the
+ * interpolant of the last step, projected if the formulation includes projection. With fixed steps
+ * it is the end of a shorter step from the same start.
  *
- * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is first
- * checked cheaply, on the interpolant without projection or on the cubic of the two ends; g is
- * evaluated only if that shows another sign. Each event keeps its side from check to check, and
- * also from step to step, because interpolants do not meet exactly. Thus no event is found twice or
- * lost.
+ * Signs of g are compared at the quarters of a step, at outputs and at the end of the step. A
+ * quarter is first checked cheaply, on the interpolant without projection or on the cubic
+ * polynomial through both ends. g is evaluated only if this check shows another sign. The side of
+ * zero of each event is stored from check to check, also from step to step, because interpolants of
+ * successive steps do not meet exactly. Therefore no event is found twice or lost.
  *
  * Between two times with different signs the secant method finds the zero of g, with the weights of
- * Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects. New times keep half
- * the tolerance from both ends, and the search stops when the ends are one tolerance apart. The
- * event is at the later time, where g has passed zero. */
+ * Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects. New times are at
+ * least half the tolerance away from both ends, and the search stops when the distance of the ends
+ * is one tolerance. The event is at the later time, where g has passed zero. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -23,12 +24,12 @@
 
 enum { QUARTERS = 4, MOST_TRIES = 300 };
 
-/* Times that differ by less than this many roundings, or by this fraction of 1/rate, count as
- * equal. */
+/* Times that differ by less than ROUNDINGS rounding errors, or by less than SAME_TIME / rate, count
+ * as equal. */
 static const double ROUNDINGS = 4.0;
 static const double SAME_TIME = 1e-12;
 
-/* A stretch that is not divided further. */
+/* An interval of time in which an event passes zero. */
 typedef struct bracket {
   double a, b;   /* earlier and later time along the run */
   double fa, fb; /* of opposite signs */
@@ -42,7 +43,7 @@ static bool is_before(const baum_simulation *run, double a, double b)
 
 /* ---- states inside the step ---- */
 
-/* The cubic of the ends of a fixed step; exact as far as it begins like the motion. */
+/* Evaluate the cubic polynomial through both ends of a fixed step. */
 static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out)
 {
   const baum_i_state *p = &run->state;
@@ -52,8 +53,8 @@ static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out
   baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
-/* For shares of a step below this the cubic equals the motion up to rounding; methods that divide
- * by the step are not used. */
+/* For fractions of a step below this, the cubic polynomial equals the motion up to rounding. It is
+ * used instead of a step, because some methods divide by the step. */
 static const double SHORTEST = 1e-9;
 
 static baum_status find_state_by_step(baum_simulation *run, double t)
@@ -69,7 +70,7 @@ static baum_status find_state_by_step(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Find the state that outputs show at t, in the trial state. */
+/* Set the trial state to the state that outputs show at t. */
 static baum_status find_state(baum_simulation *run, double t)
 {
   if (baum_i_run_has_fixed_step(run)) {
@@ -82,7 +83,7 @@ static baum_status find_state(baum_simulation *run, double t)
   return baum_i_run_inside(run, t);
 }
 
-/* Approximate that state at less cost, in events->look. */
+/* Set events->look to an approximation of this state that costs less. */
 static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
@@ -108,7 +109,8 @@ static bool has_passed(const baum_i_events *events, int k)
   return side != 0 && baum_i_sign(events->list[k].next) != side;
 }
 
-/* Direction in time, even if the run goes backward. */
+/* Return the direction in which event k passes zero as time increases, also if the run goes
+ * backward. */
 static int32_t direction_of(const baum_simulation *run, int k)
 {
   return run->events->marks[k].side * run->problem.direction < 0.0 ? 1 : -1;
@@ -141,8 +143,8 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Replace one end by x: a if x is before the event. If the other end stays repeatedly, halve its
- * value (Illinois). */
+/* Replace one end by x: a if x is before the event, otherwise b. If the other end has not changed
+ * repeatedly, reduce its value (Illinois). */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -155,7 +157,7 @@ static void narrow_bracket(bracket *is, double x, double value, bool before)
   is->last_moved = before ? BEFORE : AFTER;
 }
 
-/* Between events->t and t, where event k has passed. */
+/* Return the bracket from events->t to t, in which event k has passed zero. */
 static bracket bracket_of(const baum_simulation *run, int k, double t)
 {
   const baum_i_event_mark *mark = &run->events->marks[k];
@@ -166,7 +168,7 @@ static bracket bracket_of(const baum_simulation *run, int k, double t)
                    .fb = run->events->list[k].next};
 }
 
-/* Locate event k, which has passed between events->t and t. Changes `next` of all events. */
+/* Locate event k, which has passed zero between events->t and t. Changes `next` of all events. */
 static baum_status locate(baum_simulation *run, int k, double t)
 {
   baum_i_event *event = &run->events->list[k];
@@ -196,7 +198,7 @@ static void record_event(baum_simulation *run, int k, double t)
   events->recorded++;
 }
 
-/* Leaving zero at the start is no event. */
+/* Tell whether event k leaves zero at the start, which does not count as an event. */
 static bool leaves_zero(const baum_simulation *run, int k)
 {
   const baum_i_events *events = run->events;
@@ -218,7 +220,7 @@ static int first_found(const baum_simulation *run)
   return first;
 }
 
-/* The last of the times that cannot be distinguished from the first. */
+/* Return the last of the event times that count as equal to that of event `first`. */
 static double end_of_group(const baum_simulation *run, int first)
 {
   const baum_i_events *events = run->events;
@@ -235,7 +237,7 @@ static double end_of_group(const baum_simulation *run, int first)
   return end;
 }
 
-/* Record the events up to `end`, all at that time. Returns a terminal one, or -1. */
+/* Record all events up to `end`, with the time `end`. Returns a terminal event, or -1. */
 static int record_group(baum_simulation *run, double end)
 {
   baum_i_events *events = run->events;
@@ -287,7 +289,8 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Has any event changed its side? For the cheap check, leaving zero counts as well. */
+/* Tell whether any event has changed its side of zero. If `leaving`, leaving zero counts as a
+ * change. */
 static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
   bool any = false;
@@ -298,8 +301,8 @@ static bool any_has_passed(const baum_i_events *events, bool leaving)
   return any;
 }
 
-/* Locate every event that has passed at t, where the values are known. Afterwards the values are
- * again those at t. */
+/* Locate all events that have passed zero at t, where the values are known. Afterwards the values
+ * are again those at t. */
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
@@ -312,7 +315,7 @@ static baum_status locate_all(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Store the values at t. */
+/* Store the values and sides at t. */
 static void keep_values(baum_i_events *events, double t)
 {
   events->t = t;
@@ -324,7 +327,7 @@ static void keep_values(baum_i_events *events, double t)
   }
 }
 
-/* Search from events->t to t. */
+/* Search for events from events->t to t. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;

@@ -38,7 +38,8 @@ static baum_status check_source(const baum_mechanism *m, const baum_event_def *d
                        of_joint ? "function() and joint are both given"
                                 : "neither function() nor joint is given");
   }
-  return of_joint ? baum_i_check_coordinate(m, def->joint, label, "joint", "to pass a value")
+  static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to pass a value"};
+  return of_joint ? baum_i_check_coordinate(m, def->joint, def->coordinate, label, &fields)
                   : BAUM_OK;
 }
 
@@ -92,7 +93,7 @@ void baum_i_events_destroy(baum_i_events *events)
   }
 }
 
-/* Make room for one more event and copy its name. The count stays. */
+/* Allocate memory for one more event and copy its name. The count does not change. */
 static baum_status make_room(baum_i_events *events, const baum_event_def *def)
 {
   assert(events);
@@ -133,9 +134,10 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
   int answer = 0;
   event->next = 0.0;
   if (event->joint >= 0) {
-    const baum_i_joint *joint = w->mechanism->joints[event->joint];
+    const baum_i_joint_coordinate of =
+      baum_i_joint_coordinate_of(w->mechanism, def->joint, def->coordinate);
     baum_i_coordinate coordinate;
-    joint->type->coordinate(joint, &w->point, &coordinate);
+    baum_i_coordinate_at(&of, &w->point, &coordinate);
     event->next = coordinate.value - def->value;
   } else {
     w->point.asking = true;
@@ -157,7 +159,8 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 
 /* ---- start of the search ---- */
 
-/* Share of 1/rate, for methods that start exactly from the state they are given. */
+/* Fraction of 1/rate within which times are equal, for methods that start exactly at the given
+ * state. */
 static const double NO_TIME = 1e-10;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
@@ -168,7 +171,7 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-/* Search from the present state on, with the values there. */
+/* Start the search at the present state with the values there. */
 static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
@@ -187,8 +190,9 @@ void baum_i_events_begin(baum_simulation *run)
   take_values(run, true);
 }
 
-/* An event that has just happened may seem to recur at once, because a method starts a little
- * beside the state or because the run reverses. That counts as leaving zero. */
+/* An event that has just been recorded may seem to recur at once, because a method starts with a
+ * small difference from the state or because the run changes its direction. This counts as leaving
+ * zero. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   take_values(run, false);
@@ -235,7 +239,7 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
 {
   BAUM_I_TRY(check_add(simulation, def));
   baum_event_def given = baum_event_def_default();
-  /* fields that an older version lacks have their defaults */
+  /* fields that an older version lacks keep their defaults */
   memcpy(&given, def, def->struct_size);
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
@@ -249,7 +253,7 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK && number == 0) { /* a run without events allocates none of this */
+  if (status != BAUM_OK && number == 0) { /* a run without events needs no memory for them */
     baum_i_events_destroy(simulation->events);
     simulation->events = NULL;
   }

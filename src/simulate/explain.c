@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explains a run in text. */
+/* Writes the text that explains a run. */
 #include <math.h>
 
 #include "base/text.h"
@@ -80,7 +80,7 @@ static void explain_solver(baum_simulation *run)
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
   } else if (run->integrator->solves_residuals) {
-    /* (5) is solved at the start and for outputs. */
+    /* The solver for accelerations solves (5) at the start and for outputs. */
     say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n", text);
   } else {
     say(run, "solver        %s\n", text);
@@ -104,6 +104,7 @@ void baum_i_run_explain(baum_simulation *run)
     }
   }
   explain_solver(run);
-  say(run, "start         t = %.9g s, largest displacement at assembly %.3g of the scale",
+  say(run,
+      "start         t = %.9g s, assembly moved a body by up to %.3g characteristic lengths or rad",
       run->state.t, run->counters.start_change);
 }

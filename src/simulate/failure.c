@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Completes the message of a failed step: where the run stands, which joint and body to look at
- * first, and what may help. The message already has time and step, from the function that failed.
+/* Completes the message of a failed step: the state of the run, the joint and body that are
+ * probably the cause, and what may help. The function that failed has already set a message with
+ * time and step.
  *
- * At the last good step, one solution of (5) gives
+ * At the last good step, one solution of (5) is computed. It gives
  *
- *   the joint with the largest constraint violation, if that is large, else with the largest load
+ *   the joint with the largest violation, if it is large, otherwise with the largest multiplier
  *   the body with the largest acceleration
  *
- * both relative to the scales. */
+ * All are relative to the scales. */
 #include <math.h>
 #include <string.h>
 
 #include "base/text.h"
 #include "simulate/run.h"
 
-/* Smallest violation, as a displacement, that the message mentions. */
+/* Smallest violation, as a scaled displacement, that the message mentions. */
 static const double VIOLATED = 1e-3;
 
 static const char *advice_for(baum_status status)
@@ -33,7 +34,7 @@ static const char *advice_for(baum_status status)
   }
 }
 
-/* Find the largest |x_i| / n_i, or |x_i| n_i if n is a displacement. */
+/* Find the largest |x_i| n_i if `times`, otherwise |x_i| / n_i. */
 static int find_largest(const double *x, const double *n, int count, bool times, double *largest)
 {
   int row = -1;
@@ -79,7 +80,7 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Add the data that need no solution. */
+/* Add the data that do not require a solution. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With the Lagrange polynomials l_k of the times, l_k(t_i) = 1 for i = k and otherwise 0, and s_k =
- * l_k'(t_k):
+/* Let l_k be the Lagrange polynomials of the times t_i: l_k(t_i) = 1 for i = k, otherwise 0. With
+ * s_k = l_k'(t_k) the polynomial is
  *
  *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 q'_k,  q'_k = N(q_k) v_k
  *
  * and v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The
- * factors are the same for all coordinates. The factors of the q_k have the sum 1 and their rates
- * the sum 0, so q_k - q_0 may replace q_k. Angles after many revolutions then lose no digits.
+ * factors of q_k and q'_k are the same for all coordinates. The sum of the factors of q_k is 1 and
+ * that of their derivatives 0, so the differences q_k - q_0 are used. Angles after many revolutions
+ * then lose no digits.
  */
 #include "simulate/hermite.h"
 
 #include <string.h>
 
-/* Factors of a knot at a time. */
+/* Factors of q_k and q'_k of a knot. */
 typedef struct factors {
   double q;
   double v;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* External changes during a run: inputs and their schedules, and driver laws that are set. Both
- * change the right side of the equations abruptly (restart.c). */
+/* External changes during a run: values and schedules of inputs, and new driver laws. All change
+ * the right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -22,8 +22,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   BAUM_I_TRY(baum_i_check_input_value(w->mechanism, input, call, value));
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = BAUM_OK;
   if (value != before) {
     baum_i_run_end_before_change(simulation);
@@ -45,7 +44,7 @@ double baum_simulation_input(const baum_simulation *simulation, baum_input_id in
 
 /* ---- a schedule of an input ---- */
 
-/* Values that an input has from given times on, and its value before the first. */
+/* The values of an input from given times on, and its value before the first of these times. */
 typedef struct given {
   int64_t input;
   const double *times;  /* (count) */
@@ -54,7 +53,8 @@ typedef struct given {
   double before;
 } given;
 
-/* Append the jumps of other inputs up to and including t, from the k-th on. Returns the next. */
+/* Append the jumps of other inputs from the k-th up to and including t. Returns the index of the
+ * next jump. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {
@@ -67,7 +67,7 @@ static int append_others(const baum_i_schedule *old, int k, double t, int64_t in
   return k;
 }
 
-/* Merge the jumps in order of time. A value that equals the one before is no jump. */
+/* Merge the jumps in order of time. A value equal to the last one is not a jump. */
 static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);
@@ -84,7 +84,7 @@ static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_sched
   (void)append_others(old, next, (double)INFINITY, g->input, out);
 }
 
-/* Give the run its new list and restart it, because its last step may end after a jump. */
+/* Use a new list in the run, and restart the run, because its last step may end after a jump. */
 static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *made, int64_t input)
 {
   double *present = &run->workspace->inputs[input];
@@ -153,8 +153,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
     baum_i_schedule_end(simulation, index);
     return BAUM_OK;
   }
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_i_schedule made = {.jumps = NULL};
   baum_status status = baum_i_schedule_reserve(&made, simulation->schedule.count + count);
   if (status == BAUM_OK) {
@@ -199,7 +198,7 @@ baum_status baum_i_run_own_parameters(baum_simulation *run)
   return BAUM_OK;
 }
 
-enum { MOST_NUMBERS = 8 }; /* of a driver, among the parameters */
+enum { MOST_NUMBERS = 8 }; /* parameters of a driver */
 
 static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, const double law[3])
 {
@@ -224,8 +223,7 @@ baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_i
 {
   const double law[3] = {s, ds, dds};
   BAUM_I_TRY(check_driver(simulation, "baum_simulation_set_driver", driver, law));
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   const baum_mechanism *m = simulation->workspace->mechanism;
   baum_status status = baum_i_run_own_parameters(simulation);
   if (status == BAUM_OK) {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What may stop a run before its next step: the user, progress(), too many steps, or steps that
- * make no progress.
+/* Checks before each step whether the run must stop: because of the user, progress(), too many
+ * steps, or steps that are too short.
  *
- * A method that chooses its steps may get stuck, like BDF next to a singular configuration or an
- * explicit method with a stiff force. A run stops if it has taken 1e4 steps in a call and, at this
- * pace, would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the
- * motion, so that it would never end. High gains and stiff forces need far longer steps: those of
- * 1e-6 of that time already cost 1e6 steps. */
+ * A variable-step method may get stuck, for example BDF near a singular configuration, or an
+ * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
+ * would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the motion.
+ * Steps for high gains and stiff forces are far longer than this: with steps of 1e-6 of this time a
+ * run takes 1e6 steps. */
 #include <math.h>
 
 #include "simulate/run.h"
@@ -63,8 +63,8 @@ static bool progress_cancels(baum_simulation *run)
   return answer != 0;
 }
 
-/* Judge the last steps of this call, once every PACE_STEPS. Fixed steps are not checked, because
- * the user chose them. */
+/* Tell whether the last PACE_STEPS steps of this call were too short. Checked once every
+ * PACE_STEPS. Fixed steps are not checked, because the user chose them. */
 static bool creeps(baum_simulation *run, int64_t taken)
 {
   if (baum_i_run_has_fixed_step(run) || taken % PACE_STEPS != 0) {
@@ -80,12 +80,12 @@ static bool creeps(baum_simulation *run, int64_t taken)
 static baum_status fail_creeping(baum_simulation *run)
 {
   const baum_i_state *now = &run->ahead;
-  baum_status status = baum_i_fail(
-    BAUM_ERR_STEP,
-    "t = %.9g s: %s hardly advances: each of the last %d steps was shorter than 1e-9 of the time "
-    "scale of the motion; forces may be stiff, for which only cvode_bdf and ida are suited, or the "
-    "configuration singular, which rk8 can pass",
-    now->t, run->integrator->name, (int)PACE_STEPS);
+  baum_status status =
+    baum_i_fail(BAUM_ERR_STEP,
+                "t = %.9g s: %s hardly advances: each of the last %d steps was shorter than 1e-9 "
+                "of the time scale of the motion; the forces may be stiff, which requires "
+                "cvode_bdf or ida, or the configuration may be singular, which rk8 can pass",
+                now->t, run->integrator->name, (int)PACE_STEPS);
   return baum_i_run_explain_failure(run, status, now);
 }
 

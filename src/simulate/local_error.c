@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Local errors of fixed steps. The change of v in a step is compared with the Adams-Moulton formula
- * of order 5, the change of q with the Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving
- * Ordinary Differential Equations I, 1993, III.1):
+/* Estimates local errors of fixed steps. The change of v in a step is compared with the
+ * Adams-Moulton formula of order 5, and the change of q with the Hermite rule (E. Hairer, S.
+ * Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, III.1):
  *
  *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
  *   dq = q_1 - q_0 - h/2 (q'_0 + q'_1) - h^2/12 (q''_0 - q''_1) + h/2 N dv
  *
- * with q' = v and q'' = a where q is a vector.
- * The two formulas have errors of order h^6 and h^5 themselves, so the estimate is far too large
- * for methods of high order. */
+ * where q' = v and q'' = a if q is a vector. The formulas have errors of order h^6 and h^5, so the
+ * estimate is far too large for methods of high order. */
 #include "simulate/local_error.h"
 
 #include <math.h>
@@ -16,7 +15,7 @@
 
 #include "base/hot.h"
 
-static const double SAME_STEP = 1e-6; /* fraction by which equal steps may differ */
+static const double SAME_STEP = 1e-6; /* relative difference up to which steps are equal */
 
 size_t baum_i_local_error_size(const baum_mechanism *m)
 {
@@ -37,7 +36,7 @@ BAUM_I_INLINE double error_of(double change, const double rates[3], const double
   return change - 0.5 * h * (rates[0] + rates[1] - rates[2]) - h * h / 12.0 * (bends[0] - bends[1]);
 }
 
-/* dq without the term of dv, as velocities, if q is no vector. */
+/* Compute dq without the term of dv, as a vector (nv), if q is not a vector. */
 static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
                                           double h)
 {
@@ -57,8 +56,8 @@ static const double *find_position_errors(const baum_i_local_error *e, const bau
   return baum_i_tangent(m, now->q, dq, room);
 }
 
-/* Largest error of a step by h relative to the scales; errors of velocities are multiplied by
- * `period`. turned: NULL if q is a vector. */
+/* Return the largest scaled error of a step by h. Errors of velocities are multiplied by `period`.
+ * turned is the result of find_position_errors(), or NULL if q is a vector. */
 BAUM_I_INLINE double largest_with(const baum_i_local_error *e, const baum_simulation *run, double h,
                                   double period, const double *turned)
 {
@@ -107,7 +106,7 @@ double baum_i_local_error_of_step(baum_i_local_error *e, const baum_simulation *
   double h = run->state.t - e->t;
   double error = 0.0;
   if (e->known > 1 && !(fabs(h - e->h) <= SAME_STEP * fabs(h))) {
-    e->known = 1; /* only the last state is where this step began */
+    e->known = 1; /* only the acceleration at the start of this step */
   }
   if (e->known == BAUM_I_ACCELERATIONS) {
     double rate = baum_i_scaled_size(run->workspace->mechanism, run->state.v);

@@ -8,21 +8,22 @@
 enum { BAUM_I_ACCELERATIONS = 4 };
 
 typedef struct baum_i_local_error {
-  double *q;                       /* (nq) where the last step began */
+  double *q;                       /* (nq) at the start of the last step */
   double *v;                       /* (nv) */
-  double *a[BAUM_I_ACCELERATIONS]; /* (nv) where the last steps began, newest first */
-  double t;                        /* [s] where the last step began */
-  double h;                        /* [s] of the step before it */
-  int known;                       /* accelerations, at equal distances */
+  double *a[BAUM_I_ACCELERATIONS]; /* (nv) at the starts of the last steps, newest first */
+  double t;                        /* [s] start of the last step */
+  double h;                        /* [s] length of the step before */
+  int known;                       /* number of accelerations at equal distances */
 } baum_i_local_error;
 
-/* Count of the numbers that it needs, and where they are. */
+/* The first function returns how many numbers a baum_i_local_error needs, the second sets its
+ * arrays to such memory. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 
-/* Estimate the error of the last step, relative to the scales, at its end: the present state, with
- * its acceleration in the workspace. 0 as long as too few accelerations are known. known = 0
- * forgets them. */
+/* Estimate the error of the last step, relative to the scales. Call this at the end of the step,
+ * which is the present state, with its acceleration in the workspace. Returns 0 as long as too few
+ * accelerations are known. Set known = 0 to discard them. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 
 #endif

@@ -41,10 +41,10 @@ static void observe_singular(baum_simulation *run, double t)
   run->near_singular_seen = w->near_singular;
 }
 
-/* Omitted rows follow from the others only as long as the constraints agree with each other and the
- * motion stays on its branch. At a distance d from a configuration where the active rows alone are
- * singular, the omitted ones may be violated by 1/d of the violation of the active ones, and next
- * to it by its square root. A larger violation is a contradiction. */
+/* Omitted rows depend on the others only if the constraints do not contradict each other and the
+ * motion stays on its branch. At a distance d from a configuration in which the active rows alone
+ * are singular, the violation of the omitted rows may be 1/d times that of the active rows, and
+ * close to it the square root of that of the active rows. A larger violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -61,7 +61,7 @@ static void observe_redundant(baum_simulation *run, double t)
   const baum_mechanism *m = w->mechanism;
   if (w->rows.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
       baum_i_need_jacobian(w) != BAUM_OK) {
-    return; /* a failing function of the user will soon be reported */
+    return; /* if a user function fails, a later evaluation reports it */
   }
   double kept = 0.0;
   double omitted = 0.0;
@@ -77,28 +77,26 @@ static void observe_redundant(baum_simulation *run, double t)
   }
   if (omitted > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
-    baum_i_run_warn(
-      run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
-      "t = %.9g s: an omitted redundant row of %s is violated by %.3g, relative to the "
-      "scales, the active rows by %.1g: constraints contradict each other, or the "
-      "motion has left its branch; do not trust it",
-      t, baum_i_row_label(m, row, label), omitted, kept);
+    baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
+                    "t = %.9g s: an omitted redundant row of %s is violated by %.3g, relative to "
+                    "the scales, but the active rows only by %.1g: constraints contradict each "
+                    "other, or the motion has left its branch; do not trust it",
+                    t, baum_i_row_label(m, row, label), omitted, kept);
   }
 }
 
-/* A constraint that is off by more than this share of the scales is no longer that of the
- * mechanism: the run has drifted far or blows up. */
+/* If the scaled violation is larger than this, the run has drifted far or diverges. */
 static const double LARGE = 0.01;
-/* The error of the motion is at least its violation. If the run has a tolerance, the violation must
- * not be much larger, whether it drifts or, above rounding, is removed in every step. */
+/* The error of the motion is at least as large as the violation. If the run has a tolerance, the
+ * violation must not be much larger than the tolerance. */
 static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;
 static const double TOLERANCES_KEPT = 1e3;
-/* Both Euler methods may reach this multiple of the violation predicted for their gains. */
+/* For both Euler methods, this multiple of the violation predicted for the gains is allowed. */
 static const double PREDICTED = 3.0;
 
-/* Largest violation, as a displacement relative to the scales, that raises no doubt. */
+/* Return the largest scaled violation for which the run does not warn. */
 static double allowed_violation(const baum_simulation *run)
 {
   double rtol = run->problem.rtol;
@@ -113,11 +111,12 @@ static double allowed_violation(const baum_simulation *run)
   return fmin(LARGE, allowed);
 }
 
-/* With gains below this share of 1/h the violation lags behind gamma, and the steady formulas are
- * off by more than a tenth. */
+/* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the errors
+ * of the steady formulas are above a tenth. */
 static const double STEADY_GAIN = 0.1;
 
-/* Steady violation of both Eulers: |Phi'| = h |gamma| / 2, |Phi| = alpha h |gamma| / beta^2. */
+/* Predict the steady violation of both Euler methods: |Phi'| = h |gamma| / 2, |Phi| = alpha h
+ * |gamma| / beta^2. */
 static void predict(const baum_simulation *run, baum_counters *c)
 {
   double alpha = run->problem.alpha;
@@ -131,7 +130,8 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
-/* This is repeated only when the largest violation has doubled, because it costs a pass over J. */
+/* Check the largest violation. This is repeated only after the violation has doubled, because it
+ * costs a pass over J. */
 static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
@@ -180,7 +180,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
-    double size = 0.0; /* with which their steady violation grows (docs/theory/stabilization.md) */
+    double size = 0.0; /* factor of the steady violation (docs/theory/stabilization.md) */
     (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
     run->largest_gamma = fmax(run->largest_gamma, size);
   }
@@ -191,8 +191,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-/* Counts of solvers and methods, and the counters that add them to the counts of other
- * processes. */
+/* The counters that contain counts of solvers and methods, plus the counts of other processes. */
 static const size_t COUNTED[BAUM_I_WORK] = {
   offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
   offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),
@@ -260,7 +259,7 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   bool stabilized = simulation->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
   const baum_amplification *a = &simulation->gains.amplification;
   c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
-  /* log1p() keeps the digits of a small damping. */
+  /* log1p() loses no digits if the damping is small. */
   c->damping = stabilized ? -log1p(-a->damping) / simulation->options.step : (double)NAN;
   baum_i_give_sized(out, caller_size, c, sizeof *c);
   return BAUM_OK;

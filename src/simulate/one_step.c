@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tries one step, or finds one state inside the last step. The result is the trial state, projected
- * if the formulation includes it, and checked. */
+/* Tries one step, or finds a state inside the last step. The result is the trial state, which is
+ * checked, and projected if the formulation includes projection. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ BAUM_I_INLINE baum_status check_finite(const baum_simulation *run, const baum_i_
   return BAUM_OK;
 }
 
-/* Add the time to the message of a callback, which does not know the run. */
+/* Add the time to the message of a callback, which does not contain it. */
 static baum_status explain(baum_simulation *run, baum_status status)
 {
   if (status == BAUM_ERR_CALLBACK) {
@@ -46,7 +46,7 @@ static baum_status explain(baum_simulation *run, baum_status status)
   return baum_i_run_explain_failure(run, status, &run->state);
 }
 
-/* Step from the present state, whose acceleration is known, to t_next. */
+/* Take a step from the present state, whose acceleration is known, to t_next. */
 static baum_status step_to(baum_simulation *run, double t_next)
 {
   const baum_i_state *state = &run->state;

@@ -36,10 +36,10 @@ static baum_status refuse(const char *field, const char *unit, double value, con
 
 /* ---- numbers ---- */
 
-/* How a method steps with the given options. */
+/* The kind of steps that a method takes with the given options. */
 typedef enum stepping { FIXED_STEP, VARIABLE_STEP, NO_STEP } stepping;
 
-/* Why a method refuses a number. */
+/* Why a method refuses a number, by the kind of its steps. */
 static const char *const WHY_NOT[] = {
   [FIXED_STEP] = "has a fixed step; give step alone",
   [VARIABLE_STEP] = "chooses its own steps; give rtol alone",
@@ -47,14 +47,14 @@ static const char *const WHY_NOT[] = {
                "tolerance"),
 };
 
-/* A number of the options, which must lie between two limits. */
+/* A number of the options and its limits. */
 typedef struct number {
   const char *name;
   const char *unit;
   size_t offset;
   bool takes[3]; /* by stepping */
-  bool required; /* kinds of steps that take it */
-  double unset;  /* value that counts as not given */
+  bool required; /* by kind of steps: the number may be given */
+  double unset;  /* value that means "not given" */
   double least;
   double most;
   bool may_be_zero;
@@ -76,8 +76,8 @@ typedef struct number {
     [VARIABLE_STEP] = true, [NO_STEP] = true \
   }
 
-/* Factors come last: methods without a tolerance refuse them. check_multipliers() refuses
- * tolerance_lambda where it does not apply. */
+/* The table of all numbers. The factors on tolerances are last; methods without a tolerance refuse
+ * them. check_multipliers() refuses tolerance_lambda if it does not apply. */
 /* clang-format off */
 static const number NUMBERS[] = {
   {NUMBER(step, "s"), {[FIXED_STEP] = true}, .required = true, .unset = NAN, .most = INFINITY,
@@ -127,7 +127,7 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
   return check_range(n, x);
 }
 
-/* Methods with both kinds of steps use the kind that is given. */
+/* Check all numbers. A method with both kinds of steps uses the kind whose number is given. */
 static baum_status check_numbers(const baum_simulation_options *o)
 {
   const baum_integrator *method = o->integrator;
@@ -162,7 +162,7 @@ static baum_status check_choices(const baum_simulation_options *o)
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }
 
-/* Check that the integrator offers the formulation. */
+/* Check that the integrator offers the formulation, and replace the default. */
 static baum_status check_pair(baum_simulation_options *o)
 {
   const baum_formulation *offered = o->integrator->formulations;
@@ -211,8 +211,9 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* At index 1 multipliers are as smooth as accelerations. In other forms the error estimate of an
- * implicit method does not fall with the step as it should. */
+/* Check tolerance_lambda. It is allowed at index 1 only, where multipliers are as smooth as
+ * accelerations. In other forms the error estimate of an implicit method does not decrease with the
+ * step as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {

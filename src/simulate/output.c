@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Channels: the outputs of a run at a state. Accelerations, multipliers and reactions need one
- * solution of (5), which is made once per row of output, and only if a channel needs it. */
+ * solution of (5), which is computed once per row of output, and only if a channel needs it. */
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/rotation.h"
 #include "base/sized.h"
 #include "base/text.h"
 #include "mechanism/definition.h"
+#include "mechanism/general/coordinate.h"
 #include "mechanism/planar/planar.h"
 #include "simulate/account.h"
 
@@ -26,7 +28,7 @@ typedef enum object {
   OF_JOINT
 } object;
 
-/* How much to evaluate; each level includes those before it. */
+/* What a quantity requires. Each level includes the levels before. */
 typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
 
 typedef struct facts {
@@ -35,7 +37,7 @@ typedef struct facts {
   const char *word;
 } facts;
 
-/* By quantity; 0 is no quantity. */
+/* Indexed by quantity. 0 is not a quantity. */
 static const facts table[] = {
   [0] = {OF_NOTHING, DEPTH_FRAMES, "nothing"},
   [BAUM_Q] = {OF_Q, DEPTH_FRAMES, "positions"},
@@ -60,13 +62,14 @@ static facts facts_of(baum_quantity quantity)
   return table[k < sizeof table / sizeof *table ? k : 0];
 }
 
-/* Part of a vector over q, v or the rows. */
+/* A part of a vector of length nq, nv or nc. */
 typedef struct slice {
   int first;
   int count;
 } slice;
 
-/* Of a channel whose ids are checked: of a body, of a joint, or the whole vector. */
+/* Return the slice of a channel, whose ids have been checked: that of a body, of a joint, or the
+ * whole vector. */
 static slice slice_of(const baum_mechanism *m, const baum_channel *c)
 {
   object of = facts_of(c->quantity).of;
@@ -93,7 +96,7 @@ static int fail_point(int k, const double p[3])
 {
   (void)baum_i_fail(
     BAUM_ERR_ARGUMENT,
-    "channel %d: point is (%g, %g, %g) m, must be finite, and of a planar body z = 0", k, p[0],
+    "channel %d: point is (%g, %g, %g) m, must be finite, with z = 0 for a planar body", k, p[0],
     p[1], p[2]);
   return -1;
 }
@@ -129,12 +132,11 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
   if (c->quantity == BAUM_DRIVE_EFFORT) {
     return m->joints[joint]->type->driven ? 1 : fail_channel(k, "only drivers have an effort");
   }
-  if (!m->joints[joint]->type->coordinate) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: joint is a %s, which has no coordinate", k,
-                      m->joints[joint]->type->definition.kind);
-    return -1;
-  }
-  return 2;
+  static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to record"};
+  char label[BAUM_I_LABEL_SIZE];
+  (void)snprintf(label, sizeof label, "channel %d", k);
+  bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label, &fields) == BAUM_OK;
+  return has ? 2 : -1;
 }
 
 static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
@@ -151,7 +153,7 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
   case OF_BODY: return body_width(m, c, k);
   case OF_JOINT: return joint_width(m, c, k);
   case OF_NOTHING:
-  default: return fail_channel(k, "quantity is no baum_quantity");
+  default: return fail_channel(k, "quantity is not a baum_quantity");
   }
 }
 
@@ -159,7 +161,8 @@ void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char 
 {
   facts f = facts_of(c->quantity);
   char label[BAUM_I_LABEL_SIZE];
-  baum_i_append(text, size, "%s", f.word);
+  bool named = c->quantity == BAUM_JOINT_COORDINATE && c->coordinate != BAUM_COORDINATE_FIRST;
+  baum_i_append(text, size, "%s", named ? baum_i_coordinate_name(c->coordinate) : f.word);
   if (f.of == OF_BODY) {
     const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
     baum_i_append(text, size, " of %s", baum_i_label(&body->element, label));
@@ -189,7 +192,8 @@ baum_channel baum_i_channel(const baum_channel *channels, int k)
   return channel;
 }
 
-/* The size of the first channel is the distance to the next. */
+/* Check struct_size. The size of the first channel is the distance between channels in the
+ * array. */
 static baum_status check_size(const baum_channel *channels, int k)
 {
   const size_t size = channels->struct_size;
@@ -203,7 +207,7 @@ static baum_status check_size(const baum_channel *channels, int k)
   memcpy(&own, (const char *)channels + (size_t)k * size, sizeof own);
   return own == size ? BAUM_OK
                      : baum_i_fail(BAUM_ERR_STRUCT,
-                                   "channel %d: struct_size is %zu, must be %zu as of channel 0; "
+                                   "channel %d: struct_size is %zu, must be %zu as in channel 0; "
                                    "start from baum_channel_of()",
                                    k, own, size);
 }
@@ -262,7 +266,7 @@ static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
 
 /* ---- values; each returns its width ---- */
 
-/* The vector that a quantity is a slice of. */
+/* Return the vector of which the quantity is a slice. */
 static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
                                baum_quantity quantity)
 {
@@ -366,11 +370,13 @@ static int fill_joint(const baum_workspace *w, const baum_channel *c, double *ou
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    out[0] = -w->lambda[joint->row]; /* its row of J is the coordinate's gradient */
+    out[0] = -w->lambda[joint->row]; /* because its row of J is the gradient of the coordinate */
     return 1;
   }
+  const baum_i_joint_coordinate of =
+    baum_i_joint_coordinate_of(w->mechanism, c->joint, c->coordinate);
   baum_i_coordinate coordinate;
-  joint->type->coordinate(joint, &w->point, &coordinate);
+  baum_i_coordinate_at(&of, &w->point, &coordinate);
   out[0] = coordinate.value;
   out[1] = coordinate.rate;
   return 2;
@@ -385,15 +391,15 @@ static int fill_channel(const baum_workspace *w, const baum_i_state *state, cons
   case OF_ROWS: return fill_slice(w, state, c, out);
   case OF_BODY: return fill_body(w, state, c, out);
   case OF_JOINT: return fill_joint(w, c, out);
-  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled afterwards, as energies are: */
+  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled later, like energies, */
   case OF_ENERGY:
   case OF_NOTHING:
-  default: return 2; /* they need an evaluation of their own */
+  default: return 2; /* because they need another evaluation */
   }
 }
 
-/* Velocities of distant points overflow, and reactions may. Energies and the account are filled
- * later. */
+/* Check that values are finite. Velocities of distant points and reactions may overflow. Energies
+ * and the account are filled later. */
 static baum_status check_channel(const baum_channel *c, int k, const double *out, int width)
 {
   facts f = facts_of(c->quantity);

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pilot run, which measures how fast a mechanism moves over its first radians.
+/* A pilot run, which finds the mean rate of the motion over its first radians.
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
- * 5 steps of order 3 with 3 evaluations each, in the form that keeps no stages (J. H. Williamson,
- * J. Comput. Phys.
- * 35 (1980) 48-56, case 7):
+ * The run takes 5 steps of order 3 with 3 evaluations each, by a Runge-Kutta method that does not
+ * store stages (J. H. Williamson, J. Comput. Phys. 35 (1980) 48-56, case 7):
  *
  *   d := A_i d + h f(y),   y := y + B_i d
  *
- * So few steps need no stabilization, and a rate accurate to a tenth suffices. All steps cover
- * equal angles, so a short fast phase or a singular configuration has little weight. Steps are
- * never longer than the time in which gravity swings the mechanism by that angle, so a mechanism
- * that starts slowly leaves its slow phase.
+ * So few steps need no stabilization. The rate need only be accurate to a tenth. All steps cover
+ * about the same angle, so a short fast phase or a singular configuration has little weight. A step
+ * is not longer than the time in which gravity swings the mechanism by this angle, so the rate of a
+ * mechanism that starts slowly is found from its later motion, too.
  */
 #include <math.h>
 #include <string.h>
@@ -24,21 +23,21 @@ static const double A[STAGES] = {0.0, -5.0 / 9.0, -153.0 / 128.0};
 static const double B[STAGES] = {1.0 / 3.0, 15.0 / 16.0, 8.0 / 15.0};
 static const double C[STAGES] = {0.0, 1.0 / 3.0, 3.0 / 4.0};
 
-static const double ANGLE = 0.75; /* [rad] a step */
-static const double GROWTH = 2.0; /* of the step, at most */
+static const double ANGLE = 0.75; /* [rad] per step */
+static const double GROWTH = 2.0; /* largest growth of a step */
 
 typedef struct pilot {
   baum_workspace *workspace;
   baum_i_state *y;
   baum_i_state *d;
   double swing;  /* [1/s] */
-  double h;      /* [s] last step; infinite at first */
+  double h;      /* [s] last step; infinite before the first */
   double turned; /* [rad] */
   double time;   /* [s] */
   bool ready;    /* accelerations at y are in the workspace */
 } pilot;
 
-/* Evaluate the accelerations; false if that fails. */
+/* Evaluate the accelerations. Returns false if this fails. */
 static bool evaluate(pilot *p)
 {
   const baum_i_state *y = p->y;

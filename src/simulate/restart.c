@@ -2,9 +2,9 @@
 /* Restarts after an abrupt change: of an input, the law of a driver, the omitted rows, or a
  * function at a break.
  *
- * A fixed-step method starts every step from the state alone, so a change needs no restart. A
- * variable-step method has a history and restarts from the present state, which may be before the
- * end of its last step. */
+ * A fixed-step method without a history starts every step from the state alone, so no restart is
+ * necessary. A variable-step method has a history and restarts from the present state, which may be
+ * before the end of its last step. */
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"
@@ -56,7 +56,7 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  /* Kinematics has solved for the configuration on the far side of the break, whose velocities may
+  /* Kinematics has computed the configuration on the far side of the break. Its velocities may
    * differ. */
   return run->integrator->without_freedom
            ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,

@@ -7,8 +7,8 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 
-/* Pass the omitted rows to the account and the companion. If memory runs out, they keep the former
- * ones, which are still valid. */
+/* Pass the omitted rows to the account and the companion. If out of memory, they keep the previous
+ * omitted rows, which are still valid. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -18,9 +18,10 @@ static void tell_others(baum_simulation *run)
   }
 }
 
-/* Project the present state before other rows are omitted. The violation of the omitted rows
- * exceeds that of the active ones, the more so the more ill-conditioned these are; without
- * projection it would grow tenfold with each choice. A given state stays as it is. */
+/* Project the present state before other rows are omitted. If active rows are ill-conditioned, the
+ * violation of the omitted rows is larger than that of the active rows. Without projection the
+ * violation would grow tenfold with each new choice of rows. A state that the user has just given
+ * is not changed. */
 static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
@@ -35,9 +36,9 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* KLU's pivots scatter, and QR's pivots, which weigh the constraints, fall only next to a singular
- * configuration. The rows are therefore checked after every 0.1 rad of motion, which costs little
- * beside the work of these solvers. */
+/* Estimate the smallest pivot for the check of the rows. Pivots of KLU vary irregularly, and pivots
+ * of QR fall only very close to a singular configuration. With these solvers the rows are therefore
+ * checked after every 0.1 rad of motion, which costs little compared with their other work. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -49,11 +50,11 @@ static double guess_pivot(baum_simulation *run)
   return 0.0;
 }
 
-/* Does the method keep its history? It may if it keeps the positions on the constraints, because
- * then the motion does not depend on the choice of rows. Multipliers jump, but variable steps do
- * not test their error. GGL restarts because the jump costs digits (three cranks at rtol 1e-10:
- * 1.5e-7 instead of 1e-9), and INDEX2 because the violation of positions would grow with each
- * choice. */
+/* Tell whether the method keeps its history when other rows are omitted. It may if the positions
+ * satisfy the constraints, because the motion then does not depend on the choice of rows.
+ * Multipliers jump, but variable-step methods do not test their error. GGL restarts because the
+ * jump costs digits (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2 because the
+ * violation of positions would grow with each choice. */
 static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;
@@ -66,7 +67,7 @@ static baum_status restart(baum_simulation *run)
   project_present(run);
   baum_status status = baum_i_run_restart(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    run->integrator->forget(run->self); /* pivots of other rows */
+    run->integrator->forget(run->self); /* pivots belong to other rows */
   }
   return status;
 }
@@ -79,20 +80,20 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
     return BAUM_OK;
   }
   double pivot = run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);
-  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot)) {
+  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot, true)) {
     return BAUM_OK;
   }
   if (!goes_on(run)) {
     baum_i_run_end_before_change(run);
   }
   tell_others(run);
-  baum_i_crossings_end(run);
+  baum_i_crossings_renew(run);
   return goes_on(run) ? BAUM_OK : restart(run);
 }
 
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state)
 {
-  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0)) {
+  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, true)) {
     tell_others(run);
     baum_i_crossings_end(run);
   }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common functions of a run: copy a state, create a workspace like the run's, warn (one entry per
- * kind), fail, finish. */
+/* Common functions of a run: copy a state, create another workspace, warn (one entry per kind),
+ * fail, finish. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/rotation.h"
 #include "base/sized.h"
 #include "base/text.h"
+#include "mechanism/general/coordinate.h"
 #include "simulate/run.h"
 
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to)
@@ -20,37 +20,26 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
   memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
 }
 
-void baum_i_run_follow_angles(baum_simulation *run, double from, const baum_i_state *state)
+double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_point *point = &run->workspace->point;
-  const baum_mechanism *m = point->mechanism;
   if (!point->angles) {
-    return;
+    return 0.0;
   }
   baum_i_point_set(point, state->t, state->q, state->v);
-  for (int k = 0; k < m->joint_count; k++) {
-    const baum_i_joint *joint = m->joints[k];
-    if (joint->type->is_angle && joint->type->width == BAUM_I_SPACE) {
-      baum_i_coordinate c;
-      joint->type->coordinate(joint, point, &c);
-      double *angle = point->angles + 2 * (ptrdiff_t)k;
-      double expected = angle[0] + 0.5 * (angle[1] + c.rate) * (state->t - from);
-      angle[0] = expected + remainder(c.value - expected, BAUM_I_REVOLUTION);
-      angle[1] = c.rate;
-    }
-  }
-  point->angles[2 * m->joint_count] = state->t;
+  return baum_i_follow_angles(point);
 }
 
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own)
 {
   baum_workspace *w = own->workspace;
   own->direction = run->problem.direction;
-  own->alpha = run->problem.alpha; /* which restoring may change */
+  own->alpha = run->problem.alpha; /* restoring a run may change them */
   own->beta = run->problem.beta;
   own->rate = run->problem.rate;
   w->point.parameters = run->workspace->point.parameters;
   w->point.inputs = run->workspace->point.inputs;
+  w->point.angles = run->workspace->point.angles;
   w->row_gains = run->workspace->row_gains;
 }
 
@@ -132,7 +121,7 @@ void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int
     return;
   }
   if (run->counters.warnings == BAUM_I_WARNINGS) {
-    return; /* only in a run restored from a forged buffer */
+    return; /* possible only in a run restored from a forged buffer */
   }
   run->announced[run->counters.warnings] = 0;
   warning = &run->warnings[run->counters.warnings++];

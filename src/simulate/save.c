@@ -3,13 +3,14 @@
  *
  * A buffer consists of words of eight bytes in the format of this machine:
  *
- *   "baumsave"       a number that identifies byte order and doubles         version
+ *   "baumsave"       a number that shows byte order and format of doubles    version
  *   size in bytes    fingerprint of the mechanism (2)
  *   the parts of saved.h
- *   sum over all before (base/digest.h)
+ *   digest of all words before (base/digest.h)
  *
- * Everything is checked before anything changes. Integrator history and pivots are not saved;
- * saving discards them just as restoring does, so both runs continue identically. */
+ * A buffer is checked completely before the run is changed. Integrator history and pivots are not
+ * saved. Saving discards them just as restoring does, so the saved and the restored run continue
+ * identically. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -19,6 +20,7 @@
 #include "base/text.h"
 #include "mechanism/definition.h"
 #include "mechanism/fingerprint.h"
+#include "mechanism/general/coordinate.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
@@ -29,7 +31,7 @@
 enum { WORD = 8 };
 
 static const char MAGIC[WORD + 1] = "baumsave";
-static const double NUMBER = 0x1.123456789abcdp+42; /* no two bytes are the same */
+static const double NUMBER = 0x1.123456789abcdp+42; /* all bytes differ */
 
 typedef struct header {
   char magic[WORD];
@@ -63,19 +65,20 @@ static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "the checksum of the events",
 };
 
-/* A sum as an exact number: as many of its bits as a double holds. */
+/* Return a digest as a double, which holds its upper 53 bits exactly. */
 static double number_of(const baum_i_digest *sum)
 {
   return (double)(sum->value >> 11);
 }
 
-/* Sum over the events without their functions and names. */
+/* Return a digest of the events without their functions and names. */
 static double sum_of_events(const baum_i_events *events)
 {
   baum_i_digest sum = {0};
   for (int k = 0; events && k < events->count; k++) {
     const baum_i_event *event = &events->list[k];
     baum_i_digest_add_integer(&sum, event->joint);
+    baum_i_digest_add_integer(&sum, event->def.coordinate);
     baum_i_digest_add_integer(&sum, event->def.direction);
     baum_i_digest_add_integer(&sum, event->def.terminal);
     baum_i_digest_add(&sum, &event->def.value, sizeof event->def.value);
@@ -106,7 +109,7 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
 
 /* ---- the list ---- */
 
-/* The parts with a name, in the order of the enum. */
+/* List the named parts, in the order of the enum. */
 static void list_named(baum_simulation *run, baum_i_saved *list)
 {
   baum_workspace *w = run->workspace;
@@ -168,7 +171,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_add_state(list, m, &run->state);
   baum_i_saved_add_array(list, w->inputs, m->input_count);
   baum_i_saved_add_array(list, w->metric, m->nv);
-  baum_i_saved_add_array(list, w->point.angles, m->spatial ? 2 * m->joint_count + 1 : 0);
+  baum_i_saved_add_array(list, w->point.angles, m->spatial ? baum_i_angles_size(m) : 0);
   baum_i_saved_add_some(list, run->warnings, sizeof *run->warnings, run->counters.warnings,
                         BAUM_I_WARNINGS);
   if (run->account) {
@@ -187,7 +190,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 
 /* ---- forget ---- */
 
-/* Discard the data that no buffer holds. */
+/* Discard the data that are not saved. */
 static void forget_unsaved(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
@@ -200,7 +203,7 @@ static void forget_unsaved(baum_simulation *run)
   }
 }
 
-/* Make the reported state the one from which the next step starts. */
+/* Make the next step start from the reported state. */
 static void restart_for_save(baum_simulation *run)
 {
   baum_i_run_end_before_change(run);
@@ -210,8 +213,8 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* These values have been evaluated before. If an evaluation fails now, the known values
-     * stay. */
+    /* These values have been evaluated before. If an evaluation fails now, the known values are
+     * kept. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
@@ -242,7 +245,7 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
                                  size_t *size)
 {
   const char *call = "baum_simulation_save";
-  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call)); /* it forgets pivots */
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call)); /* saving discards pivots */
   BAUM_I_TRY(baum_i_check_given(call, "size", size != NULL));
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
@@ -253,22 +256,21 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
   }
   if (capacity < most) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: capacity is %zu bytes, must be at least %zu; ask with a buffer that is "
-                       "NULL",
+                       "%s: capacity is %zu bytes, must be at least %zu; a call with a NULL buffer "
+                       "returns this size",
                        call, capacity, most);
   }
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   restart_for_save(simulation);
   baum_i_run_count(simulation);
-  baum_i_saved_list(simulation, &list); /* there may be more of them now */
+  baum_i_saved_list(simulation, &list); /* their sizes may have changed */
   *size = write_all(simulation, &list, buffer);
   return baum_i_run_end_call(simulation, BAUM_OK, &kept);
 }
 
 /* ---- check ---- */
 
-/* The buffer of a restore. */
+/* The buffer from which a run is restored. */
 typedef struct reader {
   const unsigned char *bytes;
   size_t size;
@@ -293,13 +295,13 @@ static baum_status check_header(reader *r)
   if (memcmp(h->magic, MAGIC, WORD) != 0) {
     return refuse("was not written by baum_simulation_save()");
   }
-  if (h->number != NUMBER) { /* also where it is no number there */
-    return refuse("was written on a machine with another byte order or other numbers, or is "
-                  "damaged");
+  if (h->number != NUMBER) { /* also if it is NaN */
+    return refuse("was written on a machine with another byte order or another format of numbers, "
+                  "or is damaged");
   }
   if (h->version != BAUM_I_SAVED_VERSION) {
-    return refuse("has version %llu of the format, this library reads version %d; save "
-                  "with the library that restores",
+    return refuse("has version %llu of the format, this library reads version %d; save and restore "
+                  "with the same library version",
                   (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
   }
   if (h->size > r->size) {
@@ -346,12 +348,12 @@ static baum_status check_text(const char *name, const char *there, const char *h
                 here);
 }
 
-/* NaN stands for a number that is not given and equals itself. */
+/* Check that the options agree. NaN means "not given" and equals NaN. */
 static baum_status check_identity(const reader *r, const baum_i_saved_identity *here)
 {
   baum_i_saved_identity there = {0};
   if (r->head.size < sizeof(header) + WORD + sizeof there + WORD) {
-    return BAUM_OK; /* which check_parts() finds */
+    return BAUM_OK; /* check_parts() finds this error */
   }
   memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
   BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));
@@ -366,7 +368,8 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   return BAUM_OK;
 }
 
-/* The buffer must omit as many rows as this run, unless all rows of this run are independent. */
+/* Check that the buffer omits as many rows as this run, or that all rows of this run are
+ * independent. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
@@ -378,10 +381,11 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
   }
   return sound && (count == here->count || here->count == 0)
            ? BAUM_OK
-           : refuse("does not fit: this run cannot omit the rows that it omits");
+           : refuse(
+               "does not fit: this run cannot omit the redundant rows that the saved run omits");
 }
 
-/* A driver without another law needs its polynomial. */
+/* Check that the parameters of a driver that has no other law define its polynomial. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
@@ -418,7 +422,7 @@ static baum_status check_counters(const reader *r)
   return sound ? BAUM_OK : refuse("is damaged: a counter is out of range");
 }
 
-/* Check what is used as an index. */
+/* Check numbers that are used as indices. */
 static baum_status check_crossings(const reader *r, int joints)
 {
   const struct {
@@ -470,7 +474,7 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
 
 /* ---- restore ---- */
 
-/* Allocate memory for data that only the buffer has: own parameters, and scheduled jumps. */
+/* Allocate memory for data that the run may not have: own parameters and scheduled jumps. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {
@@ -483,7 +487,7 @@ static baum_status make_room(baum_simulation *run, const reader *r)
   baum_status status = baum_i_run_omit_rows(run, r->parts.at[BAUM_I_SAVED_OMITTED]);
   return status == BAUM_OK || status == BAUM_ERR_MEMORY
            ? status
-           : refuse("is damaged: the rows that it omits are needed");
+           : refuse("is damaged: it omits rows that are not redundant");
 }
 
 static void put_inputs_back(baum_simulation *run, const reader *r)
@@ -502,7 +506,7 @@ static void put_inputs_back(baum_simulation *run, const reader *r)
   }
 }
 
-/* Give ids the tag of this process. */
+/* Give the id of a joint the tag of this mechanism. */
 static void own_id(const baum_simulation *run, baum_joint_id *id)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -519,7 +523,7 @@ static void own_ids(baum_simulation *run)
   }
 }
 
-/* Make entries valid, whatever bytes they were. */
+/* Make all entries valid, even if they were arbitrary bytes. */
 static void own_entries(baum_simulation *run)
 {
   for (int k = 0; run->events && k < run->events->count; k++) {
@@ -553,8 +557,7 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
   const char *call = "baum_simulation_restore";
   BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
   BAUM_I_TRY(baum_i_check_given(call, "the buffer", buffer != NULL));
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   reader r = {.bytes = buffer, .size = size};

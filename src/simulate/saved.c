@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes parts as bytes: the number of entries of each, then the entries, padded to whole words. */
+/* Writes parts as bytes: for each part the number of its entries, then the entries, padded to whole
+ * words. */
 #include "simulate/saved.h"
 
 #include <assert.h>
@@ -75,7 +76,7 @@ unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to)
   return to;
 }
 
-/* Are counters so far from overflow that no run reaches it? */
+/* Tell whether counters are so far from overflow that no run reaches it. */
 static bool counters_are_sound(const unsigned char *at, int counters)
 {
   bool sound = true;
@@ -99,7 +100,7 @@ const char *baum_i_saved_find(const baum_i_saved *list, const unsigned char *fro
       left -= WORD;
     }
     if (count < part->least || count > part->most || (size_t)count > left / part->unit) {
-      return "does not fit: it has other parts; save with the library that restores";
+      return "does not fit: it has other parts; save and restore with the same library version";
     }
     out->at[k] = from + WORD;
     out->count[k] = count;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scheduled inputs: one list of the jumps of all inputs, in order of time. A jump stores the values
- * on both of its sides, so that a run can pass it in either direction. The value of an input is
- * that after its last jump up to the present time. */
+ * before and after it, so that a run can pass it in either direction. An input has the value after
+ * its last jump up to the present time. */
 
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "simulate/run.h"
 
-/* Number of jumps up to and including t. */
+/* Return the number of jumps up to and including t. */
 static int count_until(const baum_i_schedule *schedule, double t)
 {
   int first = 0;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates and destroys a run, and gives its present state. */
+/* Creates and destroys a run, and returns its present state. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "mechanism/definition.h"
+#include "mechanism/general/coordinate.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
@@ -33,8 +34,8 @@ static baum_status make_states(baum_simulation *run)
 
 /* ---- equations ---- */
 
-/* Find the equations at the start: the fastest rate, then the gains. A start that cannot be solved
- * is refused here. */
+/* Choose the problem at the start: find the fastest rate, then the gains. Refuse a start at which
+ * accelerations cannot be found. */
 static baum_status choose_problem(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -59,7 +60,7 @@ static baum_status choose_problem(baum_simulation *run)
   if (!isfinite(rate)) {
     return baum_i_fail(
       BAUM_ERR_NOT_FINITE,
-      "t = %.9g s: gravity is too large for double precision beside the size of the mechanism",
+      "t = %.9g s: gravity is too large for double precision relative to the size of the mechanism",
       start->t);
   }
   p->rate = rate > 0.0 ? rate : 1.0;
@@ -77,10 +78,11 @@ static baum_status warn_redundancy(baum_simulation *run)
     char names[160];
     BAUM_I_TRY(baum_i_reported_acceleration(w, start->t, start->q, start->v));
     BAUM_I_TRY(baum_i_redundancy_text(w, names, sizeof names));
-    baum_i_run_warn(run, BAUM_WARNING_REDUNDANT_ROWS, start->t, BAUM_I_NO_JOINT,
-                    "%d redundant constraint %s among %s: accelerations are right, multipliers and "
-                    "reactions of these joints are not unique and have least norm",
-                    r->count, r->count == 1 ? "row" : "rows", names);
+    baum_i_run_warn(
+      run, BAUM_WARNING_REDUNDANT_ROWS, start->t, BAUM_I_NO_JOINT,
+      "%d redundant constraint %s among %s: accelerations are correct, but multipliers and "
+      "reactions of these joints are not unique; the run reports those of least norm",
+      r->count, r->count == 1 ? "row" : "rows", names);
   }
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
     baum_i_run_warn(
@@ -124,8 +126,8 @@ static void warn_settings(baum_simulation *run)
 
 /* ---- create ---- */
 
-/* Find the rows to omit at the initial configuration, and whether the block solver suits the other
- * rows. */
+/* Choose the omitted rows at the initial configuration, and use the block solver if it suits the
+ * other rows. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
@@ -144,7 +146,7 @@ static baum_status accept_start(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Each step builds on those before it. */
+/* Prepare all parts of a run. Each call uses the results of those before. */
 static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
 {
   const baum_simulation_options *o = &run->options;
@@ -155,6 +157,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
   BAUM_I_TRY(o->check_derivatives ? baum_mechanism_check_derivatives(m) : BAUM_OK);
   BAUM_I_TRY(baum_i_workspace_create(m, choice, &run->workspace));
   BAUM_I_TRY(make_states(run));
+  baum_i_hold_angles(&run->workspace->point, o->start_time);
   BAUM_I_TRY(baum_i_run_start(run, o->start_time, m->design_q, m->design_v));
   BAUM_I_TRY(choose_solver(run));
   BAUM_I_TRY(baum_i_run_check_velocities(run));
@@ -190,7 +193,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   *out = NULL;
   BAUM_I_TRY(check_create(mechanism, options));
   baum_simulation_options checked = baum_simulation_options_default();
-  /* fields that an older version lacks have their defaults */
+  /* fields that an older version lacks keep their defaults */
   memcpy(&checked, options, options->struct_size);
   checked.struct_size = sizeof checked;
   BAUM_I_TRY(baum_i_options_check(&checked));
@@ -199,8 +202,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   run->options = checked;
   run->integrator = checked.integrator;
   atomic_init(&run->cancelled, 0);
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = baum_i_message_settle(prepare(run, mechanism), &kept);
   if (status != BAUM_OK) {
     baum_simulation_destroy(run);
@@ -211,7 +213,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   return BAUM_OK;
 }
 
-/* Is the run calling a user function? The run may still be under construction. */
+/* Tell whether the run is calling a user function. The run may not be complete yet. */
 static bool is_in_use(const baum_simulation *run)
 {
   bool asks = run->workspace && run->workspace->point.asking;

@@ -7,8 +7,8 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Does the last solution belong to a singular configuration? If the block solver has given up, the
- * pivot comes from another solver and is larger. */
+/* Tell whether the last solution is that of a singular configuration. If the block solver has given
+ * up, the pivot is that of another solver and is larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -16,15 +16,16 @@ static bool is_in_pose(const baum_simulation *run, double pivot)
   return pivot < (refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE);
 }
 
-/* Smallest pivot of the last solution, relative to the usual one. */
+/* Return the smallest pivot of the last solution, relative to the usual one. */
 static double find_pivot(const baum_simulation *run)
 {
   return baum_i_smallest_pivot(run->workspace, NULL) / run->crossings->usual;
 }
 
-/* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of
- * the velocity, and a step of order k errors of about (h w)^(k+1) / 100. */
-static bool is_beyond_rounding(const baum_simulation *run, double h)
+/* Tell whether rounding errors of a projection are larger than the error of a step by h. With the
+ * rounding error e, the relative pivot p and the rate w, projection causes errors of e / p in the
+ * direction of the velocity, and a step of order k errors of about (h w)^(k+1) / 100. */
+static bool is_below_rounding(const baum_simulation *run, double h)
 {
   double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);
   double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
@@ -39,9 +40,9 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
   bool skips = false;
   if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
-    skips = is_in_pose(run, find_pivot(run)); /* where it is beyond rounding, it may not converge */
+    skips = is_in_pose(run, find_pivot(run)); /* projection may fail to converge */
   } else if (run->crossings && status == BAUM_OK) {
-    skips = is_beyond_rounding(run, t - run->state.t);
+    skips = is_below_rounding(run, t - run->state.t);
   }
   if (skips) {
     baum_i_run_copy(run, &run->spare, trial);
@@ -49,7 +50,7 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   return skips ? BAUM_OK : status;
 }
 
-/* The same at the present state, whose pivot is mostly known already. */
+/* Return the pivot of the present state, which is usually known. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -57,7 +58,8 @@ static double find_present_pivot(const baum_simulation *run)
   return last && last->t == run->state.t ? last->pivot : find_pivot(run);
 }
 
-/* Methods may read the workspace at the start of a step, so it is restored. */
+/* The workspace is evaluated again at the present state afterwards, because methods may read it at
+ * the start of a step. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;

@@ -3,39 +3,52 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "mechanism/definition.h"
+#include "mechanism/general/coordinate.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
 
-/* Largest displacement that assembly may make: of lengths relative to the characteristic length, of
- * angles in radians. A design configuration further off is likely to be assembled on an unintended
- * branch. */
+/* Largest displacement by assembly: LARGEST_MOVE for lengths, relative to the characteristic
+ * length, LARGEST_TURN for angles in radians. If the displacement is larger, the branch is probably
+ * not the intended one. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
+enum { DRIVER_STEPS = 256 };      /* largest number of steps of assembly along the drivers */
 static const double EXACT = 1e-9; /* of the scales */
 
 /* ---- assembled ---- */
 
-static bool is_angle(const baum_i_body *body, int coordinate)
+/* Return the index of the first angle among the velocities of a body. */
+static int first_angle(const baum_i_body *body)
 {
-  int first = body->type->frame == BAUM_I_FRAME_BODY           ? 2
-              : body->type->frame == BAUM_I_FRAME_SPATIAL_BODY ? 3
-                                                               : body->nv;
-  return coordinate >= body->v + first;
+  baum_i_frame_kind frame = body->type->frame;
+  return body->v + (frame == BAUM_I_FRAME_BODY           ? 2
+                    : frame == BAUM_I_FRAME_SPATIAL_BODY ? 3
+                                                         : body->nv);
 }
 
-/* User coordinates have units that the user chooses. */
+/* Return the end of the displacements from coordinate i on that form one vector. */
+static int vector_end(const baum_i_body *body, int i)
+{
+  if (body->type->frame == BAUM_I_FRAME_NONE) {
+    return i + 1;
+  }
+  return i < first_angle(body) ? first_angle(body) : body->v + body->nv;
+}
+
+/* Return the unit of a coordinate. The user chooses the units of user coordinates. */
 static const char *unit_of(const baum_i_body *body, int coordinate)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
     return "";
   }
-  return is_angle(body, coordinate) ? " rad" : " m";
+  return coordinate >= first_angle(body) ? " rad" : " m";
 }
 
-/* The joint that the design configuration violates most. */
+/* Find the name of the joint with the largest violation in the design configuration. */
 static void name_worst_joint(baum_simulation *run, double t, const double *design,
                              char label[BAUM_I_LABEL_SIZE])
 {
@@ -56,13 +69,13 @@ static baum_status fail_far(baum_simulation *run, const double *design, const ba
   name_worst_joint(run, run->trial.t, design, joint);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
-    "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
-    "design configuration is furthest off in %s; give it closer to the assembled one",
-    run->trial.t, baum_i_label(&body->element, label), fabs(moved), unit_of(body, coordinate),
+    "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the design configuration "
+    "violates %s most; give a design configuration closer to the assembled one",
+    run->trial.t, baum_i_label(&body->element, label), moved, unit_of(body, coordinate),
     limit * scale, unit_of(body, coordinate), joint);
 }
 
-/* Find the largest displacement, and refuse one that is too large. */
+/* Find the largest displacement by assembly, and fail if it is too large. */
 static baum_status check_displacement(baum_simulation *run, const double *design, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -71,27 +84,98 @@ static baum_status check_displacement(baum_simulation *run, const double *design
   *largest = 0.0;
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
-    for (int i = body->v; i < body->v + body->nv; i++) {
-      double move = fabs(moved[i]) / m->scale[i];
-      double limit = is_angle(body, i) ? LARGEST_TURN : LARGEST_MOVE;
-      *largest = fmax(*largest, move);
-      if (move > limit) {
-        return fail_far(run, design, body, i, moved[i], limit);
+    int end = 0;
+    for (int i = body->v; i < body->v + body->nv; i = end) {
+      end = vector_end(body, i);
+      double square = 0.0;
+      for (int j = i; j < end; j++) {
+        square += moved[j] * moved[j];
+      }
+      double limit = i < first_angle(body) ? LARGEST_MOVE : LARGEST_TURN;
+      *largest = fmax(*largest, sqrt(square) / m->scale[i]);
+      if (sqrt(square) > limit * m->scale[i]) {
+        return fail_far(run, design, body, i, sqrt(square), limit);
       }
     }
   }
   return BAUM_OK;
 }
 
-static baum_status start_assembled(baum_simulation *run, const double *q, const double *v)
+static baum_status assemble_near(baum_simulation *run, const double *left, double *before,
+                                 double *moved)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
-  double largest = 0.0;
-  BAUM_I_TRY(baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held));
-  BAUM_I_TRY(check_displacement(run, q, &largest));
-  run->counters.start_change = largest;
+  memcpy(before, run->trial.q, (size_t)m->nq * sizeof *before);
+  BAUM_I_TRY(baum_i_assemble_in_part(run->workspace, run->trial.t, run->trial.q, m->held, left));
+  return check_displacement(run, before, moved);
+}
+
+/* Find the violations of drivers in the design configuration, with zeros in the other rows; false:
+ * the drivers begin there. */
+static bool find_driver_violations(baum_simulation *run, double *violations)
+{
+  baum_workspace *w = run->workspace;
+  bool found = false;
+  if (baum_i_position_stage(w, run->trial.t, run->trial.q) != BAUM_OK) {
+    return false;
+  }
+  for (int k = 0; k < w->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = w->mechanism->joints[k];
+    for (int i = joint->row; joint->type->driven && i < joint->row + joint->rows; i++) {
+      violations[i] = w->phi[i];
+      found = found || violations[i] != 0.0;
+    }
+  }
+  return found;
+}
+
+/* Close the joints where the drivers are in the design configuration, and follow the drivers from
+ * there to where they begin, in equal steps. */
+static baum_status follow_drivers(baum_simulation *run, const double *violations, int steps,
+                                  double *left, double *before)
+{
+  for (int k = 0; k <= steps; k++) {
+    double moved = 0.0;
+    for (int i = 0; i < run->workspace->mechanism->nc; i++) {
+      left[i] = violations[i] * (steps - k) / steps;
+    }
+    BAUM_I_TRY(assemble_near(run, left, before, &moved));
+    run->counters.start_change = k == 0 ? moved : run->counters.start_change;
+  }
   return BAUM_OK;
+}
+
+/* A mechanism designed in one position may begin in another, to which its drivers lead. */
+static baum_status assemble_positions(baum_simulation *run, const double *design, double *work)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double *before = work + 2 * (ptrdiff_t)m->nc;
+  baum_i_kept_message kept = baum_i_message_keep();
+  baum_status status = assemble_near(run, NULL, before, &run->counters.start_change);
+  for (int steps = 4; status == BAUM_ERR_INCONSISTENT && steps <= DRIVER_STEPS; steps *= 2) {
+    memcpy(run->trial.q, design, (size_t)m->nq * sizeof *design);
+    if (!find_driver_violations(run, work)) {
+      break;
+    }
+    status = follow_drivers(run, work, steps, work + m->nc, before);
+  }
+  return baum_i_message_settle(status, &kept);
+}
+
+static baum_status start_assembled(baum_simulation *run, const double *v)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  size_t nq = (size_t)m->nq;
+  double *design = baum_i_alloc(2 * nq + 2 * (size_t)m->nc, sizeof *design);
+  if (!design) {
+    return baum_i_fail_memory();
+  }
+  memcpy(design, run->trial.q, nq * sizeof *design);
+  baum_status status = assemble_positions(run, design, design + nq);
+  baum_i_free(design);
+  BAUM_I_TRY(status);
+  memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
+  return baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held);
 }
 
 /* ---- exact ---- */
@@ -123,16 +207,16 @@ static baum_status check_exact(baum_simulation *run)
 
 /* ---- velocities against ill-conditioned rows ---- */
 
-/* Velocities may satisfy ill-conditioned rows to their last digits without being determined by
- * them: two pins a nanometre apart are satisfied within a nanometre per second at any angular
- * velocity between their bodies. Accelerations are then uncertain by as much as projection would
- * change the velocities. */
-static const double OPEN = 1e-6; /* change relative to the velocities: above it the run warns, */
-static const double CONTRADICTS = 1e-3; /* and above this it refuses the start */
+/* Velocities may satisfy ill-conditioned rows up to rounding although the rows do not determine
+ * them accurately. For example, if two bodies are connected by two pins a nanometre apart, a
+ * relative angular velocity of 1 rad/s violates the rows by only 1e-9 m/s. Accelerations then have
+ * errors of the size by which projection would change the velocities. */
+static const double OPEN = 1e-6; /* relative change of velocities above which the run warns */
+static const double CONTRADICTS = 1e-3; /* relative change above which the start is refused */
 static const double ROUNDING = 1e-13;   /* of the rows, relative to the velocities */
 
-/* Find the row with the largest velocity violation, relative to the size of the velocities; 0 if
- * nothing moves. */
+/* Find the largest velocity violation relative to the size of the velocities, and its row. Returns
+ * 0 if nothing moves. */
 static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
 {
   double nu = baum_i_row_sizes(w, w->nu, row);
@@ -149,9 +233,9 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   (void)baum_i_row_label(m, row, label);
   if (change > CONTRADICTS) {
     return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                       "t = %.9g s: the given velocities and the constraints contradict each "
-                       "other in %s, which is violated by %.3g per s and so ill-conditioned that "
-                       "it would leave the velocities uncertain by %.1e of their size",
+                       "t = %.9g s: the given velocities and the constraints contradict each other "
+                       "in %s, which is violated by %.3g per s and is so ill-conditioned that "
+                       "velocities would be uncertain by %.1e of their size",
                        run->trial.t, label, rate, change);
   }
   baum_i_run_warn(run, BAUM_WARNING_LOOSE_VELOCITIES, run->trial.t, baum_i_row_joint(m, row),
@@ -162,8 +246,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   return BAUM_OK;
 }
 
-/* Find the fraction by which projection would change the velocities; 1 if it fails. If the rows
- * have lost rank exactly, projection does not change them. */
+/* Find the relative change of the velocities by projection; 1 if projection fails. If the rank is
+ * exactly lower, projection does not change the velocities. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -197,7 +281,7 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
 
 /* ---- the whole ---- */
 
-/* Take a state as given, with free velocities set to zero. */
+/* Set the trial state to the given state, and free velocities to zero. */
 static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -209,7 +293,7 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-/* Move fixed bodies to their poses, whatever was given for them. */
+/* Move fixed bodies to the poses that the welds determine, and ignore given poses. */
 static void place_fixed_bodies(baum_simulation *run)
 {
   baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
@@ -221,8 +305,7 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
   baum_workspace *w = run->workspace;
   start_as_given(run, t, q, v);
   if (run->options.start == BAUM_START_ASSEMBLE) {
-    memcpy(run->spare.q, run->trial.q, (size_t)w->mechanism->nq * sizeof *q);
-    BAUM_I_TRY(start_assembled(run, run->spare.q, v));
+    BAUM_I_TRY(start_assembled(run, v));
   } else {
     w->point.t = t; /* for the message */
     BAUM_I_TRY(baum_i_check_sizes(w, "velocity", run->trial.v));
@@ -247,7 +330,7 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy)
 void baum_i_run_accept(baum_simulation *run, double energy)
 {
   baum_i_run_observe(run, run->trial.t, false);
-  baum_i_run_follow_angles(run, run->trial.t, &run->trial);
+  (void)baum_i_run_follow_angles(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->start_energy = energy;
@@ -272,7 +355,8 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* Check that q is so close to the manifold that the user means a point on it. */
+/* Check that q is close to the manifold, so that the difference is rounding of the given
+ * numbers. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -282,8 +366,10 @@ static baum_status check_manifold(const baum_simulation *run, const char *call, 
   baum_i_normalize(m, normal);
   for (int i = 0; i < m->nq; i++) {
     if (!(fabs(normal[i] - q[i]) <= NEAR * m->position_scale[i])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %.9g, but %.9g when q is normalized",
-                         call, i, q[i], normal[i]);
+      return baum_i_fail(
+        BAUM_ERR_ARGUMENT,
+        "%s: q[%d] is %.9g, but %.9g after normalizing q; give a q on the manifold", call, i, q[i],
+        normal[i]);
     }
   }
   return BAUM_OK;
@@ -308,8 +394,8 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* Does a state without free velocities violate the constraints no more than this run already has?
- * Then it is taken as it is, so that a run can return to an earlier state. */
+/* Tell whether a state without free velocities violates the constraints by no more than earlier
+ * states of this run. Such a state is not changed, so that a run can return to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
@@ -327,7 +413,7 @@ static bool is_of_this_run(baum_simulation *run, double t, const double *q, cons
   return phi <= run->counters.max_phi && phi_rate <= run->counters.max_phi_rate;
 }
 
-/* Make the given state the trial state and do everything that can fail. */
+/* Set the trial state to the given state and do everything that can fail. */
 static baum_status prepare(baum_simulation *run, double t, const double *q, const double *v,
                            double *energy)
 {
@@ -344,7 +430,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   }
   baum_i_run_choose_rows_anew(run, &run->trial);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    /* last, because it cannot be undone */
+    /* last, because a restart cannot be undone */
     BAUM_I_TRY(run->integrator->restart(run->self, &run->problem, &run->trial));
     run->counters.restarts++;
   }
@@ -355,18 +441,20 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
                                       const double *v)
 {
   BAUM_I_TRY(check_state(simulation, t, q, v));
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   double start_change = simulation->counters.start_change;
   double energy = 0.0;
   double before = simulation->state.t;
   baum_i_schedule_move(simulation, before, t);
+  baum_i_hold_angles(&simulation->workspace->point, t);
   baum_status status = prepare(simulation, t, q, v, &energy);
   if (status == BAUM_OK) {
     baum_i_run_accept(simulation, energy);
   } else {
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
+    baum_i_hold_angles(&simulation->workspace->point, before);
+    (void)baum_i_run_follow_angles(simulation, &simulation->state);
     baum_i_clear_fixed_rows(simulation->workspace);
   }
   return baum_i_run_end_call(simulation, status, &kept);

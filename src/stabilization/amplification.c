@@ -5,7 +5,7 @@
  *   s^2 + 2 alpha s + beta^2 = 0                                                     (17)
  *   mu = h s,  A = |alpha h|,  B = (beta h)^2:  mu^2 + 2 A mu + B = 0,  mu = -A +- sqrt(A^2 - B)
  *
- * One-step methods:     z = R(mu), R the stability polynomial (Hairer, Wanner 1996, section IV.2).
+ * One-step methods:     z = R(mu), R: stability polynomial (Hairer, Wanner 1996, section IV.2).
  *                       Explicit Euler has R = 1 + mu, which gives
  *                       z^2 + (2 A - 2) z + (B - 2 A + 1) = 0                        (19)
  * Semi-implicit Euler:  v+ = v + h a(x, v),  x+ = x + h v+  has
@@ -13,14 +13,15 @@
  *                       with w = z - 1:  w^2 + 2 (A + B/2) w + B = 0,
  *                       which is explicit Euler at (A + B/2, B): the same triangle, sheared.
  * Adams-Bashforth:      z^k = z^(k-1) + mu sum_j b_j z^(k-1-j) for each mu: k roots, one of which
- *                       starts as exp(mu) and the others near 0. The test of Schur and Cohn tells
- *                       whether all lie inside a circle; bisection gives the largest |z|, and
+ *                       is close to exp(mu) and the others to 0. The test of Schur and Cohn tells
+ *                       whether all are inside a circle. Bisection gives the largest |z|, and
  *                       Newton's method in w = z - 1 its last digits.
  *
- * Rounding: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
- * stays accurate where gains are small and |z| is close to 1. A^2 - B counts as zero where it is
- * zero up to the rounding of alpha h and beta h. Otherwise a double root on the circle, as explicit
- * Euler has at (2, 4), would split by 1e-8 and be called unstable. */
+ * Rounding: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1) is
+ * accurate even if gains are small and |z| is close to 1. A^2 - B is set to zero if it is zero up
+ * to the rounding of alpha h and beta h. Otherwise a double root on the unit circle, such as that
+ * of explicit Euler at (2, 4), would become two roots at a distance of 1e-8, one of them
+ * unstable. */
 #include "stabilization/amplification.h"
 
 #include <float.h>
@@ -29,20 +30,21 @@
 
 #include "stabilization/schur_cohn.h"
 
-/* Up to this value of | |z| - 1 | a root counts as on the circle: about a hundred times the
- * rounding of gains and step. */
+/* A root counts as on the unit circle up to this value of | |z| - 1 |, which is about a hundred
+ * times the rounding of gains and step. */
 static const double MARGIN = 1e-12;
 
-/* A^2 - B counts as zero below this multiple of A^2: a few roundings of alpha h and beta h,
- * squared. */
+/* A^2 - B counts as zero below this multiple of A^2, which allows for the rounding of alpha h and
+ * beta h. */
 static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
 
-/* The radius of a double root is known only to about 1e-16^(1/3), see schur_cohn.h. */
+/* Tolerance for roots on a circle. The radius of a double root is accurate only to about
+ * 1e-16^(1/3), see schur_cohn.h. */
 static const double ROOT_TOLERANCE = 1e-4;
 
-/* Relative margin of the test of Schur and Cohn below which its result is not used. */
+/* The result of the test of Schur and Cohn is not used if its margin is below this. */
 static const double UNDECIDED = 1e-12;
 
 enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
@@ -55,8 +57,8 @@ typedef struct number {
   double im;
 } number;
 
-/* Computes the roots of mu^2 + 2 A mu + B = 0; the smaller real one from the product, which avoids
- * cancellation. */
+/* Computes the roots of mu^2 + 2 A mu + B = 0. The smaller of two real roots is computed from their
+ * product, which avoids cancellation. */
 static void characteristic_roots(double A, double B, number mu[2])
 {
   double square = A * A - B;
@@ -79,7 +81,7 @@ static number times(number a, number b)
   return (number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-/* w = R(mu) - 1 by Horner's rule. */
+/* Computes w = R(mu) - 1 by Horner's rule. */
 static number polynomial_increment(const baum_i_method *method, number mu)
 {
   number w = {0.0, 0.0};
@@ -93,7 +95,7 @@ static number polynomial_increment(const baum_i_method *method, number mu)
 
 /* ---- Adams-Bashforth ------------------------------------------------------ */
 
-/* z^k - z^(k-1) - mu sum_j b_j z^(k-1-j) */
+/* Returns the polynomial z^k - z^(k-1) - mu sum_j b_j z^(k-1-j). */
 static baum_i_polynomial characteristic(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = {.degree = method->degree};
@@ -107,7 +109,7 @@ static baum_i_polynomial characteristic(const baum_i_method *method, number mu)
   return p;
 }
 
-/* z^(k-1) w - mu sum_j b_j z^(k-1-j) at z = 1 + w, and its derivative. */
+/* Evaluates z^(k-1) w - mu sum_j b_j z^(k-1-j) at z = 1 + w, and its derivative. */
 static number evaluate(const baum_i_method *method, number mu, number w, number *slope)
 {
   const number z = {1.0 + w.re, w.im};
@@ -143,7 +145,7 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* Returns |p| on the circle of this radius, in direction k. */
+/* Returns |p| at point k of the circle of this radius. */
 static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -153,7 +155,7 @@ static double size_on_circle(const baum_i_method *method, number mu, double radi
   return hypot(value.re, value.im);
 }
 
-/* Returns the root that Newton's method reaches from there. */
+/* Returns the root to which Newton's method converges from point k of the circle of this radius. */
 static number polish(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -165,8 +167,8 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
 }
 
 /* Finds w of the largest |z|. Newton's method starts at the points of least |p| on the circle of
- * the largest |z|. Of the roots that it reaches, the one on the circle is returned; others may be
- * near it, but inside. */
+ * the largest |z|. Of the roots that it finds, the one on the circle is returned; other roots may
+ * be close to the circle, but inside. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);
@@ -200,7 +202,7 @@ static number increment(const baum_i_method *method, number mu)
 
 /* ---- Both modes ----------------------------------------------------------- */
 
-/* |1 + w| - 1; infinite beyond double. */
+/* Returns |1 + w| - 1, or infinity on overflow. */
 static double excess(number w)
 {
   double size = hypot(1.0 + w.re, w.im);

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Extent of a region. A guaranteed bound is too wide for drawings:
+/* Extent of a region of stability. The search starts from a guaranteed bound on m, which is too
+ * wide for drawings, and goes inwards. The bound follows from
  *
  *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k, which grows once it is positive
  *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k
- *                    (for k = 1 the root is 1 + mu b_0)
- *
- * so the search for the region starts from this bound and goes inwards. */
+ *                    (for k = 1 the root is 1 + mu b_0) */
 #include "stabilization/chart.h"
 
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
-static const double FARTHEST = 1e6; /* regions that reach farther count as unbounded */
+static const double FARTHEST = 1e6; /* regions that are larger count as unbounded */
 enum { COLUMNS = 48, ROWS = 512 };
 
 void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
@@ -51,7 +50,7 @@ void baum_i_chart_edge(const baum_i_method *method, double growth, int bisection
   }
 }
 
-/* Tells whether |R| > radius everywhere from m on. */
+/* Tells whether |R| > radius for all larger m. */
 static bool polynomial_is_beyond(const baum_i_method *method, double m, double radius)
 {
   double power = 1.0;
@@ -97,7 +96,7 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      return most * (k + 3) / ROWS; /* a maximum may lie between the columns */
+      return most * (k + 3) / ROWS; /* a maximum may be between two columns */
     }
   }
   return 0.0;

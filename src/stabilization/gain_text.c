@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Messages about gains.
  *
- * Near the edge of a region: in (6) the slower mode decays by exp(-p) per step, p = Re of A -
- * sqrt(A^2 - B). A consistent method does the same up to O(p^2), so small gains never cause this
- * warning. If the radius of a method is above 0.95 and it damps less than a quarter of p, it is at
- * the edge of its region. */
+ * The text warns if a choice is near the edge of the region of stability. In (6) the slower mode
+ * decays by exp(-p) per step, where p = Re(A - sqrt(A^2 - B)). The damping of a method agrees with
+ * p up to O(p^2), so small gains never cause this warning. If the spectral radius is above 0.95 and
+ * the damping is less than a quarter of p, the point is near the edge. */
 #include "stabilization/gain_text.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "base/text.h"
 
 static const double BDF_DAMPING_RATIO = 0.618;
-static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals offer 0.9 */
+static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals propose 0.9 */
 static const double EDGE_SHARE = 0.25;   /* fraction of the damping of (6) */
 
 enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
@@ -30,8 +30,8 @@ static void print_radius(double radius, char text[RADIUS_SIZE])
   }
 }
 
-/* Returns alpha h up to which the ray through a point is stable; NaN if the point does not define a
- * ray. */
+/* Returns alpha h up to which the ray from 0 through a point is stable, or NaN if the point does
+ * not define a ray. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -107,7 +107,7 @@ static const char *const class_text[] = {
 
 static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
 
-/* Damping of the slower mode of (6), per step. */
+/* Returns the damping p per step of the slower mode of (6). */
 static double promised_damping(const baum_i_gain_draft *gains)
 {
   double A = gains->alpha_h;
@@ -121,7 +121,7 @@ static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_d
   return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
 }
 
-/* Returns true when the clause warns. */
+/* Writes the clause on stability. Returns true if it is a warning. */
 static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                              const baum_amplification *amplification, char text[CLAUSE_SIZE])
 {
@@ -145,8 +145,9 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
   return !stable || undamped || near_edge;
 }
 
-/* Returns true when the clause warns. The error test keeps explicit and Adams methods where
- * violations decay; BDF may use orders and steps where they do not (statement.c). */
+/* Writes the clause on stability. Returns true if it is a warning. With explicit and Adams methods,
+ * the error test ensures that violations decay. BDF may use orders and steps with which they grow
+ * (statement.c). */
 static bool print_variable_step(baum_i_method_family family, const baum_i_gain_draft *gains,
                                 double max_step, char text[CLAUSE_SIZE])
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains from a rule, one row of the table `rules` per rule.
+/* Computes gains by a rule. The table `rules` has one row per rule.
  *
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               as given, of the step
@@ -9,18 +9,17 @@
  *   best       scaled, with the point of least spectral radius
  *   auto       alpha = beta = c x rate, h alpha <= 0.3          keeps cost and order up to there
  *
- * A and B are stored in addition to alpha and beta, so that a rule relative to the step is judged
- * exactly at its point.
+ * A and B are stored in addition to alpha and beta, so that the stability of a rule relative to the
+ * step is checked exactly at its point.
  *
- * auto: where degrees of freedom remain, stabilization disturbs the motion, most at the rate of the
- * motion itself. c lies below that rate and removes as much of the drift as a run of some tens of
- * radians allows. It was measured over 12 decades of constant gains: docs/theory/gain_rules.md. If
- * drivers prescribe all degrees of freedom, the violation is the whole error, and c is as large as
- * it can be without a cost.
+ * auto: with degrees of freedom, stabilization disturbs the motion, and most if alpha is close to
+ * the rate of the motion. c is below 1 and was chosen by measurements over 12 decades of constant
+ * gains (docs/theory/gain_rules.md). If drivers prescribe all degrees of freedom, the violation is
+ * the whole error, and c is as large as possible without additional cost.
  *
- * Variable steps: the step of an explicit method is limited where (alpha h, beta^2 h^2) leaves its
- * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
- * cosine of the angle of s, is at least cos 51.84 = 0.618. */
+ * Variable steps: the step of an explicit method is limited such that (alpha h, beta^2 h^2) is in
+ * the region of stability. BDF of order 5 is A(51.84 degrees) stable: it damps violations for any
+ * alpha h if alpha / beta, the cosine of the angle of s, is at least cos 51.84 = 0.618. */
 #include "stabilization/gains.h"
 
 #include <math.h>
@@ -30,9 +29,9 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Factors of auto on the rate: for fixed steps of Runge-Kutta methods, of order 2 and above, and of
- * other methods; for variable steps of CVODE and IDA, and of explicit methods; without degrees of
- * freedom for all these. */
+/* Factors c of auto. FIXED: fixed steps of Runge-Kutta methods, with another factor for order 2.
+ * OTHERS: fixed steps of other methods. MULTISTEP: CVODE and IDA. EXPLICIT: explicit methods with
+ * variable steps. DRIVEN: drivers prescribe all degrees of freedom. */
 static const double AUTO_FIXED = 0.35;
 static const double AUTO_FIXED_ORDER_2 = 0.05;
 static const double AUTO_OTHERS = 0.2;
@@ -41,9 +40,9 @@ static const double AUTO_EXPLICIT = 0.1;
 static const double AUTO_DRIVEN_FIXED = 0.6;
 static const double AUTO_DRIVEN_EXPLICIT = 2.0;
 static const double AUTO_DRIVEN_MULTISTEP = 40.0;
-static const double AUTO_CAP = 0.3; /* alpha h up to which the order and the cost do not suffer */
+static const double AUTO_CAP = 0.3;      /* alpha h up to which order and cost do not change */
 static const double AUTO_AT_REST = 0.01; /* alpha h if nothing moves */
-static const double REST = 1e-9;         /* rate h below this is rounding, not motion */
+static const double REST = 1e-9;         /* rate h below this counts as rest */
 static const double DEAD = 1e-6;         /* largest spectral radius of a dead-beat point */
 static const double WITHIN_REGION = 0.9; /* fraction of the largest stable step */
 static const double OVERDAMPED = 1e9;    /* alpha / beta if beta is 0 */
@@ -54,9 +53,9 @@ typedef void apply_rule(const double value[2], const baum_i_gain_context *contex
 typedef struct rule_type {
   const char *name;
   apply_rule *apply;
-  bool needs_step;       /* needs h itself, not only to judge stability */
-  bool positive;         /* value[] > 0, else >= 0 */
-  const char *number[2]; /* names of value[], NULL where there is none */
+  bool needs_step;       /* requires h to compute the gains */
+  bool positive;         /* value[] must be > 0, otherwise >= 0 */
+  const char *number[2]; /* names of value[]; NULL: none */
   const char *unit[2];
 } rule_type;
 
@@ -153,7 +152,7 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
                context->driven ? "; no freedom is left" : "");
 }
 
-/* Half of the stability limit stays well inside the region if 0.3 does not. */
+/* Sets alpha h to the wanted value, but at most AUTO_CAP and half of the stability limit. */
 static double auto_with_step(const baum_i_gain_context *context, double wanted,
                              baum_i_gain_draft *out)
 {
@@ -239,7 +238,7 @@ static baum_status check_numbers(const rule_type *rule, const double value[2])
   return BAUM_OK;
 }
 
-/* Checks that the context has the data that the rule needs. */
+/* Checks that the context has the data that the rule requires. */
 static baum_status check_needs(const rule_type *rule, const baum_i_gain_context *context)
 {
   if (rule->needs_step && !has_step(context)) {
@@ -277,8 +276,7 @@ static bool is_without_step(const baum_i_gain_context *context)
   return context->method->kind == BAUM_I_METHOD_ONE_STEP && !has_step(context);
 }
 
-/* Returns the largest step with which an explicit method that chooses its steps stays in its
- * region. */
+/* Returns the largest step for which an explicit method with variable steps is stable. */
 static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
 {
   if (!is_without_step(context) || !(gains->alpha > 0.0)) {

@@ -10,13 +10,13 @@
 /* Data that a rule may depend on. */
 typedef struct baum_i_gain_context {
   const baum_i_method *method;
-  baum_i_method_family family; /* of a method that chooses its steps */
+  baum_i_method_family family; /* of a method with variable steps */
   const char *integrator;      /* name, for messages */
   double step;                 /* [s] > 0, or NaN for variable step */
   double rate;                 /* [1/s] >= 0 angular rate of the motion */
-  const char *rate_is;         /* description of the rate, for messages */
-  bool driven;                 /* drivers leave no degree of freedom */
-  baum_gain_rule rule_default; /* rule that BAUM_GAINS_DEFAULT means for this integrator */
+  const char *rate_is;         /* what the rate is, for messages */
+  bool driven;                 /* drivers prescribe all degrees of freedom */
+  baum_gain_rule rule_default; /* meaning of BAUM_GAINS_DEFAULT for this integrator */
   bool allow_unstable;
 } baum_i_gain_context;
 
@@ -26,17 +26,17 @@ typedef struct baum_i_gain_choice {
   double beta;                      /* [1/s] */
   baum_gain_rule rule;              /* the rule that was applied */
   baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
-  /* [s] largest stable step of an explicit method that chooses its step; otherwise infinite */
+  /* [s] largest stable step of an explicit method with variable steps; otherwise infinite */
   double max_step;
-  char why[400]; /* one message: rule, numbers, stability */
+  char why[400]; /* message with rule, numbers and stability */
   bool doubtful; /* `why` is a warning: violations may stay or grow */
 } baum_i_gain_choice;
 
-/* Applies a rule and checks the stability of its gains. BAUM_OK, BAUM_ERR_ARGUMENT (numbers of the
- * rule, or a rule that needs a fixed step), BAUM_ERR_UNSUPPORTED (the method has no such point),
- * BAUM_ERR_UNSTABLE (the message has (alpha h, beta^2 h^2), the spectral radius, the stable region
- * and the nearest good pair, as alpha, beta [1/s] and scaled). Marginal pairs are BAUM_OK; the
- * caller warns. */
+/* Applies a rule and checks the stability of its gains. BAUM_OK, BAUM_ERR_ARGUMENT (invalid
+ * numbers, or a rule that requires a fixed step), BAUM_ERR_UNSUPPORTED (the method has no dead-beat
+ * point), BAUM_ERR_UNSTABLE (the message contains (alpha h, beta^2 h^2), the spectral radius, the
+ * stable region and the nearest good pair, in 1/s and scaled). Marginal pairs are accepted with
+ * BAUM_OK, and the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nearest good point. The lines of a lattice cross the edge of the good region (spectral radius
- * <= 0.9). Around the crossing that is nearest in the plane, finer lattices follow. The lattice is
- * in the chart, where regions have no tips that it could miss. The region may have any shape and
- * any number of parts. */
+/* The nearest good point. The good region has spectral radius <= 0.9. The search finds the points
+ * at which the lines of a lattice cross the edge of the region. It repeats with finer lattices
+ * around the crossing that is nearest in the plane (A, B). The lattice is in the chart (chart.h),
+ * where regions have no sharp tips between lines. The region may have any shape and any number of
+ * parts. */
 #include <math.h>
 #include <stdbool.h>
 
 #include "stabilization/chart.h"
 
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
-static const double FARTHEST = 1e3;     /* extent of the lattice for an unbounded region */
-static const double AROUND = 2.0;       /* cells that the next lattice extends over */
+static const double FARTHEST = 1e3;     /* extent of the lattice if the region is unbounded */
+static const double AROUND = 2.0;       /* extent of the next lattice, in cells */
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
 typedef struct lattice {
@@ -20,11 +21,12 @@ typedef struct lattice {
   double step[2];
   int cells;
   double least;    /* distance of the nearest crossing so far */
-  double place[2]; /* (s, m) of it */
+  double place[2]; /* (s, m) of this crossing */
   bool found;
 } lattice;
 
-/* Considers the crossing between a node and the one before it in direction d, one of which is good.
+/* Updates the nearest crossing with that between a node and the node before it in direction d,
+ * exactly one of which is good.
  */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
@@ -52,10 +54,11 @@ static bool is_good_node(const lattice *l, int i, int j, double at[2])
   return baum_i_chart_within(l->method, at, GOOD_GROWTH);
 }
 
-/* One node beyond the lattice on every side makes the border of the chart an edge, too. */
+/* Examines all lines of the lattice. One more node on every side makes the border of the chart an
+ * edge of the region. */
 static void cross_all(lattice *l)
 {
-  bool column[CELLS + 3] = {false}; /* the one before */
+  bool column[CELLS + 3] = {false}; /* nodes of the last column */
   for (int i = -1; i <= l->cells + 1; i++) {
     bool below = false;
     for (int j = -1; j <= l->cells + 1; j++) {

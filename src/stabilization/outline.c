@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The curves on which the spectral radius is a given number, by marching through the squares of a
- * lattice in the chart (Lorensen, Cline 1987, in two dimensions). A curve has the region on its
- * left; in the plane, whose mirror image the chart is, on its right. The border of the chart, A = 0
- * and B = 0, is an edge of every region.
+/* Finds the curves of constant spectral radius by marching through the squares of a lattice in the
+ * chart (Lorensen, Cline 1987, in two dimensions). In the chart the region is to the left of a
+ * curve. The plane (A, B) is a mirror image of the chart, so there the region is to the right. The
+ * border of the chart, A = 0 and B = 0, is an edge of every region.
  *
- *   3 --2-- 2     corner k and k + 1 end edge k
- *   |       |     a curve comes in where corner k is inside and k + 1 is not,
- *   3       1     and leaves where k is not and k + 1 is
+ *   3 --2-- 2     edge k is between corners k and k + 1
+ *   |       |     a curve enters through k if corner k is inside and k + 1 is not,
+ *   3       1     and leaves through k if k is not and k + 1 is
  *   |       |
  *   0 --0-- 1     s to the right, m upwards
  */
@@ -15,9 +15,9 @@
 
 #include "stabilization/chart.h"
 
-enum { BISECTIONS = 42 };                /* from 1/160 down to some roundings */
+enum { BISECTIONS = 42 };                /* from 1/160 down to a few rounding errors */
 enum { CELLS = 160, NODES = CELLS + 3 }; /* one node beyond the chart on every side */
-enum { INSIDE = 1, ENTERED = 2 }; /* ENTERED: a curve has come in through edge 0 of the square */
+enum { INSIDE = 1, ENTERED = 2 }; /* ENTERED: a curve has entered through edge 0 of the square */
 
 typedef struct march {
   const baum_i_method *method;
@@ -79,7 +79,8 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 
 /* ---- Curves --------------------------------------------------------------- */
 
-/* Two opposite corners inside are connected when the middle is inside. */
+/* Returns the edge through which a curve leaves. If only two opposite corners are inside, they are
+ * connected if the middle is inside. */
 static int leave(const march *m, const int square[2], int edge)
 {
   bool opposite = is_inside(m, square, edge + 2);
@@ -113,7 +114,7 @@ static void follow_curve(march *m, const int start[2])
     edge = (exit + 2) & 3;
     double point[2];
     cross(m, square, edge, point);
-    if (point[0] != last[0] || point[1] != last[1]) { /* all of m = 0 is one point */
+    if (point[0] != last[0] || point[1] != last[1]) { /* at the border m = 0 all are A = B = 0 */
       put(m->out, point);
       memcpy(last, point, sizeof last);
     }

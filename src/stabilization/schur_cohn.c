@@ -4,10 +4,11 @@
  *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)),  of coefficients conj(c_(n-k))
  *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
  *
- * On the circle |p| = |p*|. So if |c_0| < |c_n|, the term with p is the larger one there, and Tp
- * has one root less inside than p (Rouche): all n roots of p are inside exactly when |c_0| < |c_n|
- * and all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, so |c_0| >= |c_n| shows
- * that some root is not inside. Coefficients c_k r^k scale a circle of radius r to 1.
+ * On the unit circle |p| = |p*|. If |c_0| < |c_n|, the term with p is therefore larger there than
+ * the term with p*, and Tp has one root less inside than p (Rouche). Hence all n roots of p are
+ * inside if and only if |c_0| < |c_n| and all n - 1 roots of Tp are inside. |c_0 / c_n| is the
+ * product of the |roots|, so if |c_0| >= |c_n| some root is not inside. For a circle of radius r,
+ * c_k is replaced by c_k r^k.
  *
  * A bisection of r then gives the largest |z|.
  */
@@ -23,7 +24,8 @@ static double square(const double c[2])
   return c[0] * c[0] + c[1] * c[1];
 }
 
-/* Scales to a largest coefficient of 1; only ratios matter. */
+/* Scales the circle to radius 1 and the largest coefficient to 1. Only ratios of coefficients
+ * matter. */
 static void scale(baum_i_polynomial *p, double radius)
 {
   double power = 1.0;
@@ -81,7 +83,7 @@ double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius)
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p)
 {
   double inside = 0.0;
-  double outside = 1.0; /* no root is larger than 1 + the sum of |c_k| */
+  double outside = 1.0; /* upper bound of all |z|: 1 + the sum of |c_k| */
   for (int k = 0; k < p->degree; k++) {
     outside += hypot(p->c[k][0], p->c[k][1]);
   }

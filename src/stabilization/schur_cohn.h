@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the roots of a polynomial with complex coefficients lie, without finding the roots. */
+/* Tests and bounds for the roots of a polynomial with complex coefficients, without computing the
+ * roots. */
 #ifndef BAUM_I_STABILIZATION_SCHUR_COHN_H
 #define BAUM_I_STABILIZATION_SCHUR_COHN_H
 
 enum { BAUM_I_SCHUR_COHN_DEGREE = 12 };
 
-/* c[0] + c[1] z + ... + c[degree] z^degree; c[k] is a real and an imaginary part. */
+/* The polynomial c[0] + c[1] z + ... + c[degree] z^degree. c[k] consists of real and imaginary
+ * part. */
 typedef struct baum_i_polynomial {
   int degree; /* 0 .. BAUM_I_SCHUR_COHN_DEGREE */
   double c[BAUM_I_SCHUR_COHN_DEGREE + 1][2];
 } baum_i_polynomial;
 
-/* Positive: all roots have |z| < radius. Otherwise some root has |z| >= radius. The smaller its
- * size, the nearer a root is to the circle; below about 1e-12 rounding decides. radius > 0. */
+/* Returns a positive margin if all roots have |z| < radius, otherwise a margin <= 0. A small margin
+ * means that a root is close to the circle; below about 1e-12 rounding determines the sign. radius
+ * > 0. */
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
-/* Returns the largest |z|, within 1e-9 of itself where no other root is as large, and within about
- * 1e-16^(1/(m+1)) for a root of multiplicity m, because the test divides by the distance to the
- * last root. Infinite beyond double. c[degree] = 1. */
+/* Returns the largest |z|, or infinity on overflow. The relative error is below 1e-9 if no other
+ * root is as large, and about 1e-16^(1/(m+1)) for a root of multiplicity m, because the test
+ * divides by the distance to the last root. Requires c[degree] = 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Along a ray alpha = zeta beta of the plane (A, B) = (|alpha h|, (beta h)^2): A = zeta b, B = b^2.
+/* Stability for a fixed damping ratio zeta = alpha / beta, as a function of b = |beta h|. In the
+ * plane (A, B) = (|alpha h|, (beta h)^2) these are the points A = zeta b, B = b^2, called a ray.
  *
- * The roots mu grow in proportion to b, so changes between stable and unstable are searched on a
- * geometric scale and then bisected. The smallest limits belong to weakly damped rays with methods
- * that are unstable on the imaginary axis: b = 2 zeta for explicit Euler. Nothing explicit is
- * stable beyond |mu| of about twice the degree. */
+ * mu is proportional to b. Changes between stable and unstable are searched on a geometric scale
+ * and then located by bisection. The smallest limits occur on weakly damped rays with methods that
+ * are unstable on the imaginary axis: b = 2 zeta for explicit Euler. No explicit method is stable
+ * for |mu| above about twice the degree. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-static const double SCAN_RATIO = 1.01; /* of neighbouring b */
-static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
-static const double OVERDAMPED = 1e9;  /* zeta beyond which the limits stay the same */
-static const double LEAST = 1e-18; /* b: a ray that is stable only below this counts as unstable */
-static const double EQUAL = 1e-13; /* of radii: rounding */
+static const double SCAN_RATIO = 1.01; /* ratio of successive b */
+static const double SCAN_END = 1e3;    /* |mu| above which no explicit method is stable */
+static const double OVERDAMPED = 1e9;  /* zeta above which limits do not change */
+static const double LEAST = 1e-18;     /* a ray that is stable only for smaller b is unstable */
+static const double EQUAL = 1e-13;     /* radii that differ by less are equal */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
 static bool is_stable(const baum_i_method *method, double damping_ratio, double b)
@@ -22,7 +23,8 @@ static bool is_stable(const baum_i_method *method, double damping_ratio, double 
   return baum_i_amplification_within(method, damping_ratio * b, b * b, 0.0);
 }
 
-/* Returns the last b between the two that has the stability of `from`. */
+/* Returns the b between from and to at which the stability changes. It has the stability of
+ * `from`. */
 static double bisect(const baum_i_method *method, double damping_ratio, double from, double to)
 {
   bool stable = !is_stable(method, damping_ratio, to);
@@ -39,19 +41,20 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* of b: what is stable here is stable from 0 on */
+  double begin; /* b at which the search begins; if stable, all smaller b are stable */
   double end;
 } ray;
 
 static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
-  double steepest = fmax(1.0, 2.0 * damping_ratio); /* |mu| / b, at most */
+  double steepest = fmax(1.0, 2.0 * damping_ratio); /* largest |mu| / b */
   double begin = fmax(1e-3 * fmin(damping_ratio, 1.0 / steepest), LEAST);
   return (ray){damping_ratio, begin, SCAN_END / steepest};
 }
 
-/* Returns where the stability given at b changes; infinite where it does not. */
+/* Returns the next b at which the stability changes, or infinity. `stable` is the stability at
+ * b. */
 static double next_change(const baum_i_method *method, const ray *r, double b, bool stable)
 {
   while (b < r->end) {
@@ -102,7 +105,7 @@ typedef struct lowest {
   double b;
 } lowest;
 
-/* The cheap test rejects most points before their radius is computed. */
+/* Updates the best point. A cheap test rejects most points before their radius is computed. */
 static void try_point(const baum_i_method *method, double damping_ratio, double b, lowest *best)
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {

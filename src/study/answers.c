@@ -6,8 +6,9 @@
  *
  *   error_validated x margin <= E
  *
- * of an entry and of the next finer one, so that a lucky entry does not count. The margin is what
- * MORE_WORK buys with the method. Where no entry fulfils this, error <= E of both suffices. */
+ * for an entry and for the next finer entry, so that an accidentally small error is not sufficient.
+ * The margin is the factor by which MORE_WORK reduces the error of the method. If no entry
+ * satisfies this, error <= E is required instead. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,9 +20,9 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MORE_WORK = 1.15;        /* factor on work that a margin may cost */
-static const double MARGINS[2] = {2.0, 4.0}; /* least and largest */
-static const double SPEED_MARGIN = 1.25;     /* of times, which vary from run to run */
+static const double MORE_WORK = 1.15;        /* factor on work from which margins are computed */
+static const double MARGINS[2] = {2.0, 4.0}; /* least and largest margin */
+static const double SPEED_MARGIN = 1.25;     /* margin on times, which vary from run to run */
 
 /* ---- front ---- */
 
@@ -30,8 +31,8 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
   return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Tells whether another entry is at least as good in both and better in one. Of equal entries the
- * first counts as better. */
+/* Tells whether another entry is at least as good in error and cost, and better in one of them. Of
+ * equal entries the first counts as better. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -61,14 +62,14 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* Entries from cheap to expensive, as many as fit. */
+/* Entries from cheap to expensive, at most `capacity`. */
 typedef struct list {
   int32_t *entries;
   int capacity;
-  int count; /* may be more than the capacity */
+  int count; /* may be larger than the capacity */
 } list;
 
-/* Moves more expensive entries up, beyond the capacity out of the list. */
+/* Inserts an entry. More expensive entries move up; those beyond the capacity are not kept. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
   double c = cost_of(study->entries[k], cost);
@@ -85,7 +86,8 @@ static void insert(const baum_study *study, list *l, int k, baum_study_cost cost
 }
 
 baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
-                             /* NOLINTNEXTLINE(readability-non-const-parameter): by the list. */
+                             /* NOLINTNEXTLINE(readability-non-const-parameter): the list writes to
+                              * it. */
                              int32_t *entries, int32_t *count)
 {
   const char *call = "baum_study_front";
@@ -106,12 +108,12 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- interpolated settings ---- */
 
-/* A setting between two entries of a method. Both may be the same entry. */
+/* A setting between two entries of a method, which may be equal. */
 typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
-  double share;  /* from coarse to fine, in logarithms */
-  double margin; /* for other starts and spans; 1: none */
+  double share;  /* position from coarse to fine, in logarithms */
+  double margin; /* margin for other starts and spans; 1: none */
 } setting;
 
 static double between(double a, double b, double share)
@@ -129,7 +131,8 @@ static double setting_error(const setting *p)
   return between(p->coarse->out.error, p->fine->out.error, p->share);
 }
 
-/* Returns the share at which a quantity that goes from `coarse` to `fine` is `wanted`. */
+/* Returns the share at which a quantity with the values `coarse` and `fine` at the entries has the
+ * value `wanted`. */
 static double share_at(double coarse, double fine, double wanted)
 {
   return coarse == fine ? 1.0 : log(coarse / wanted) / log(coarse / fine);
@@ -137,8 +140,8 @@ static double share_at(double coarse, double fine, double wanted)
 
 /* ---- cost at an error ---- */
 
-/* Finds the setting with this error by linear interpolation of logarithms, up to one entry distance
- * beyond both ends. */
+/* Finds the setting with this error by linear interpolation of logarithms, and beyond both ends by
+ * extrapolation over at most the distance of two entries. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {
@@ -182,8 +185,8 @@ static baum_status find_cost(const cost_query *at, int32_t method, double *out)
 {
   const baum_study *study = at->study;
   if (method < 0 || method >= study->method_count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d, of %d", at->call, (int)method,
-                       study->method_count);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d; the study has %d", at->call,
+                       (int)method, study->method_count);
   }
   const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
   int count = baum_i_study_usable(study, method, entries);
@@ -226,9 +229,9 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* Returns the largest expected error: for twice the span and perturbed starts, or as measured. The
- * growth of an entry without validation is assumed to be that of `beside`, an entry of the same
- * method. */
+/* Returns the expected error: with margin the largest over twice the span and for perturbed starts,
+ * otherwise the measured error. For an entry without validation the ratio of both is taken from
+ * `beside`, an entry of the same method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -241,8 +244,8 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns the factor by which a little more work reduces the error at an entry: large at high
- * order, small at low order. */
+/* Returns the factor by which MORE_WORK reduces the error at an entry. It is large for methods of
+ * high order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -253,8 +256,8 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* Finds the coarsest setting of a method that keeps the error. The next finer entry must keep it,
- * too.
+/* Finds the coarsest setting of a method whose error, and that of the next finer entry, is not
+ * larger than the given one.
  */
 static bool find_setting(const baum_i_entry *const *entries, int count, double error,
                          bool with_margin, setting *out)
@@ -282,7 +285,7 @@ typedef struct question {
   double error;
   baum_study_cost cost;
   bool with_margin;
-  const baum_integrator *without; /* this one is excluded; NULL: none */
+  const baum_integrator *without; /* excluded integrator; NULL: none */
 } question;
 
 /* Finds the cheapest setting over all methods. */
@@ -304,7 +307,7 @@ static bool find_best(const baum_study *study, const question *q, setting *best)
   return best->fine != NULL;
 }
 
-/* Rounds to two digits, and steps to divide the span. */
+/* Rounds a setting to two digits. A step is rounded such that it divides the span. */
 static double rounded(const baum_study *study, double value, bool fixed)
 {
   if (fixed) {
@@ -333,7 +336,7 @@ static void name_options(const baum_simulation_options *o, char *text, size_t si
   baum_i_name_setting(o, text, size);
 }
 
-/* Appends the best other integrator for comparison. */
+/* Appends the best setting of another integrator for comparison. */
 static void add_rival(const baum_study *study, const setting *best, question q, char *why,
                       size_t size)
 {
@@ -383,7 +386,8 @@ static void add_margin(const baum_study *study, const setting *p, const question
   add_rival(study, p, *q, why, size);
 }
 
-/* Warns of a formulation that may well be the cheapest within the span of the entries. */
+/* Warns of a formulation without stabilization, which may be the cheapest within the span but
+ * drifts. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
@@ -426,14 +430,13 @@ static baum_status refuse_error(const baum_study *study, double error, const cha
     }
   }
   if (!best) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done has followed the motion",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done followed the true motion",
                        call);
   }
-  return baum_i_fail(
-    BAUM_ERR_ARGUMENT,
-    "%s: no entry keeps an error of %.2g; the least is %.2g, of %s, and the reference is "
-    "known to %.2g",
-    call, error, best->out.error, best->name, study->reference.out.uncertainty);
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: no entry reaches an error of %.2g; the smallest is %.2g, of %s, and the "
+                     "uncertainty of the reference is %.2g",
+                     call, error, best->out.error, best->name, study->reference.out.uncertainty);
 }
 
 baum_status baum_study_recommend(const baum_study *study, double error, baum_study_cost cost,
@@ -463,7 +466,7 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* Tells whether a setting is more accurate than another, or as accurate and faster. */
+/* Tells whether a setting is more accurate than another one, or as accurate and faster. */
 static bool beats(const setting *p, const setting *other)
 {
   if (!other->fine) {
@@ -493,7 +496,8 @@ static void find_affordable(const baum_i_entry *const *entries, int count, doubl
   }
 }
 
-/* Does so for all methods. Returns the smallest time of any entry. */
+/* Finds the most accurate setting of all methods within the time budget. Returns the smallest time
+ * of all entries. */
 static double find_most_exact(const baum_study *study, double seconds, setting *best)
 {
   double quickest = (double)INFINITY;
@@ -522,15 +526,13 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   setting p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
   if (!isfinite(quickest)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done has followed the motion",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done followed the true motion",
                        call);
   }
   if (!p.fine) {
-    return baum_i_fail(
-      BAUM_ERR_ARGUMENT,
-      "%s: no entry is done in %.3g s, with a fifth of it to spare; the quickest takes "
-      "%.3g s",
-      call, seconds, quickest);
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: no entry takes at most 0.8 of %.3g s; the fastest takes %.3g s", call,
+                       seconds, quickest);
   }
   baum_simulation_options o = options_of(study, &p);
   if (why && size > 0) {

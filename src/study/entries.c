@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adding settings, and reading their entries. */
+/* Adds settings and reads their entries. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -8,7 +8,7 @@
 #include "study/fields.h"
 #include "study/study.h"
 
-/* Marks results as not known. */
+/* Sets all results to "not known". */
 static void clear_results(baum_study_entry *entry)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {
@@ -18,7 +18,7 @@ static void clear_results(baum_study_entry *entry)
   }
 }
 
-/* Returns the formulation, resolving DEFAULT. */
+/* Returns the formulation, or that which DEFAULT means. */
 static baum_formulation resolve_formulation(const baum_simulation_options *o)
 {
   return o->formulation == BAUM_FORMULATION_DEFAULT ? o->integrator->formulations[0]
@@ -55,15 +55,13 @@ static baum_status copy_row_gains(baum_i_entry *entry)
   return BAUM_OK;
 }
 
-/* Must come last, because from here on the study owns the entry. */
+/* Appends an entry. Nothing may fail afterwards, because the study then owns the entry. */
 static baum_status append_entry(baum_study *study, baum_i_entry *entry)
 {
   size_t wanted = (size_t)study->entry_count + 1;
   /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers. */
   baum_i_entry **entries = baum_i_grow_by_one(study->entries, wanted, sizeof *study->entries);
-  if (!entries) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(entries));
   study->entries = entries;
   entry->out.method = baum_i_study_find_method(study, &entry->options, study->entry_count);
   if (entry->out.method < 0) {
@@ -91,9 +89,7 @@ baum_status baum_study_add(baum_study *study, const baum_simulation_options *opt
   baum_simulation_options taken;
   BAUM_I_TRY(copy_options(study, options, &taken));
   baum_i_entry *entry = baum_i_alloc(1, sizeof *entry);
-  if (!entry) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(entry));
   entry->options = taken;
   entry->options.start_time = study->t0;
   baum_status status = copy_row_gains(entry);

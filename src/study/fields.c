@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields of entries, methods and the reference, under names that never change. */
+/* Fields of entries, methods and the reference. Their names never change. */
 #include "study/fields.h"
 
 #include <math.h>

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The standard grid.
  *
- * Steps fall from h0 by a factor, as (t1 - t0) / N with whole N. Tolerances fall from 1e-2 to the
- * finest by equal ratios, rounded to one digit:
+ * Steps decrease from h0 by a factor and are rounded to (t1 - t0) / N with whole N. Tolerances
+ * decrease from 1e-2 to the finest by equal ratios and are rounded to one digit:
  *
  *   order      1      2      3 to 5   8
- *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, baum_i_study_rate()
+ *   h0 rate    0.1    0.3    0.5      0.8       rate: baum_i_study_rate()
  *   factor     3      3      2        1.5
  *
- * The quick grid has the first five of these steps, and five tolerances over the same range. */
+ * The quick grid has the first five of these steps, and five tolerances in the same range. */
 #include <math.h>
 
 #include "base/sized.h"
@@ -113,8 +113,8 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
-/* Tolerances below the error of the differences that replace missing derivatives of constraints
- * cannot be met. */
+/* Returns the finest tolerance. It is not below the error of the differences that replace missing
+ * derivatives of constraints. */
 static double finest_of(const grid *g)
 {
   double finest = g->wanted->finest;
@@ -146,7 +146,7 @@ static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fix
   return BAUM_OK;
 }
 
-/* Adds both kinds of settings that the integrator offers. */
+/* Adds settings by step and by rtol, as far as the integrator offers them. */
 static baum_status add_settings(const grid *g, const baum_simulation_options *o)
 {
   if (o->integrator->without_freedom) {
@@ -158,7 +158,8 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
   return baum_integrator_has_fixed_step(o->integrator) ? add_ladder(g, *o, true) : BAUM_OK;
 }
 
-/* Adds settings by the integrator's rule, by auto, and with constant gains. */
+/* Adds settings with the gains of the integrator's default rule, of the rule auto, and with
+ * constant gains. */
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
   BAUM_I_TRY(add_settings(g, &o));

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries by method, and what one more digit costs.
+/* Groups entries by method, and finds the cost of one more digit.
  *
- * Errors of a method fall as a power of its step or rtol, error = C h^p, until they reach the
- * uncertainty of the reference or rounding. Cost rises as a power of it. Lines are fitted to the
- * logarithms of the entries before that: from the coarsest entry to the most accurate one, all
- * whose error is at least FLOOR times the smallest, and the most accurate one. */
+ * The error of a method is about C h^p, where h is the step or rtol, until it reaches the
+ * uncertainty of the reference or rounding. The cost is also a power of h. Lines are fitted to
+ * logarithms of the entries from the coarsest to the most accurate one. Entries whose error is less
+ * than FLOOR times the smallest error are excluded, except the most accurate entry. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,7 +69,7 @@ int baum_i_study_usable(const baum_study *study, int method,
   return count;
 }
 
-/* Returns the slope of a least-squares line; NaN for less than two points or without width. */
+/* Returns the slope of a least-squares line, or NaN for less than two different points. */
 static double slope_of(const double *x, const double *y, int count)
 {
   double mx = 0.0;

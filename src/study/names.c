@@ -70,7 +70,7 @@ double baum_i_setting(const baum_simulation_options *options)
   return isnan(options->rtol) ? 0.0 : options->rtol;
 }
 
-/* All NaNs count as one. */
+/* Adds a number to a digest. All NaNs are equal. */
 static void add_number(baum_i_digest *digest, double value)
 {
   double number = isnan(value) ? (double)NAN : value;

@@ -50,7 +50,7 @@ static int check_deadline(const baum_simulation *simulation, double t, void *use
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* The options of the entry, completed by those of the study. */
+/* Returns the options of the entry, completed by those of the study. */
 static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
@@ -72,9 +72,7 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   baum_i_layout l = baum_i_study_layout(study);
   baum_channel *channels =
     baum_i_alloc((size_t)study->channel_count + BAUM_I_CHANNELS, sizeof *channels);
-  if (!channels) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(channels));
   int count = baum_i_study_channels(study, channels);
   for (int k = 0; k < samples->n * l.width; k++) {
     values[k] = (double)NAN;
@@ -87,7 +85,8 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   return rest == BAUM_OK ? status : rest;
 }
 
-/* Kinematics solves for configurations at the requested times, so these determine its cost. */
+/* Advances to the end of the span. Kinematics computes configurations at requested times, which
+ * determine its cost, so it advances through the samples. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
   const baum_i_samples *samples = task->samples;
@@ -102,7 +101,7 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-/* Copies the first warning that doubts the motion, or else the first one. */
+/* Copies the first warning that the motion may be wrong, or otherwise the first warning. */
 static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
                          size_t size)
 {

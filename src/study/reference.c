@@ -1,28 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference that runs are compared with: given samples, a closed-form solution, or one that the
- * study computes.
+/* The reference with which runs are compared: given samples, a closed-form solution, or a motion
+ * that the study computes.
  *
- * The study's own reference comes from two formulations that share only the equations of motion,
- * one of them with projection. Each runs at a tight tolerance and at half of it. The first
- * formulation's run at the tighter tolerance is the reference; the largest difference of the other
- * three runs from it is the uncertainty. Where runs fail or differ by more than CLOSE, looser
- * tolerances and implicit methods are tried too, and the attempt that agrees best is used. The last
- * attempt, RK4 with STEPS and twice as many steps, succeeds past singular configurations, where
- * constraint violations grow strongly. */
+ * The study computes its reference with two formulations that have only the equations of motion in
+ * common; one of them uses projection. Each runs at a tight tolerance and at half of this
+ * tolerance. The run of the first formulation at the tighter tolerance is the reference. Its
+ * largest difference from the other three runs is the uncertainty. If runs fail or differ by more
+ * than CLOSE, looser tolerances and implicit methods are also tried, and the attempt with the
+ * smallest difference is used. The last attempt is RK4 with STEPS and twice as many steps, which
+ * succeeds after singular configurations, where constraint violations grow strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/rotation.h"
 #include "base/text.h"
 #include "integrate/integrator.h"
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double CLOSE = 1e-9;     /* largest difference at which no other attempt is made */
-static const double TRUSTED = 1e-3;   /* the largest difference of a trusted reference */
+static const double CLOSE = 1e-9;     /* no other attempt is made if the difference is below this */
+static const double TRUSTED = 1e-3;   /* largest difference of a trusted reference */
 static const double ROUNDING = 1e-15; /* smallest uncertainty */
-static const double PATIENCE = 5.0;   /* limit for a run of the reference, in entry limits */
+static const double PATIENCE = 5.0;   /* time limit of a run of the reference, in entry limits */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
@@ -44,8 +45,8 @@ static const attempt ATTEMPTS[] = {
   {{baum_rk8, baum_rk4}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_PROJECTION}, 1e-10},
 };
 
-/* If drivers prescribe all degrees of freedom: configurations solved to rounding, and integrated
- * ones. */
+/* The attempt if drivers prescribe all degrees of freedom: kinematics, whose configurations are
+ * accurate to rounding, and an integration. */
 static const attempt WITHOUT_FREEDOM[] = {
   {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
 };
@@ -54,7 +55,7 @@ static const attempt WITHOUT_FREEDOM[] = {
 
 /* The result of an attempt. */
 typedef struct found {
-  double *values; /* of the reference, or NULL */
+  double *values; /* samples of the reference, or NULL */
   baum_i_differences most;
   bool singular;                   /* a run was near a singular configuration */
   bool failed;                     /* a run did not reach the end */
@@ -102,7 +103,7 @@ static void describe_failure(const baum_simulation_options *o, const baum_i_outc
                  outcome->message);
 }
 
-/* Runs once into values; the first run becomes the reference of the others. */
+/* Makes one run and writes its samples to values. The first run is the reference of the others. */
 static baum_status compare_run(baum_study *study, const baum_simulation_options *o,
                                baum_i_deadline *deadline, double *values, found *out)
 {
@@ -138,7 +139,8 @@ static void describe(const baum_study *study, const attempt *a, found *out)
                names[1], a->rtol);
 }
 
-/* Makes four runs, the reference first. Leaves study->reference.values as it was. */
+/* Makes the four runs of an attempt, the reference first. Leaves study->reference.samples.values
+ * NULL. */
 static baum_status run_attempt(baum_study *study, const attempt *a, baum_i_deadline *deadline,
                                found *out)
 {
@@ -233,9 +235,7 @@ static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
     done = best.values && !best.singular && best.most.error[0] <= CLOSE;
   }
   study->reference.samples.values = best.values;
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(status);
   set_outcome(study, &best);
   return best.values ? baum_i_study_weigh(study) : BAUM_OK;
 }
@@ -258,9 +258,23 @@ static bool is_of_position(baum_quantity quantity)
   return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
 }
 
+/* A run at which samples are evaluated one after the other. */
+typedef struct probe {
+  baum_simulation *run;
+  bool lost; /* some angle may have made any number of revolutions */
+} probe;
+
+/* Counts revolutions up to a sample. They are lost where an angle is farther than a quarter of a
+ * revolution from where the rates of this sample and the one before lead. */
+static void follow(probe *p, const baum_i_state *at)
+{
+  double off = baum_i_run_follow_angles(p->run, at);
+  p->lost = p->lost || off > 0.25 * BAUM_I_REVOLUTION;
+}
+
 /* Computes energy and the user's channels of a sample whose q, v and lambda are known. */
-static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_simulation *probe,
-                          double t, double *sample)
+static baum_status derive(const baum_study *study, const baum_i_layout *l, probe *p, double t,
+                          double *sample)
 {
   baum_status status = BAUM_OK;
   bool has_v = all_known(sample + l->v, l->nv);
@@ -274,16 +288,18 @@ static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_
   double *still = baum_i_alloc((size_t)l->nv, sizeof *still);
   baum_i_state at = {.t = t, .q = sample, .v = has_v ? v : still};
   const baum_channel energy = baum_channel_of(BAUM_ENERGY);
-  if (!still) {
-    return baum_i_fail_memory();
+  BAUM_I_TRY(baum_i_check_memory(still));
+  follow(p, &at);
+  if (p->lost) {
+    has_v = false; /* forces and energies may depend on the revolutions, which are unknown */
   }
   if (has_v) {
-    status = baum_i_output(probe, &at, &energy, 1, sample + l->energy);
+    status = baum_i_output(p->run, &at, &energy, 1, sample + l->energy);
   }
   double *next = sample + l->user;
   for (int k = 0; k < study->channel_count && status == BAUM_OK; k++) {
     if (has_v || is_of_position(study->channels[k].quantity)) {
-      status = baum_i_output(probe, &at, &study->channels[k], 1, next);
+      status = baum_i_output(p->run, &at, &study->channels[k], 1, next);
     }
     next += baum_channels_width(study->mechanism, &study->channels[k], 1);
   }
@@ -339,19 +355,17 @@ static baum_status take_given(baum_study *study)
 {
   baum_i_study_reference *r = &study->reference;
   baum_i_layout l = baum_i_study_layout(study);
-  baum_simulation *probe = NULL;
+  probe p = {.lost = false};
   baum_i_samples *samples = &r->samples;
   samples->values = baum_i_alloc((size_t)samples->n * (size_t)l.width, sizeof *samples->values);
-  if (!samples->values) {
-    return baum_i_fail_memory();
-  }
-  baum_status status = baum_i_study_probe(study, &probe);
+  BAUM_I_TRY(baum_i_check_memory(samples->values));
+  baum_status status = baum_i_study_probe(study, &p.run);
   for (int k = 0; k < samples->n && status == BAUM_OK; k++) {
     double *sample = samples->values + (size_t)k * l.width;
     status = give_one(study, &l, k, sample);
-    status = status == BAUM_OK ? derive(study, &l, probe, samples->times[k], sample) : status;
+    status = status == BAUM_OK ? derive(study, &l, &p, samples->times[k], sample) : status;
   }
-  baum_simulation_destroy(probe);
+  baum_simulation_destroy(p.run);
   status = status == BAUM_OK ? baum_i_study_weigh(study) : status;
   if (status == BAUM_OK) {
     trust_given(study);
@@ -369,9 +383,7 @@ baum_status baum_i_study_set_times(baum_study *study)
   }
   int n = study->options.samples;
   double *times = baum_i_alloc((size_t)n, sizeof *times);
-  if (!times) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(times));
   for (int k = 0; k < n; k++) {
     times[k] = k == n - 1 ? study->t1 : study->t0 + (k + 1) * (study->t1 - study->t0) / n;
   }

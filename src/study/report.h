@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports: a snapshot of a study, and the forms that are made from it. */
+/* Reports: a snapshot of a study, from which all forms of reports are made. */
 #ifndef BAUM_I_STUDY_REPORT_H
 #define BAUM_I_STUDY_REPORT_H
 
@@ -7,22 +7,23 @@
 
 #include <baum/report.h>
 
+#include "base/buffer.h"
 #include "study/fields.h"
-#include "study/report_buffer.h"
 
-/* Errors of the recommendations: 1e-2, 1e-4, ... 1e-10. */
+/* Number of recommendations, which are for the errors 1e-2, 1e-4, ... 1e-10, and of kinds of
+ * cost. */
 enum { BAUM_I_ADVICE = 5, BAUM_I_COSTS = 2 };
 
 /* The recommendation for an error. */
 typedef struct baum_i_advice {
   double error;
   baum_status status;
-  baum_simulation_options options; /* of the setting, if the status is not an error */
-  char setting[256];               /* its name; "" without one */
-  char why[BAUM_I_MESSAGE_SIZE];   /* or why there is none */
+  baum_simulation_options options; /* the recommended setting, if the status is not an error */
+  char setting[256];               /* name of the setting; "": none */
+  char why[BAUM_I_MESSAGE_SIZE];   /* reason of the recommendation, or why there is none */
 } baum_i_advice;
 
-/* Environment in which a report was made. */
+/* The environment in which a report was made. */
 typedef struct baum_i_environment {
   const char *baum;     /* version */
   const char *sundials; /* version, or "none" */
@@ -43,17 +44,17 @@ typedef struct baum_i_snapshot {
   int entry_count;
   baum_i_report_method *methods;
   int method_count;
-  int32_t *front[BAUM_I_COSTS]; /* entries, from cheap to exact */
+  int32_t *front[BAUM_I_COSTS]; /* entries, from cheap to accurate */
   int32_t front_count[BAUM_I_COSTS];
   baum_i_advice advice[BAUM_I_COSTS][BAUM_I_ADVICE];
   baum_i_environment environment;
 } baum_i_snapshot;
 
-/* Reads a study; the caller clears the snapshot, also after a failure. */
+/* Reads a study into a snapshot. The caller must clear the snapshot, also after a failure. */
 baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out);
 void baum_i_snapshot_clear(baum_i_snapshot *snapshot);
 
-/* Returns a name such as "best_damping"; NULL for an unknown value. */
+/* Returns a name such as "best_damping", or NULL for an unknown value. */
 const char *baum_i_gain_rule_name(int rule);
 
 void baum_i_environment_read(baum_i_environment *out);
@@ -64,17 +65,5 @@ void baum_i_report_text(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_csv(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_json(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out);
-
-/* ---- files ---- */
-
-/* Tells whether the path is something other than a regular file, such as a pipe. Links are
- * followed. */
-bool baum_i_is_no_file(const char *path);
-
-/* Writes all of it or nothing, see baum_study_write(). */
-baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
-
-/* Brings flushed data to the disk; 0, or the reason (errno) why not. */
-int baum_i_sync_file(FILE *file);
 
 #endif

@@ -10,7 +10,7 @@
 #include "study/report.h"
 
 #if defined(__clang__)
-#define COMPILER __VERSION__ /* with its name */
+#define COMPILER __VERSION__ /* includes the compiler's name */
 #elif defined(__GNUC__)
 #define COMPILER "gcc " __VERSION__
 #else

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as JSON (RFC 8259). Keys never change; "version" counts changes of meaning. */
+/* A study as JSON (RFC 8259). Keys never change. "version" is increased if the meaning of a key
+ * changes. */
 #include <math.h>
 
 #include "study/report.h"
 
 enum { VERSION = 2 };
 
-/* A member needs a comma before it unless the text ends with the opening brace of its object. */
+/* Appends a key. A comma precedes it unless the text ends with the opening brace of its object. */
 static void put_key(baum_i_buffer *out, const char *key)
 {
   bool first = out->used > 0 && out->text[out->used - 1] == '{';
@@ -64,7 +65,7 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   put_number(out, "entry_limit", snapshot->options.entry_limit);
 }
 
-/* Puts the units of all keys that have one. */
+/* Appends the units of all keys that have one. */
 static void put_units(baum_i_buffer *out)
 {
   const baum_i_field *const lists[] = {baum_i_entry_fields, baum_i_method_fields,
@@ -81,7 +82,7 @@ static void put_units(baum_i_buffer *out)
   }
 }
 
-/* Puts the meanings of the keys of entries. */
+/* Appends the meanings of the keys of entries. */
 static void put_meanings(baum_i_buffer *out)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {

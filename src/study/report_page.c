@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A study as one HTML page: the template report.html with the data that its script draws. The data
- * are the report as JSON and, for each fixed-step integrator with gains, its region of stability:
- * its gain rule, its point of best damping, and level lines of the spectral radius. */
+ * are the report as JSON and, for each fixed-step integrator with gains, its gain rule, its point
+ * of best damping, and level lines of the spectral radius, which show its region of stability. */
 #include <math.h>
 #include <string.h>
 
@@ -11,16 +11,16 @@
 
 enum { POINTS = 4000, LEVELS = 3 };
 static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
-static const char PLACE[] = "\"DATA\""; /* of the data in the template */
+static const char PLACE[] = "\"DATA\""; /* marks the place of the data in the template */
 
-extern const unsigned char baum_i_report_html[]; /* made by cmake/Embed.cmake */
+extern const unsigned char baum_i_report_html[]; /* created by cmake/Embed.cmake */
 
 static bool has_gains(const baum_study_entry *entry)
 {
   return entry->formulation == BAUM_FORMULATION_BAUMGARTE && !isnan(entry->step);
 }
 
-/* Tells whether entry k is the first with gains of its integrator. */
+/* Tells whether entry k is the first entry of its integrator that has gains. */
 static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
   const baum_study_entry *entry = &snapshot->entries[k].entry;
@@ -33,7 +33,7 @@ static bool is_first(const baum_i_snapshot *snapshot, int k)
   return has_gains(entry);
 }
 
-/* Puts points (alpha h, beta^2 h^2), and null between curves. */
+/* Appends points (alpha h, beta^2 h^2), with null between curves. */
 static void put_outline(const baum_integrator *integrator, double radius, double *points,
                         baum_i_buffer *out)
 {
@@ -82,8 +82,7 @@ void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out)
     out->failed = true;
     return;
   }
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_i_putf(out, "%.*s{\"regions\": [", (int)(place - page), page);
   put_regions(snapshot, points, out);
   baum_i_put(out, "],\n\"report\": ");

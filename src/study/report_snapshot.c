@@ -26,9 +26,7 @@ static baum_status read_entries(baum_i_snapshot *out)
 {
   out->entry_count = baum_study_entry_count(out->study);
   out->entries = baum_i_alloc((size_t)out->entry_count, sizeof *out->entries);
-  if (!out->entries) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(out->entries));
   for (int k = 0; k < out->entry_count; k++) {
     baum_i_report_entry *entry = &out->entries[k];
     BAUM_I_TRY(baum_study_entry_at(out->study, k, &entry->entry, sizeof entry->entry));
@@ -46,9 +44,7 @@ static baum_status read_methods(baum_i_snapshot *out)
 {
   out->method_count = baum_study_method_count(out->study);
   out->methods = baum_i_alloc((size_t)out->method_count, sizeof *out->methods);
-  if (!out->methods) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(out->methods));
   for (int k = 0; k < out->method_count; k++) {
     baum_i_report_method *m = &out->methods[k];
     BAUM_I_TRY(baum_study_method_at(out->study, k, &m->method, sizeof m->method));
@@ -67,9 +63,7 @@ static baum_status read_front(baum_i_snapshot *out, baum_study_cost cost)
 {
   int32_t *count = &out->front_count[cost];
   out->front[cost] = baum_i_alloc((size_t)out->entry_count, sizeof *out->front[cost]);
-  if (!out->front[cost]) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(out->front[cost]));
   BAUM_I_TRY(baum_study_front(out->study, cost, out->entry_count, out->front[cost], count));
   for (int k = 0; k < *count; k++) {
     out->entries[out->front[cost][k]].front[cost] = true;
@@ -92,8 +86,7 @@ static void read_advice(const baum_study *study, baum_study_cost cost, baum_i_ad
 static baum_status read_answers(baum_i_snapshot *out)
 {
   baum_status status = BAUM_OK;
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   for (int c = 0; c < BAUM_I_COSTS && status == BAUM_OK; c++) {
     status = read_front(out, (baum_study_cost)c);
     for (int k = 0; k < BAUM_I_ADVICE; k++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as text for a screen: recommendations, front, cost of accuracy, all entries, messages. */
+/* A study as text: recommendations, front, cost of accuracy, all entries, messages. */
 #include <math.h>
 #include <string.h>
 
 #include "study/report.h"
 
-/* Returns the widest name, at least that of the title. */
+/* Returns the width of the longest name or of the title. */
 static int name_width(const baum_i_snapshot *snapshot)
 {
   int width = baum_i_length("setting");
@@ -16,7 +16,7 @@ static int name_width(const baum_i_snapshot *snapshot)
   return width;
 }
 
-/* Counts the entries in a state. */
+/* Counts the entries that have a state. */
 static int count_in(const baum_i_snapshot *snapshot, baum_study_state state)
 {
   int count = 0;
@@ -59,7 +59,7 @@ static void put_advice(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   }
 }
 
-/* Puts a number of this many digits in a column. */
+/* Appends a number with this many digits in a column. */
 static void put_figure(baum_i_buffer *out, double x, int digits, int width)
 {
   baum_i_putf(out, "  %*s", width, baum_i_short(x, digits).text);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a study: the reference, then all errors in several threads, then all times one after the
- * other, then validations. */
+/* Runs a study: first the reference, then all entries in several threads for their errors, then one
+ * after the other for their times, and last validations. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,12 +8,12 @@
 #include "base/alloc.h"
 #include "study/study.h"
 
-/* [-] error of positions above which they belong to another motion */
+/* [-] a run with a larger error of positions has followed another motion */
 static const double OFF = 0.1;
-static const double VALIDATED_FOR = 5.0; /* limit for a validation, in entry limits */
-static const double TIMED_FOR = 0.2;     /* [s] total time after which an entry is not repeated */
+static const double VALIDATED_FOR = 5.0; /* time limit of a validation, in entry limits */
+static const double TIMED_FOR = 0.2;     /* [s] an entry is repeated until this total time */
 
-/* Data that the threads share. */
+/* Data that the threads have in common. */
 typedef struct workers {
   baum_study *study;
   baum_i_study_file *file;
@@ -22,9 +22,9 @@ typedef struct workers {
   baum_i_entry **order; /* (count) entries to be measured */
   int count;
   int next;
-  int done; /* entries measured, plus entries timed or not to be timed */
+  int done; /* number of entries measured, plus number of entries timed or not to be timed */
   baum_status status;
-  baum_i_kept_message message; /* of the status */
+  baum_i_kept_message message; /* message of the status */
 } workers;
 
 /* ---- results of a run ---- */
@@ -40,8 +40,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Sets the errors over the whole span and at its end. No error is graded below the uncertainty of
- * the reference. */
+/* Sets the errors over the whole span and at its end. An error is at least the uncertainty of the
+ * reference. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
@@ -108,18 +108,18 @@ static void note_failure(workers *c, baum_status status)
 {
   if (status != BAUM_OK && c->status == BAUM_OK) {
     c->status = status;
-    baum_i_message_keep(&c->message);
+    c->message = baum_i_message_keep();
   }
 }
 
-/* Deadline of a run whose limit is this many entry limits. */
+/* Returns the deadline of a run whose time limit is this many entry limits. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* Uses as many threads as entries, or as the options say. */
+/* Runs work() in as many threads as the options tell, but not more than there are entries. */
 static void run_workers(workers *c, void (*work)(void *user, int k))
 {
   int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
@@ -128,7 +128,7 @@ static void run_workers(workers *c, void (*work)(void *user, int k))
   }
 }
 
-/* Reports the progress of an entry. Called by one thread at a time. */
+/* Reports that one more entry is done. Called by one thread at a time. */
 static void report_progress(workers *c)
 {
   c->done++;
@@ -138,7 +138,7 @@ static void report_progress(workers *c)
   }
 }
 
-/* Tells whether a coarser setting of the method reached the entry limit. */
+/* Tells whether a coarser setting of the method has reached the entry limit. */
 static bool is_too_fine(const workers *c, const baum_i_entry *entry)
 {
   double setting = baum_i_setting(&entry->options);
@@ -204,7 +204,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(&c->lock);
 }
 
-/* Work on one entry; values: room for the samples of one run. */
+/* Work on one entry. values is scratch memory for the samples of one run. */
 typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
 
 static void run_entries(workers *c, entry_fn *work)
@@ -253,7 +253,7 @@ static void validate(void *self, int k)
   run_entries(self, validate_entry);
 }
 
-/* Lists the entries that need validation; returns whether there are any. */
+/* Lists the entries that need validation. Returns whether there are any. */
 static bool order_validations(workers *c)
 {
   const baum_study *study = c->study;
@@ -310,14 +310,13 @@ static int by_rank(const void *a, const void *b)
                             : (x->k > y->k) - (x->k < y->k);
 }
 
-/* Coarse settings come first, so that results of all methods exist when time runs out. */
+/* Orders the entries. Coarse settings are first, so that all methods have results if the time
+ * budget is spent. */
 static baum_status set_order(workers *c)
 {
   const baum_study *study = c->study;
   place *places = baum_i_alloc((size_t)study->entry_count, sizeof *places);
-  if (!places) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(places));
   c->count = 0;
   for (int k = 0; k < study->entry_count; k++) {
     baum_i_entry *entry = study->entries[k];
@@ -337,10 +336,10 @@ static baum_status set_order(workers *c)
 
 /* ---- times ---- */
 
-/* The cost of a run on any machine: evaluations of right-hand sides or residuals, factorizations,
- * and the linear systems of implicit methods. An explicit step counts 2 per stage, a step of
- * CVODE's Adams method 3 per iteration. The larger matrices of IDA and BDF, and the work of
- * SUNDIALS between evaluations, only show in the CPU time. */
+/* Returns the cost of a run, independent of the machine: the number of evaluations of right-hand
+ * sides or residuals, plus factorizations, plus iterations of implicit methods. An explicit method
+ * counts 2 per stage, and CVODE's Adams method 3 per iteration. The larger matrices of IDA and BDF,
+ * and the work of SUNDIALS between evaluations, are only visible in the CPU time. */
 static double work_of(const baum_study_entry *r)
 {
   return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
@@ -408,7 +407,7 @@ static void time_entries(workers *c)
 
 /* ---- the whole study ---- */
 
-/* Counts entries without a result or without its time. */
+/* Counts entries without a result or without a time. */
 static int waiting(const baum_study *study)
 {
   int count = 0;
@@ -419,8 +418,8 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-/* Tells whether entries will be compared with the reference: entries to be measured, and entries
- * that may need validation after they are timed. */
+/* Tells whether any entry will be compared with the reference: an entry that must be measured, or
+ * one that may need validation after it is timed. */
 static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
@@ -493,9 +492,7 @@ static baum_status begin_study(workers *c)
 {
   baum_study *study = c->study;
   c->order = baum_i_alloc((size_t)study->entry_count, sizeof(baum_i_entry *));
-  if (!c->order) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(c->order));
   BAUM_I_TRY(baum_i_study_set_times(study));
   BAUM_I_TRY(baum_i_study_file_open(study, &c->file));
   study->begun = true;

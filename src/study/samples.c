@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences of the samples of a run from the reference.
+/* Computes differences of the samples of a run from the reference. The errors of the parts of a
+ * sample are
  *
  *   q       |dq_i| / s_i             s: scales of the mechanism, L for lengths and 1 for angles
  *   v       |dv_i| / (s_i V)         V: largest |v_j| / s_j over all samples of the reference [1/s]
@@ -8,8 +9,8 @@
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit, or as q
  *
- * Numbers that the reference lacks are not compared; if a run lacks a number, its error is
- * infinite. */
+ * Numbers that the reference does not contain are not compared. If a run lacks a number, its error
+ * is infinite. */
 #include <math.h>
 #include <string.h>
 
@@ -59,7 +60,7 @@ void baum_i_study_clear_samples(baum_i_samples *samples)
 
 /* ---- weights ---- */
 
-/* Computes the displacements of the rows at the first sample. */
+/* Computes n_i of all rows at the first sample. */
 static baum_status measure_rows(const baum_study *study, double *rows)
 {
   baum_workspace *w = NULL;
@@ -75,7 +76,8 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   return status;
 }
 
-/* Divides the weights of some columns by their largest weighted value in the reference. */
+/* Divides the weights of columns by the largest weighted value of these columns in the
+ * reference. */
 static void normalize(const baum_study *study, const baum_i_layout *l, int first, int count)
 {
   const baum_i_samples *samples = &study->reference.samples;
@@ -97,9 +99,7 @@ baum_status baum_i_study_weigh(baum_study *study)
   const baum_mechanism *m = study->mechanism;
   baum_i_free(study->reference.weight);
   double *weight = study->reference.weight = baum_i_alloc((size_t)l.width, sizeof *weight);
-  if (!weight) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(weight));
   for (int i = 0; i < l.nq; i++) {
     weight[i] = 1.0 / m->position_scale[i];
   }
@@ -127,7 +127,8 @@ static double distance(double got, double wanted)
   return isfinite(difference) ? difference : (double)INFINITY;
 }
 
-/* Returns the largest weighted difference in some columns of one sample; NaN where none is known.
+/* Returns the largest weighted difference in the columns first to end - 1 of a sample, or NaN if
+ * none is known.
  */
 static double largest_of(const baum_study *study, const double *got, const double *wanted,
                          int first, int end)

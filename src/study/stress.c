@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress settings for a user's mechanism. They are decades apart, because failures are. */
+/* Stress settings for a user's mechanism. They differ by factors of 10 and cover a wide range. */
 #include <math.h>
 
 #include "base/text.h"
@@ -8,7 +8,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Decades: steps of 10^-1 to 10^-9 of the period, rtol 10^-2 to 10^-14, gains 10^-6 to 10^12 1/s.
+/* Exponents: steps of 10^-1 to 10^-9 of the period, rtol of 10^-2 to 10^-14, gains of 10^-6 to
+ * 10^12 1/s.
  */
 enum {
   FIRST_STEP = 1,
@@ -23,7 +24,7 @@ enum {
 
 typedef struct ladders {
   baum_study *study;
-  double period; /* [s] of the motion */
+  double period; /* [s] period of the motion */
 } ladders;
 
 static baum_status add_step(const ladders *l, baum_simulation_options o, int decade)
@@ -51,8 +52,8 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* Adds settings without gains and with alpha = beta through the decades, each with one moderate
- * step or tolerance. */
+/* Adds settings without gains, and with alpha = beta for all exponents, with one moderate step or
+ * tolerance. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creating a study, setting what is studied, and reading the reference. */
+/* Creates a study, sets what is studied, and returns the reference. */
 #include <baum/study.h>
 
 #include <math.h>
@@ -19,7 +19,7 @@
 
 /* ---- making and ending ---- */
 
-enum { NAMED = 3 }; /* channels named in the error text */
+enum { NAMED = 3 }; /* number of channels that the error text names */
 
 static void describe_error(baum_study *study)
 {
@@ -62,9 +62,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
                        t1);
   }
   baum_study *study = baum_i_alloc(1, sizeof *study);
-  if (!study) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(study));
   study->mechanism = baum_i_mechanism_share(mechanism);
   study->t0 = t0;
   study->t1 = t1;
@@ -77,7 +75,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-/* Frees entries and methods from these numbers on. */
+/* Frees the entries and methods from these numbers on. */
 static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {
@@ -88,7 +86,8 @@ static void truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
-/* Integrators of SUNDIALS are listed even in builds without it. */
+/* Tells whether the build has an integrator. The list contains integrators of SUNDIALS even without
+ * it. */
 static bool is_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;
@@ -145,7 +144,7 @@ void baum_study_cancel(baum_study *study)
 /* ---- options ---- */
 
 enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
-static const double MOST_NUMBERS = 1e8; /* q, v and lambda at all samples; each thread keeps them */
+static const double MOST_NUMBERS = 1e8; /* numbers q, v and lambda of all samples, in each thread */
 
 static int most_samples(const baum_mechanism *m)
 {
@@ -302,9 +301,7 @@ baum_status baum_study_set_error(baum_study *study, const baum_channel *channels
     return refuse_change(call, "the definition of the error");
   }
   baum_channel *copy = baum_i_alloc((size_t)count, sizeof *copy);
-  if (!copy) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(copy));
   for (int32_t k = 0; k < count; k++) {
     copy[k] = baum_i_channel(channels, k);
   }
@@ -347,7 +344,7 @@ static baum_status check_sample_times(const baum_study *study, const double *tim
   return BAUM_OK;
 }
 
-/* Copies what was given; false when out of memory. */
+/* Copies given samples. Returns false when out of memory. */
 static bool copy_given(const baum_study *study, const double *times, int32_t n,
                        const double *const given[3], baum_i_study_reference *out)
 {
@@ -452,7 +449,7 @@ baum_status baum_study_reference_sample(const baum_study *study, int32_t k, doub
   }
   const baum_i_samples *r = &study->reference.samples;
   if (!r->values) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been made", call);
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been computed", call);
   }
   if (k < 0 || k >= r->n) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k, r->n - 1);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The study file: lines of text, each written as soon as its result is known.
+/* The study file consists of lines of text. Each line is written as soon as its result is known.
  *
  *   baum-study 3 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX
  *   reference HEX #SUM
  *   reference DIGITS ... | TEXT #SUM
  *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
- * STAGE is 1: measured, 2: timed, or 3: validated. KEY is a sum over the options of an entry, so
- * entries may be added in any order. SUM is over the line before it and, in all lines but the
- * first, over the first line. A line that is cut off, damaged or of another study is therefore no
- * result, and its entry is run again. An entry has a line for each stage, with everything known by
- * then. Of two lines of one stage, the first one without a timeout counts. */
+ * STAGE is 1: measured, 2: timed, or 3: validated. KEY is a digest of the options of an entry, so
+ * entries may be added in any order. SUM is a digest of the line before it and, in all lines except
+ * the first, of the first line. A line that is cut off, damaged or of another study is therefore
+ * ignored, and its entry is run again. An entry has a line for each stage, with all results that
+ * are known then. Of two lines of one stage, the first without a timeout is used. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -22,6 +22,7 @@
 
 #include "base/alloc.h"
 #include "base/digest.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "mechanism/fingerprint.h"
 #include "study/report.h"
@@ -37,7 +38,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* of the sums of all lines but the first */
+  uint64_t seed; /* seed of the sums of all lines except the first */
 };
 
 /* ---- lines ---- */
@@ -48,7 +49,7 @@ static baum_status fail_file(const baum_i_study_file *file, const char *what)
                      strerror(errno));
 }
 
-/* Writes a line at once, so that a process that ends leaves whole lines. */
+/* Writes a line immediately, so that a process that ends leaves only whole lines. */
 static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed)
 {
   baum_i_study_seal(line, seed);
@@ -62,7 +63,7 @@ static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed
 
 /* ---- identity of the study ---- */
 
-/* A property that must be the same, and its name in messages. */
+/* A property that must be the same in the file and the study, and its name in messages. */
 typedef struct mark {
   const char *name;
   const char *what;
@@ -86,6 +87,7 @@ static uint64_t digest_error(const baum_study *study)
     baum_i_digest_add_integer(&d, c->body.index1);
     baum_i_digest_add_integer(&d, c->joint.index1);
     baum_i_digest_add(&d, c->point, sizeof c->point);
+    baum_i_digest_add_integer(&d, c->coordinate);
   }
   return d.value;
 }
@@ -174,13 +176,13 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
 
 /* ---- reading ---- */
 
-/* Returns the text behind " | "; NULL where that is missing. */
+/* Returns the text after " | ", or NULL if " | " is missing. */
 static const char *text_at(const char *rest)
 {
   return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-/* Reads STAGE LIMIT FIELDS | MESSAGE of an entry. */
+/* Reads STAGE LIMIT FIELDS | MESSAGE of the line of an entry. */
 static void take_entry(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   baum_study_entry out = entry->out;
@@ -228,7 +230,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   } else if (strncmp(line, ENTRY, strlen(ENTRY)) == 0) {
     char *rest = NULL;
     uint64_t key = strtoull(line + strlen(ENTRY), &rest, 16);
-    for (int k = 0; k < study->entry_count; k++) { /* several may be equal */
+    for (int k = 0; k < study->entry_count; k++) { /* several entries may be equal */
       if (study->entries[k]->key == key) {
         take_entry(study, study->entries[k], rest);
       }
@@ -236,7 +238,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   }
 }
 
-/* Tells whether the file ended before its head was written: nothing is lost. */
+/* Tells whether the file ends within its first line, so that it contains no results. */
 static bool is_begun_head(const baum_i_study_file *file, const baum_study *study, const char *line)
 {
   char head[LINE];
@@ -247,13 +249,11 @@ static bool is_begun_head(const baum_i_study_file *file, const baum_study *study
          ftell(file->stream) == (long)size;
 }
 
-/* Reads all lines; `whole` tells whether the last one is complete. */
+/* Reads all lines. *whole tells whether the last line is complete. */
 static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is_new, bool *whole)
 {
   char *line = baum_i_alloc(LINE, 1);
-  if (!line) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(line));
   baum_status status = BAUM_OK;
   *is_new = true;
   *whole = true;
@@ -310,11 +310,11 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* A truncated line becomes a separate line, which is not a result. */
+  /* Complete a truncated line, which is then ignored as damaged. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 
-/* Writes results that are known but not in the file, because its disk may have been full. */
+/* Writes results that are known but not in the file, for example because the disk was full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   for (int k = 0; k < study->entry_count; k++) {
@@ -332,9 +332,7 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
     return BAUM_OK;
   }
   baum_i_study_file *file = baum_i_alloc(1, sizeof *file);
-  if (!file) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(file));
   file->path = study->options.file;
   file->seed = seed_of(study);
   bool is_new = true;

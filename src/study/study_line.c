@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines of the study file: results as text, and the sum at the end of each. */
+/* Lines of the study file: results as text, and a sum at the end of each line. */
 #include "study/study_line.h"
 
 #include <inttypes.h>
@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/buffer.h"
 #include "base/digest.h"
 #include "base/text.h"
-#include "study/report_buffer.h"
 
 enum { LINE = BAUM_I_STUDY_LINE };
 
@@ -68,7 +68,7 @@ static void put_whole(void *place, baum_i_kind kind, int64_t value)
   } else if (kind == BAUM_I_FLAG) {
     *(bool *)place = value != 0;
   } else {
-    *(int32_t *)place = (int32_t)value; /* enums, too */
+    *(int32_t *)place = (int32_t)value; /* including enums */
   }
 }
 

@@ -15,8 +15,9 @@ void baum_i_lock_end(baum_i_lock *lock);
 void baum_i_lock_take(baum_i_lock *lock);
 void baum_i_lock_give(baum_i_lock *lock);
 
-/* Calls work(user, k) for k = 0 to count - 1, each in a separate thread, the first in this one.
- * Calls for which no thread can be created are omitted. Returns when all have ended. */
+/* Calls work(user, k) for k = 0 to count - 1. The first call is in this thread, the others are in
+ * separate threads. Calls for which no thread can be created are omitted. Returns after all calls
+ * have ended. */
 void baum_i_threads_run(int count, void (*work)(void *user, int k), void *user);
 
 #endif

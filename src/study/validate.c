@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Errors over twice the span and from other starts. How fast errors grow depends on the motion and
- * on the method: from one revolution to the next they may grow by a factor of 100. Entries that may
- * be recommended are therefore run again over twice the span, from the design configuration and
- * from two other starts whose velocities differ by NUDGE of their size or, at rest, of the rate of
- * the motion. Each start has a reference, computed with the setting of the study's reference.
- * Entries that cost more than NEAR times an equally accurate one are not validated. */
+/* Finds errors over twice the span and from other starts. The growth of errors depends on the
+ * motion and on the method: from one revolution to the next they may grow by a factor of 100.
+ * Entries that may be recommended are therefore run again over twice the span, from the design
+ * configuration and from two other starts. The velocities of these differ by the fraction NUDGE of
+ * their size or, at rest, of the rate of the motion. Each start has a reference, computed with the
+ * setting of the study's reference. Entries that cost more than NEAR times an equally accurate one
+ * are not validated. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +33,7 @@ static baum_status allocate(const baum_study *study, baum_i_samples *samples)
                                                                        : baum_i_fail_memory();
 }
 
-/* Sets the start, nudged by a share of the velocities. */
+/* Sets the start, with velocities changed by the fraction `nudge`. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_samples *samples)
 {
   const baum_mechanism *m = study->mechanism;
@@ -68,7 +69,7 @@ static baum_simulation_options reference_options(const baum_study *study)
   return o;
 }
 
-/* Makes one motion; its values become NULL where it cannot be made. */
+/* Computes one motion. Its values are NULL if this fails. */
 static baum_status make_one(const baum_study *study, double nudge, baum_i_deadline *deadline,
                             baum_i_samples *samples)
 {
@@ -105,7 +106,7 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Tells whether the entry could be recommended. */
+/* Tells whether no recommendable entry is at least as accurate and NEAR times cheaper. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation of something may fail. Include as heap.h. */
+/* Tests that every allocation of a scenario may fail. Include rules: as heap.h. */
 #ifndef BAUM_TEST_FAILING_HEAP_H
 #define BAUM_TEST_FAILING_HEAP_H
 
@@ -7,7 +7,7 @@
 
 #include "heap.h"
 
-/* Something that cleans up after itself and returns its first failure. */
+/* A function to test: it cleans up after itself and returns its first failure. */
 typedef baum_status scenario(void *context);
 
 static inline void fail_once(scenario *run, void *context, long n, bool for_good)
@@ -26,7 +26,7 @@ static inline void fail_once(scenario *run, void *context, long n, bool for_good
   }
 }
 
-/* First once without failure, which also lets libraries make what they keep for good. */
+/* Runs once before counting, because libraries then allocate memory that they never free. */
 static inline long count_allocations(scenario *run, void *context)
 {
   assert_int_equal(run(context), BAUM_OK);
@@ -38,8 +38,8 @@ static inline long count_allocations(scenario *run, void *context)
   return allocations;
 }
 
-/* Every stride-th of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no
- * block is lost. */
+/* Lets every stride-th allocation fail alone. The scenario has to return BAUM_OK or BAUM_ERR_MEMORY
+ * and lose no block. */
 static inline void fail_allocations(scenario *run, void *context, long stride)
 {
   long allocations = count_allocations(run, context);
@@ -48,7 +48,7 @@ static inline void fail_allocations(scenario *run, void *context, long stride)
   }
 }
 
-/* Likewise, alone and with all after it. */
+/* Lets every allocation fail, first alone, then together with all later ones. */
 static inline void fail_every_allocation(scenario *run, void *context)
 {
   long allocations = count_allocations(run, context);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The heap of a test program, to be counted and to fail: everything that the program loads
- * allocates through the functions defined here. They have to be in the program itself, so only
- * its one source may include this, after defining _GNU_SOURCE and including cmocka.h.
+/* Counts the allocations of a test program and makes chosen ones fail. The program and all
+ * libraries that it loads allocate through the functions defined here. These functions have to be
+ * in the program itself, so only a program with one source file may include this header, after
+ * defining _GNU_SOURCE and including cmocka.h.
  *
- * For glibc. Where something else stands in for malloc, as valgrind and the thread sanitizer do,
- * heap_is_ours() is false; the address sanitizer is reached by its other names, and watches what
- * is done after a failure.
+ * For glibc. heap_is_ours() is false where another tool replaces malloc, as valgrind and the thread
+ * sanitizer do. The address sanitizer is called by the names of its own allocation functions, so it
+ * still checks the memory accesses after a failed allocation.
  */
 #ifndef BAUM_TEST_HEAP_H
 #define BAUM_TEST_HEAP_H
@@ -34,10 +35,10 @@
 static struct {
   atomic_long blocks;  /* alive */
   atomic_long count;   /* allocations since heap_watch() */
-  long fail_from;      /* the first of them to fail */
-  long fail_to;        /* one past the last */
-  bool inside;         /* of an excluded call */
-  long may_still_fail; /* allocations inside of it that are not excluded */
+  long fail_from;      /* index of the first allocation to fail */
+  long fail_to;        /* index after the last allocation to fail */
+  bool inside;         /* during an excluded call */
+  long may_still_fail; /* allocations of the excluded call that may fail */
 } heap;
 
 /* ---- watching ---- */
@@ -49,7 +50,7 @@ static void heap_watch(void)
   atomic_store(&heap.count, 0);
 }
 
-/* From now on the n-th allocation fails, or all from it on. */
+/* From now on only the n-th allocation fails, or, if for_good, the n-th and all later ones. */
 static void heap_fail(long n, bool for_good)
 {
   heap_watch();
@@ -57,7 +58,7 @@ static void heap_fail(long n, bool for_good)
   heap.fail_to = for_good ? LONG_MAX : n + 1;
 }
 
-/* How many there were. */
+/* Returns the number of allocations since heap_watch(); from now on none fails. */
 static long heap_stop(void)
 {
   long count = atomic_load(&heap.count);
@@ -79,7 +80,7 @@ static long heap_blocks(void)
 #else
 #define HEAP_REAL(name) __libc_##name
 #endif
-/* Called before the sanitizer is ready. */
+/* These functions are called before the sanitizer is ready. */
 #define HEAP_EARLY  __attribute__((no_sanitize("address", "undefined")))
 #define HEAP_PUBLIC __attribute__((visibility("default"))) HEAP_EARLY
 
@@ -88,7 +89,7 @@ void *HEAP_REAL(calloc)(size_t number, size_t size);
 void *HEAP_REAL(realloc)(void *old, size_t size);
 void HEAP_REAL(free)(void *memory);
 
-/* Excluded allocations are not counted, so that no number means one of them. */
+/* Excluded allocations are not counted. */
 HEAP_EARLY static bool heap_refuses(void)
 {
   if (heap.inside && heap.may_still_fail-- <= 0) {
@@ -138,8 +139,8 @@ HEAP_PUBLIC void free(void *memory)
 /* SUNLogger_Create() of SUNDIALS 6.4.1, called by SUNContext_Create(): its first allocation is
  * checked. Then SUNHashMap_New() allocates a map and writes to it unchecked (it compares `map` with
  * NULL where `*map` is meant); and when the buckets of the map cannot be allocated it frees the
- * map, which the logger keeps and later destroys. Nobody outside can help it, so all but the first
- * may not fail.
+ * map, which the logger keeps and later destroys. A caller cannot prevent these two errors, so the
+ * test lets only the first allocation fail.
  */
 #if BAUM_HAVE_SUNDIALS
 
@@ -148,13 +149,13 @@ typedef int heap_create_logger(void *communicator, int rank, void **logger);
 static heap_create_logger *heap_real_create_logger;
 static bool heap_find_excluded(void);
 
-/* As in SUNDIALS' header, but for the names of its types. */
+/* The declaration of SUNDIALS' header with other type names. */
 int SUNLogger_Create(void *communicator, int rank, void **logger);
 
 HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 {
   if (!heap_real_create_logger) {
-    (void)heap_find_excluded(); /* for tests that have not asked whose heap it is */
+    (void)heap_find_excluded(); /* for tests that have not called heap_is_ours() */
   }
   heap.inside = true;
   heap.may_still_fail = 1;
@@ -165,7 +166,7 @@ HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 
 #endif
 
-/* Looked up beforehand: it allocates. */
+/* Finds the excluded functions in advance, because dlsym() allocates. */
 static bool heap_find_excluded(void)
 {
   bool all = true;
@@ -179,7 +180,8 @@ static bool heap_find_excluded(void)
   return all;
 }
 
-/* By pointers, or else the compiler sees that they are these, whatever stands in for them. */
+/* Whether malloc, calloc and free are the functions above. Calls go through volatile pointers so
+ * that the compiler cannot remove them. */
 static bool heap_is_ours(void)
 {
   void *(*volatile get)(size_t) = malloc;

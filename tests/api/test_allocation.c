@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps and evaluations allocate nothing, and every allocation may fail without more than
- * BAUM_ERR_MEMORY coming of it: SuiteSparse's and SUNDIALS' too, but for those that heap.h
- * names.
- */
+/* Steps and evaluations allocate nothing. Every allocation of the other calls may fail, with no
+ * other result than BAUM_ERR_MEMORY. This includes allocations of SuiteSparse and SUNDIALS, except
+ * those that heap.h excludes. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -27,7 +26,7 @@ static bool is_of_a_body(baum_quantity quantity)
          quantity == BAUM_BODY_ACCELERATION;
 }
 
-/* One of every quantity. */
+/* One channel of every quantity. */
 static int make_channels(const every_element *parts, baum_channel channels[CHANNELS])
 {
   for (int k = 0; k < CHANNELS; k++) {
@@ -81,7 +80,7 @@ static bool find_pair(int k, baum_simulation_options *o)
 
 /* ---- steps allocate nothing ---- */
 
-/* Another input, and the law of the motor as it is, from now on by the run. */
+/* Changes an input, and replaces the law of the motor by its quadratic continuation. */
 static baum_status act(baum_simulation *run, const every_element *parts)
 {
   double t = baum_simulation_time(run);
@@ -151,7 +150,7 @@ static void steps_samples_and_channels_allocate_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Jumps of an input in every third step or so, which some methods restart for. */
+/* An input jumps in about every third step. Some methods restart at a jump. */
 static void jumps_of_inputs_allocate_nothing(void **state)
 {
   (void)state;
@@ -188,7 +187,7 @@ static void jumps_of_inputs_allocate_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* A state to evaluate at. */
+/* The state at which the workspace functions are evaluated. */
 typedef struct point {
   double q[EVERY_NQ];
   double v[EVERY_NV];
@@ -298,7 +297,7 @@ static void building_survives_every_failing_allocation(void **state)
   fail_every_allocation(build_everything, NULL);
 }
 
-/* The last definition stays when a new one cannot be kept. */
+/* If memory for a new definition is missing, the old one stays. */
 static baum_status replace_definitions(void *context)
 {
   every_element *parts = context;
@@ -328,7 +327,7 @@ static void replacing_survives_every_failing_allocation(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Sizes first, then all three arrays, as a caller would. */
+/* Gets the sizes first, then all three arrays, as a caller would. */
 static baum_status evaluate_jacobian(baum_workspace *w, const point *p)
 {
   static int32_t columns[EVERY_NQ + EVERY_NV + EVERY_NC + 1];
@@ -390,10 +389,10 @@ typedef struct run_scenario {
   every_element parts;
   baum_simulation_options options;
   double span; /* [s] */
-  bool warned; /* a run that is made has a warning */
+  bool warned; /* creating the run gives a warning */
 } run_scenario;
 
-/* Out, a look, and back. */
+/* Runs forward, reads all channels, returns to the initial state and runs backward. */
 static baum_status go(baum_simulation *run, const every_element *parts, double span)
 {
   baum_channel channels[CHANNELS];
@@ -441,7 +440,7 @@ static baum_status simulate(void *context)
   return reached_the_end(status) ? BAUM_OK : status;
 }
 
-/* What all runs have in common is gone through with the first. */
+/* What all runs have in common (assembly, check of derivatives) is tested only with the first. */
 static void runs_survive_every_failing_allocation(void **state)
 {
   (void)state;
@@ -468,8 +467,8 @@ static const double *factors_of_rows(void)
   return factors;
 }
 
-/* Nothing but their copy is made for them, which is the same for all integrators. */
-static void runs_with_gains_of_rows_survive_likewise(void **state)
+/* Gains of rows only add a copy of the factors, which is the same code for all integrators. */
+static void runs_with_gains_of_rows_survive_every_failing_allocation(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -491,7 +490,7 @@ static void runs_with_gains_of_rows_survive_likewise(void **state)
   baum_mechanism_destroy(s.parts.mechanism);
 }
 
-/* The weld twice: rank, dropped rows and least-norm multipliers allocate too. */
+/* Adds the weld a second time: rank, omitted rows and least-norm multipliers allocate too. */
 static every_element make_redundant(void)
 {
   every_element parts = {.fault = NULL};
@@ -504,7 +503,7 @@ static every_element make_redundant(void)
   return parts;
 }
 
-static void runs_with_redundant_joints_and_any_solver_survive_likewise(void **state)
+static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allocation(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -513,7 +512,8 @@ static void runs_with_redundant_joints_and_any_solver_survive_likewise(void **st
   run_scenario s = {.parts = make_redundant(), .span = 0.001, .warned = true};
   s.options = options_for((step_mode){baum_euler(), true}, BAUM_FORMULATION_PROJECTION);
   for (int solver = BAUM_SOLVER_AUTO; solver <= BAUM_SOLVER_QR; solver++) {
-    if (solver > BAUM_SOLVER_AUTO) { /* no companion, whose solver would be slow, too */
+    if (solver > BAUM_SOLVER_AUTO) { /* variable step: no companion run, which would take too long
+                                      * with KLU or QR */
       s.options = options_for((step_mode){baum_dp5(), false}, BAUM_FORMULATION_PROJECTION);
     }
     s.options.solver = (baum_solver)solver;
@@ -521,7 +521,8 @@ static void runs_with_redundant_joints_and_any_solver_survive_likewise(void **st
     s.options.start = solver == BAUM_SOLVER_AUTO ? BAUM_START_ASSEMBLE : BAUM_START_AS_GIVEN;
     if (solver == BAUM_SOLVER_AUTO) {
       fail_every_allocation(simulate, &s);
-    } else { /* thousands, of few places, and all but those of the solver as before */
+    } else { /* Thousands of allocations at few places; only those of the solver differ from
+              * BAUM_SOLVER_AUTO. */
       fail_allocations(simulate, &s, 50);
     }
   }
@@ -538,8 +539,8 @@ int main(void)
     cmocka_unit_test(replacing_survives_every_failing_allocation),
     cmocka_unit_test(a_workspace_survives_every_failing_allocation),
     cmocka_unit_test(runs_survive_every_failing_allocation),
-    cmocka_unit_test(runs_with_gains_of_rows_survive_likewise),
-    cmocka_unit_test(runs_with_redundant_joints_and_any_solver_survive_likewise),
+    cmocka_unit_test(runs_with_gains_of_rows_survive_every_failing_allocation),
+    cmocka_unit_test(runs_with_redundant_joints_and_any_solver_survive_every_failing_allocation),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is restored is looked at first: buffers that are truncated, damaged or of something else are
- * refused with a message that says so, and the run is as it was. */
+/* baum_simulation_restore() checks a buffer before it changes the run. Truncated and damaged
+ * buffers, and those of other mechanisms or options, are refused with a message that says so. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include "every_element.h"
 #include "models.h"
 
-/* Where things are in a buffer, in bytes. */
+/* Positions of the header's numbers in a buffer, in bytes. */
 enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 48 };
 
 typedef struct saved {
@@ -62,7 +62,7 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* It is refused with a message that has these words. */
+/* Expects that the buffer is refused with a message that contains these words. */
 static void check_refused(baum_simulation *run, const void *bytes, size_t size, const char *words)
 {
   baum_status status = baum_simulation_restore(run, bytes, size);
@@ -74,8 +74,8 @@ static void check_refused(baum_simulation *run, const void *bytes, size_t size, 
   assert_string_equal(baum_simulation_message(run), message);
 }
 
-/* The run saves the same bytes as before: all that is saved is unchanged. One-step methods with a
- * fixed step lose nothing by that. */
+/* The run saves the same bytes as before, so all its saved numbers are unchanged. Saving does not
+ * alter runs of one-step methods with a fixed step. */
 static void check_unchanged(baum_simulation *run, const saved *before)
 {
   saved now = save(run);
@@ -84,7 +84,7 @@ static void check_unchanged(baum_simulation *run, const saved *before)
   free(now.bytes);
 }
 
-/* A run and a buffer of another moment of it. */
+/* A run at 0.3 s, and a buffer saved at 0.2 s. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_simulation *run;
@@ -114,12 +114,13 @@ static void close_scene(scene *s)
   baum_mechanism_destroy(s->mechanism);
 }
 
-static void cut_off_at_every_length(void **state)
+static void buffers_truncated_at_any_length_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
   for (size_t size = 0; size < s.other.size; size++) {
-    /* of its own, so that the address sanitizer sees what is read behind it */
+    /* an allocation of exactly this size, so that the address sanitizer detects reads past its
+     * end */
     unsigned char *part = malloc(size + 1);
     assert_non_null(part);
     memcpy(part + 1, s.other.bytes, size); /* not aligned */
@@ -129,7 +130,7 @@ static void cut_off_at_every_length(void **state)
   close_scene(&s);
 }
 
-static void every_byte_changed(void **state)
+static void buffers_with_any_changed_bit_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -148,8 +149,8 @@ static void every_byte_changed(void **state)
   close_scene(&s);
 }
 
-/* Two words changed alike must not make up for each other, as they do in plain sums. */
-static void two_signs_changed(void **state)
+/* The same change in two words must not cancel in the checksum, as it does in a plain sum. */
+static void buffers_with_two_changed_signs_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -163,9 +164,9 @@ static void two_signs_changed(void **state)
   close_scene(&s);
 }
 
-/* ---- buffers whose sum is right ---- */
+/* ---- buffers whose checksum is right ---- */
 
-/* The sum as documented in base/digest.h. */
+/* Writes the checksum that base/digest.h documents. */
 static void seal(saved *s)
 {
   uint64_t h = 0;
@@ -178,8 +179,8 @@ static void seal(saved *s)
   memcpy(s->bytes + s->size - sizeof h, &h, sizeof h);
 }
 
-/* Neither crashes nor is taken halfway, whatever lengths and numbers it has. */
-static void random_bytes_under_a_good_checksum(void **state)
+/* Random lengths and numbers with a valid checksum: restore neither crashes nor applies a part. */
+static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -200,15 +201,14 @@ static void random_bytes_under_a_good_checksum(void **state)
     taken += status == BAUM_OK;
     memcpy(s.other.bytes, kept, s.other.size);
   }
-  assert_in_range(taken, 1, 19999); /* words of the state are taken, others are not */
+  assert_in_range(taken, 1, 19999); /* states may change, sizes and counts may not */
   free(kept);
   assert_int_equal(baum_simulation_restore(s.run, s.before.bytes, s.before.size), BAUM_OK);
   close_scene(&s);
 }
 
-/* A size that a saved run cannot have, and each word replaced by 0: one says that a driver has no
- * law. */
-static void sizes_and_laws_that_cannot_be(void **state)
+/* An impossible size is refused; so is a word replaced by 0 that says that a driver has no law. */
+static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = NULL;
@@ -253,7 +253,7 @@ static void sizes_and_laws_that_cannot_be(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void other_versions(void **state)
+static void buffers_of_other_versions_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -276,7 +276,7 @@ static void other_versions(void **state)
 
 /* ---- buffers of something else ---- */
 
-/* A slider-crank whose rod is a little heavier, or with another joint. */
+/* A slider-crank with the given rod mass, or with an additional joint. */
 static baum_mechanism *crank(double rod_mass, bool doubled)
 {
   model m;
@@ -288,7 +288,7 @@ static baum_mechanism *crank(double rod_mass, bool doubled)
   return mechanism;
 }
 
-static void other_mechanisms(void **state)
+static void buffers_of_other_mechanisms_are_refused(void **state)
 {
   (void)state;
   baum_mechanism *mechanisms[4] = {pendulum(), crank(0.1, false), crank(0.1 + 1e-16, false),
@@ -369,7 +369,7 @@ static void use_row_gains(baum_simulation_options *o)
   o->row_gain_count = 1;
 }
 
-static void runs_with_other_options(void **state)
+static void buffers_of_runs_with_other_options_are_refused(void **state)
 {
   (void)state;
   static const other_options cases[] = {
@@ -395,7 +395,7 @@ static void runs_with_other_options(void **state)
   close_scene(&s);
 }
 
-static void foreign_bytes(void **state)
+static void bytes_that_no_run_has_saved_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -403,13 +403,13 @@ static void foreign_bytes(void **state)
   check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
   memset(zeros, 0xff, sizeof zeros);
   check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
-  check_refused(s.run, s.run, 64, "not written by baum_simulation_save()"); /* not even of bytes */
+  check_refused(s.run, s.run, 64, "not written by baum_simulation_save()"); /* the bytes of a run */
   close_scene(&s);
 }
 
 /* ---- calls ---- */
 
-static void wrong_calls(void **state)
+static void wrong_arguments_are_refused(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -427,8 +427,8 @@ static void wrong_calls(void **state)
   close_scene(&s);
 }
 
-/* A buffer may be longer than what was saved, and stay for a whole run: its size is told once. */
-static void what_is_behind_a_saved_run_does_not_matter(void **state)
+/* A buffer may be larger than its saved run: the rest is ignored. */
+static void bytes_after_a_saved_run_are_ignored(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -443,8 +443,8 @@ static void what_is_behind_a_saved_run_does_not_matter(void **state)
   close_scene(&s);
 }
 
-/* Jumps of inputs in a sealed buffer are looked at, too: one of an input that is not there would
- * write anywhere. */
+/* Scheduled inputs are checked even if the checksum is right, because restore would write to a
+ * wrong address for an input that does not exist. */
 static void schedules_out_of_order_are_refused(void **state)
 {
   (void)state;
@@ -456,8 +456,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_simulation *run = start(parts.mechanism, &o, 0.01);
   assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, 2), BAUM_OK);
   saved s = save(run);
-  /* The second jump is where its value before stands for the second time: it was the first's
-   * after. */
+  /* Finds the record of the second jump: its value before the jump is values[0], which is also the
+   * value after the first jump. */
   size_t at = 0;
   for (size_t k = HEAD; k + 8 <= s.size; k += 8) {
     at = memcmp(s.bytes + k, &values[0], sizeof *values) == 0 ? k - BEFORE * sizeof *values : at;
@@ -488,8 +488,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Saved before a law was set, restored after. */
-static void laws_that_were_set_later_are_gone(void **state)
+/* Saved before a law is set, restored afterwards: the law and the input are gone. */
+static void restoring_removes_laws_that_were_set_later(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -515,19 +515,19 @@ static void laws_that_were_set_later_are_gone(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(cut_off_at_every_length),
-    cmocka_unit_test(every_byte_changed),
-    cmocka_unit_test(two_signs_changed),
-    cmocka_unit_test(random_bytes_under_a_good_checksum),
-    cmocka_unit_test(sizes_and_laws_that_cannot_be),
-    cmocka_unit_test(other_versions),
-    cmocka_unit_test(other_mechanisms),
-    cmocka_unit_test(runs_with_other_options),
-    cmocka_unit_test(foreign_bytes),
-    cmocka_unit_test(wrong_calls),
-    cmocka_unit_test(what_is_behind_a_saved_run_does_not_matter),
+    cmocka_unit_test(buffers_truncated_at_any_length_are_refused),
+    cmocka_unit_test(buffers_with_any_changed_bit_are_refused),
+    cmocka_unit_test(buffers_with_two_changed_signs_are_refused),
+    cmocka_unit_test(random_bytes_with_a_valid_checksum_are_harmless),
+    cmocka_unit_test(impossible_sizes_and_laws_are_refused),
+    cmocka_unit_test(buffers_of_other_versions_are_refused),
+    cmocka_unit_test(buffers_of_other_mechanisms_are_refused),
+    cmocka_unit_test(buffers_of_runs_with_other_options_are_refused),
+    cmocka_unit_test(bytes_that_no_run_has_saved_are_refused),
+    cmocka_unit_test(wrong_arguments_are_refused),
+    cmocka_unit_test(bytes_after_a_saved_run_are_ignored),
     cmocka_unit_test(schedules_out_of_order_are_refused),
-    cmocka_unit_test(laws_that_were_set_later_are_gone),
+    cmocka_unit_test(restoring_removes_laws_that_were_set_later),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

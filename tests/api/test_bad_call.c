@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function with NULL and at the wrong stage. Those of elements are in
- * test_bad_definition.c, those of stabilization.h in tests/unit/test_stability.c too. */
+/* Every public function with NULL arguments and at the wrong stage. Functions of elements are
+ * tested in test_bad_definition.c, those of stabilization.h also in tests/unit/test_stability.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -72,7 +72,7 @@ static void calls_on_no_mechanism_are_refused(void **state)
   baum_mechanism_destroy(NULL);
 }
 
-static void a_draft_can_be_examined(void **state)
+static void an_open_mechanism_can_be_examined(void **state)
 {
   (void)state;
   every_element parts = {.fault = NULL};
@@ -179,7 +179,7 @@ static void reports_are_cut_to_the_callers_size(void **state)
 
 /* ---- dynamics.h ---- */
 
-/* Everything that a call on a workspace may take. */
+/* All arguments that a call on a workspace may have. */
 typedef struct arguments {
   baum_workspace *w;
   double t;
@@ -214,7 +214,7 @@ CALL(residual_jacobian, a->dae, 1.0, a->t, a->y, a->y, a->sparse)
 CALL(assemble, a->t, a->q, a->v, NULL, 0)
 CALL(project, a->t, a->q, a->v)
 
-/* Which arguments a call may not have as NULL, or not finite. */
+/* For each function: the arguments that must not be NULL, and those that must be finite. */
 typedef struct workspace_row {
   const char *name;
   workspace_call *call;
@@ -344,7 +344,7 @@ static void workspaces_refuse_the_rest_by_name(void **state)
               "joint is none");
   ASSERT_SAYS(baum_workspace_assemble(w, 0.0, q, v, NULL, 1), BAUM_ERR_ARGUMENT, "held is NULL");
   ASSERT_SAYS(baum_workspace_assemble(w, 0.0, q, v, &parts.bob, -1), BAUM_ERR_ARGUMENT,
-              "held_count (-1) negative");
+              "held_count (-1) is negative");
   ASSERT_SAYS(baum_workspace_assemble(w, 0.0, q, v, &others.bob, 1), BAUM_ERR_ARGUMENT,
               "held is not of this mechanism");
   baum_workspace_destroy(w);
@@ -355,7 +355,7 @@ static void workspaces_refuse_the_rest_by_name(void **state)
 
 /* ---- stabilization.h ---- */
 
-static void questions_about_stability_refuse_null(void **state)
+static void functions_of_stability_refuse_null(void **state)
 {
   (void)state;
   baum_amplification out;
@@ -382,7 +382,7 @@ static void questions_about_stability_refuse_null(void **state)
 
 /* ---- simulation.h ---- */
 
-static void facts_about_integrators_take_null_and_unknown_values(void **state)
+static void descriptions_of_integrators_accept_null_and_unknown_values(void **state)
 {
   (void)state;
   assert_null(baum_integrator_name(NULL));
@@ -481,14 +481,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(texts_are_never_null),
     cmocka_unit_test(calls_on_no_mechanism_are_refused),
-    cmocka_unit_test(a_draft_can_be_examined),
+    cmocka_unit_test(an_open_mechanism_can_be_examined),
     cmocka_unit_test(calls_that_need_a_frozen_mechanism_refuse_an_open_one),
     cmocka_unit_test(outputs_of_a_mechanism_may_not_be_null_unless_they_may),
     cmocka_unit_test(reports_are_cut_to_the_callers_size),
     cmocka_unit_test(calls_on_a_workspace_refuse_null_and_what_is_not_finite),
     cmocka_unit_test(workspaces_refuse_the_rest_by_name),
-    cmocka_unit_test(questions_about_stability_refuse_null),
-    cmocka_unit_test(facts_about_integrators_take_null_and_unknown_values),
+    cmocka_unit_test(functions_of_stability_refuse_null),
+    cmocka_unit_test(descriptions_of_integrators_accept_null_and_unknown_values),
     cmocka_unit_test(calls_on_no_run_are_refused),
     cmocka_unit_test(outputs_of_a_run_may_not_be_null),
     cmocka_unit_test(a_run_and_a_workspace_keep_their_mechanism_alive),

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, ids and mechanisms that are refused, with the message, and nothing changed. */
+/* Definitions, ids and mechanisms that are refused: each test compares the message and checks that
+ * nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +19,8 @@ static const any_id SENTINEL = {77, 88};
 
 enum { PARTS_SIZE = 160 };
 
-/* How many elements there are, seen from outside: a frozen copy is sized. */
+/* Checks the numbers of velocities and rows on a frozen copy, because sizes are known only after
+ * freeze. */
 static void check_size(const baum_mechanism *mechanism, int nv, int nc)
 {
   baum_mechanism *copy = NULL;
@@ -31,7 +33,7 @@ static void check_size(const baum_mechanism *mechanism, int nv, int nc)
   baum_mechanism_destroy(copy);
 }
 
-/* Refused by add, with the id as it was, and by set, with the definition as it was. */
+/* Add refuses the definition and leaves the id unchanged; set refuses it and keeps the old one. */
 static void check_refused(every_element *parts, const element_kind *kind, const any_def *def,
                           baum_status want, const char *message)
 {
@@ -49,7 +51,7 @@ static void check_refused(every_element *parts, const element_kind *kind, const 
 
 typedef void kind_check(every_element *parts, const element_kind *kind);
 
-/* The check for each kind on one open mechanism, which is the same afterwards. */
+/* Runs a check for each kind on one open mechanism, and compares its size afterwards. */
 static void for_every_kind(kind_check *check)
 {
   every_element parts = {.fault = NULL};
@@ -146,7 +148,7 @@ static void null_is_refused_by_add_get_and_set(void **state)
 
 /* ---- numbers ---- */
 
-/* A name as in messages: body 1 "crank". */
+/* The message names the element as in body 1 "crank". */
 static void check_number(every_element *parts, const element_kind *kind, const element_field *field,
                          size_t i, double bad)
 {
@@ -166,12 +168,12 @@ static bool begins(const char *text, const char *with)
   return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* NaN says "not given" in these. */
+/* In these fields NaN means "not given". */
 static bool may_be_nan(const char *name)
 {
   return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
-         begins(name, "free_length") || begins(name, "free_angle") || begins(name, "offset") ||
-         strcmp(name, "angle") == 0;
+         begins(name, "free_length") || begins(name, "free_angle") || begins(name, "free_value") ||
+         begins(name, "offset") || strcmp(name, "angle") == 0;
 }
 
 static void check_not_finite(every_element *parts, const element_kind *kind)
@@ -182,7 +184,7 @@ static void check_not_finite(every_element *parts, const element_kind *kind)
     bool nan_is_fine = may_be_nan(field->name) && kind != &element_kinds[0];
     nan_is_fine = nan_is_fine || begins(field->name, "velocity") ||
                   begins(field->name, "angular_velocity") || begins(field->name, "point") ||
-                  begins(field->name, "axis_b");
+                  begins(field->name, "axis_b") || begins(field->name, "x_axis");
     for (size_t i = 0; field->type == FIELD_NUMBERS && i < field->size / sizeof(double); i++) {
       check_number(parts, kind, field, i, (double)INFINITY);
       check_number(parts, kind, field, i, -(double)INFINITY);
@@ -255,7 +257,7 @@ static void check_ids(every_element *parts, const element_kind *kind)
     memcpy(&good, def.bytes + field->offset, sizeof good);
     uint32_t tag = parts->crank.tag;
     const any_id bad[] = {{0, 0}, {0, tag}, {1, tag + 1}, {1, 0}, {99, tag}, {-1, tag}, {-7, 0}};
-    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* which may be none */
+    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* the first input may be none */
     for (size_t i = first; i < sizeof bad / sizeof *bad; i++) {
       memcpy(def.bytes + field->offset, &bad[i], sizeof bad[i]);
       (void)snprintf(message, sizeof message, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
@@ -369,7 +371,7 @@ static void ids_stay_valid_in_copies_and_only_there(void **state)
 
 /* ---- ties ---- */
 
-static void what_an_element_is_tied_to_must_stay(void **state)
+static void set_refuses_other_bodies_and_sizes(void **state)
 {
   (void)state;
   every_element parts = {.fault = NULL};
@@ -436,7 +438,7 @@ static void gravity_and_scale_out_of_range_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* What only freezing can see: the other definitions it depends on. */
+/* Errors that only freeze can find, because they involve the definition of another element. */
 static void freezing_refuses_points_that_do_not_fit(void **state)
 {
   (void)state;
@@ -462,7 +464,7 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* It was at `point` when the slot was added; freezing sees where it is designed now. */
+/* The particle was at `point` when the slot was added; freeze compares its present position. */
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;
@@ -479,7 +481,7 @@ static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state
   slot.point[0] = 0.0;
   slot.point[1] = 0.0;
   assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &id), BAUM_OK);
-  bead.position[0] = 0.5; /* along the slot: its row would hold */
+  bead.position[0] = 0.5; /* along the slot: the constraint would still be fulfilled */
   assert_int_equal(baum_mechanism_set_planar_particle(mechanism, slot.body_b, &bead), BAUM_OK);
   for (int again = 0; again < 2; again++) {
     ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
@@ -519,13 +521,14 @@ static void check_too_large(baum_mechanism *mechanism, const char *element)
 {
   char message[120];
   (void)snprintf(message, sizeof message,
-                 "%s|the mechanism has more than 2147483647 matrix entries here", element);
+                 "%s|with this element the mechanism has more than 2147483647 matrix entries",
+                 element);
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT, message);
   assert_false(baum_mechanism_is_frozen(mechanism));
   baum_mechanism_destroy(mechanism);
 }
 
-/* 10000^2 of a mass, of rows and of a force, of which 21 can be counted. */
+/* Each matrix has 10000^2 = 1e8 entries. An int32_t can count 21 of them. */
 static void freezing_refuses_matrices_too_large_to_count(void **state)
 {
   (void)state;
@@ -544,7 +547,8 @@ static void freezing_refuses_matrices_too_large_to_count(void **state)
   }
   check_too_large(mechanism, "joint 22 ");
 
-  /* One of three bodies has 9e8 numbers, and needs thrice as many to find them. */
+  /* The force couples all three bodies: 3e4 x 3e4 = 9e8 entries, and three times as many
+   * indices. */
   mechanism = make_huge(3, ids);
   baum_user_force_def force = baum_user_force_def_default();
   force.bodies = ids;
@@ -567,7 +571,7 @@ int main(void)
     cmocka_unit_test(ids_of_another_kind_of_element_are_refused),
     cmocka_unit_test(a_joint_of_a_body_to_itself_is_refused),
     cmocka_unit_test(ids_stay_valid_in_copies_and_only_there),
-    cmocka_unit_test(what_an_element_is_tied_to_must_stay),
+    cmocka_unit_test(set_refuses_other_bodies_and_sizes),
     cmocka_unit_test(nothing_is_added_or_set_after_freeze),
     cmocka_unit_test(gravity_and_scale_out_of_range_are_refused),
     cmocka_unit_test(freezing_refuses_points_that_do_not_fit),

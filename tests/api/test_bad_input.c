@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs and laws of drivers that are refused, with the message, and nothing changed. */
+/* Inputs and laws of drivers that are refused: each test compares the message and checks that
+ * nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -91,7 +92,7 @@ static void a_frozen_mechanism_keeps_its_inputs(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void questions_about_inputs_take_null_and_foreign_ids(void **state)
+static void reading_inputs_refuses_null_and_foreign_ids(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -195,14 +196,14 @@ static void a_run_refuses_bad_schedules(void **state)
   ASSERT_SAYS(baum_simulation_schedule_input(run, u, same, rising, 3), BAUM_ERR_ARGUMENT,
               "times[1] is 1 s, must be above times[0], which is 1 s");
   assert_string_equal(baum_simulation_message(run), "");
-  assert_int_equal(baum_simulation_step(run, 1), BAUM_OK); /* nothing of theirs is there */
+  assert_int_equal(baum_simulation_step(run, 1), BAUM_OK); /* no schedule is in effect */
   assert_true(baum_simulation_input(run, u) == 1.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
   baum_mechanism_destroy(others.mechanism);
 }
 
-/* Where the crank is after 0.1 s: refused laws leave it with its own. */
+/* Angle of the crank after 0.1 s. After a refused law it must be that of the untouched run. */
 static double crank_angle(baum_simulation *run, baum_joint_id pin)
 {
   double row[2];
@@ -254,7 +255,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_mechanism_refuses_bad_inputs),
     cmocka_unit_test(a_frozen_mechanism_keeps_its_inputs),
-    cmocka_unit_test(questions_about_inputs_take_null_and_foreign_ids),
+    cmocka_unit_test(reading_inputs_refuses_null_and_foreign_ids),
     cmocka_unit_test(a_workspace_refuses_bad_inputs),
     cmocka_unit_test(a_run_refuses_bad_inputs),
     cmocka_unit_test(a_run_refuses_bad_schedules),

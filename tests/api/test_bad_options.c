@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options, starts, targets and channels that are refused, with the message, and nothing
- * changed. */
+/* Options, starts, targets and channels that are refused: each test compares the message and checks
+ * that nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -75,7 +75,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* One field of good options, for a fixed step or a tolerance, replaced. */
+/* A value for one field of otherwise good options, with fixed or variable step, and the message. */
 typedef struct bad_option {
   bool variable;
   size_t offset;
@@ -136,7 +136,7 @@ static void numbers_out_of_range_and_of_the_other_kind_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void choices_that_are_none_are_refused(void **state)
+static void invalid_choices_are_refused(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -167,7 +167,7 @@ static void choices_that_are_none_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Refused pairs name all that is offered, and what is offered is accepted. */
+/* An integrator refuses a formulation with the list of those that it offers, and accepts those. */
 static void check_pair(const baum_mechanism *mechanism, const baum_integrator *integrator,
                        baum_formulation formulation)
 {
@@ -314,7 +314,7 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The pair "(0.1234, 0.5678), that is alpha" in the message. */
+/* Reads the pair from a message such as "nearest good pair: (0.1234, 0.5678), that is alpha". */
 static void read_nearest(double good[2])
 {
   const char *text = strstr(baum_message(), "nearest good pair: (");
@@ -390,7 +390,7 @@ static baum_simulation *make_run(const every_element *parts)
   return run;
 }
 
-/* Time, q, v of a run, to be compared. */
+/* Time, q and v of a run, for comparison. */
 typedef struct snapshot {
   double t;
   double q[EVERY_NQ];
@@ -411,7 +411,7 @@ static void check_unchanged(const baum_simulation *run, const snapshot *before)
   assert_memory_equal(&now, before, sizeof now);
 }
 
-static void targets_that_are_none_change_nothing(void **state)
+static void invalid_targets_are_refused_and_change_nothing(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -463,7 +463,7 @@ static void sample_times_that_are_not_monotone_change_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void a_state_that_is_none_changes_nothing(void **state)
+static void an_invalid_state_is_refused_and_changes_nothing(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -480,7 +480,7 @@ static void a_state_that_is_none_changes_nothing(void **state)
   s.v[5] = (double)INFINITY;
   ASSERT_SAYS(baum_simulation_set_state(run, 0.0, s.q, s.v), BAUM_ERR_ARGUMENT, "v[5] is inf");
   s = before;
-  s.v[2] += 1.0; /* the motor says otherwise */
+  s.v[2] += 1.0; /* contradicts the motor's prescribed velocity */
   ASSERT_SAYS(baum_simulation_set_state(run, 0.05, s.q, s.v), BAUM_ERR_INCONSISTENT, "\"motor\"");
   assert_string_equal(baum_simulation_message(run), baum_message());
   check_unchanged(run, &before);
@@ -509,6 +509,13 @@ static void check_channel(baum_simulation *run, const every_element *parts, baum
   assert_true(row[0] == 7.0);
 }
 
+static baum_channel bad_coordinate(baum_joint_id joint, baum_joint_coordinate coordinate)
+{
+  baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, joint);
+  channel.coordinate = coordinate;
+  return channel;
+}
+
 static void channels_that_do_not_fit_are_refused(void **state)
 {
   (void)state;
@@ -520,8 +527,8 @@ static void channels_that_do_not_fit_are_refused(void **state)
     baum_channel channel;
     const char *message;
   } bad[] = {
-    {baum_channel_of((baum_quantity)0), "channel 1: quantity is no baum_quantity"},
-    {baum_channel_of((baum_quantity)15), "channel 1: quantity is no baum_quantity"},
+    {baum_channel_of((baum_quantity)0), "channel 1: quantity is not a baum_quantity"},
+    {baum_channel_of((baum_quantity)15), "channel 1: quantity is not a baum_quantity"},
     {baum_channel_of(BAUM_BODY_POSE), "channel 1: body is none or not of this mechanism"},
     {baum_channel_of_body(BAUM_BODY_POSE, others.crank), "channel 1: body is none or not of"},
     {baum_channel_of_body(BAUM_BODY_VELOCITY, BAUM_GROUND), "channel 1: ground has no pose"},
@@ -530,7 +537,14 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {baum_channel_of_joint(BAUM_PHI, others.pin), "channel 1: joint is not of this mechanism"},
     {baum_channel_of(BAUM_JOINT_REACTION), "channel 1: joint is none or not of this mechanism"},
     {baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.rod),
-     "channel 1: joint is a planar distance joint, which has no coordinate"},
+     "channel 1: joint is joint 2 \"rod\", a planar distance joint, which has no coordinate to "
+     "record"},
+    {bad_coordinate(parts.sleeve, BAUM_COORDINATE_X),
+     "channel 1: coordinate is \"x\", but joint 22 \"sleeve\", a spatial cylindrical joint, has "
+     "\"displacement\", \"angle\""},
+    {bad_coordinate(parts.pin, (baum_joint_coordinate)17),
+     "channel 1: coordinate is \"unknown\", but joint 1 \"pin\", a planar revolute joint, has "
+     "\"angle\""},
     {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "channel 1: only drivers have an effort"},
     {baum_channel_of(BAUM_DRIVE_EFFORT), "channel 1: joint is none or not of this mechanism"},
     {baum_channel_of_body(BAUM_BODY_ACCELERATION, BAUM_GROUND), "channel 1: ground has no pose"},
@@ -568,7 +582,7 @@ int main(void)
     cmocka_unit_test(a_missing_integrator_is_refused_with_the_list),
     cmocka_unit_test(a_wrong_struct_size_or_null_is_refused),
     cmocka_unit_test(numbers_out_of_range_and_of_the_other_kind_are_refused),
-    cmocka_unit_test(choices_that_are_none_are_refused),
+    cmocka_unit_test(invalid_choices_are_refused),
     cmocka_unit_test(impossible_pairs_are_refused_with_what_is_offered),
     cmocka_unit_test(integrators_that_are_not_built_in_refuse_by_name),
     cmocka_unit_test(gains_with_a_formulation_that_has_none_are_refused),
@@ -576,9 +590,9 @@ int main(void)
     cmocka_unit_test(pairs_take_either_a_step_or_a_tolerance),
     cmocka_unit_test(unstable_gains_are_refused_and_the_nearest_good_pair_runs),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_warn),
-    cmocka_unit_test(targets_that_are_none_change_nothing),
+    cmocka_unit_test(invalid_targets_are_refused_and_change_nothing),
     cmocka_unit_test(sample_times_that_are_not_monotone_change_nothing),
-    cmocka_unit_test(a_state_that_is_none_changes_nothing),
+    cmocka_unit_test(an_invalid_state_is_refused_and_changes_nothing),
     cmocka_unit_test(channels_that_do_not_fit_are_refused),
     cmocka_unit_test(a_point_of_a_channel_that_is_not_finite_is_refused),
   };

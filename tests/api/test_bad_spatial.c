@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is refused in space alone, with the message: orientations, inertias, axes, points on
- * particles, bodies of the wrong kind, and joints that are mounted the wrong way round. */
+/* Errors that only spatial elements can have, with their messages: orientations, inertias,
+ * axes, points on particles, bodies of the wrong kind, and joints that are mounted the wrong
+ * way round. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +25,7 @@ static bool begins(const char *text, const char *with)
   return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* False where the kind has no such field. */
+/* Sets a field by name; returns false if the kind has no such field. */
 static bool set_field(any_def *def, const element_kind *kind, const char *name, const void *bytes)
 {
   const element_fields fields = element_fields_of(kind);
@@ -37,8 +38,8 @@ static bool set_field(any_def *def, const element_kind *kind, const char *name, 
   return false;
 }
 
-/* The good definition with other bytes in one field, refused by add and set; false where the kind
- * has no such field. */
+/* Replaces one field of the good definition and expects that add and set refuse it; returns false
+ * if the kind has no such field. */
 static bool refuses(const every_element *parts, const element_kind *kind, const char *field,
                     const void *bytes, const char *message)
 {
@@ -123,7 +124,7 @@ static void inertias_of_no_body_are_refused(void **state)
     assert_true(
       refuses(&parts, kind_of("spatial_body"), "inertia", bad[k].inertia, bad[k].message));
   }
-  /* A plate, at the limit, turned by 45 degrees. */
+  /* Inertia of a plate (xx = yy + zz, the limit case), in axes rotated by 45 degrees. */
   static const double plate[6] = {1.5, 1.5, 1.0, 0.5, 0.0, 0.0};
   baum_spatial_body_def def = baum_spatial_body_def_default();
   memcpy(def.inertia, plate, sizeof plate);
@@ -158,7 +159,7 @@ static void axes_without_direction_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Its length does not matter. */
+/* Axes of very small length are accepted. */
 static void the_shortest_axis_has_a_direction(void **state)
 {
   (void)state;
@@ -181,7 +182,7 @@ static void check_bodies(const every_element *parts, const element_kind *kind)
 {
   const struct {
     const char *name;
-    int oriented; /* 1: body_a, 2: body_b, 3: both */
+    int oriented; /* which bodies must have an orientation: 1 body_a, 2 body_b, 3 both */
   } needs[] = {{"spatial_revolute", 3},      {"spatial_universal", 3},
                {"spatial_cylindrical", 3},   {"spatial_prismatic", 3},
                {"spatial_planar", 3},        {"spatial_fixed", 3},
@@ -224,15 +225,33 @@ static void bodies_of_the_wrong_kind_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void couplings_of_joints_in_space_are_refused(void **state)
+static void coordinates_that_joints_do_not_have_are_refused(void **state)
 {
   (void)state;
   every_element parts = open_parts();
   const element_kind *kind = kind_of("coupling");
-  assert_true(refuses(&parts, kind, "joint_a", &parts.bearing,
-                      "joint_a is joint |\"bearing\", a joint in space, which cannot be coupled"));
-  assert_true(refuses(&parts, kind, "joint_b", &parts.slide,
-                      "joint_b is joint |\"slide\", a joint in space, which cannot be coupled"));
+  const baum_joint_coordinate x = BAUM_COORDINATE_X;
+  const struct {
+    const char *kind;
+    const char *field;
+    const char *message;
+  } bad[] = {
+    {"coupling", "coordinate_a",
+     "coordinate_a is \"x\", but joint |\"pin\", a planar "
+     "revolute joint, has \"angle\""},
+    {"coupling", "coordinate_b", "coordinate_b is \"x\", but |, has \"displacement\""},
+    {"driver", "coordinate", "coordinate is \"x\", but joint |\"pin\", a planar revolute joint"},
+    {"spline_driver", "coordinate", "coordinate is \"x\", but joint |\"hinge\""},
+    {"joint_spring", "coordinate",
+     "coordinate is \"x\", but joint |\"sleeve\", a spatial "
+     "cylindrical joint, has \"displacement\", \"angle\""},
+  };
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    assert_true(refuses(&parts, kind_of(bad[k].kind), bad[k].field, &x, bad[k].message));
+  }
+  assert_true(refuses(&parts, kind_of("joint_spring"), "joint", &parts.clamp,
+                      "joint is joint |\"clamp\", a spatial fixed joint, which has no coordinate "
+                      "for a spring"));
   assert_true(refuses(&parts, kind, "joint_b", &parts.socket,
                       "joint_b is joint |\"socket\", a spatial spherical joint, which has no "
                       "coordinate to couple"));
@@ -266,14 +285,14 @@ static void points_are_given_in_one_way_only(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The ball may still be moved, therefore freezing looks. */
+/* Only freeze compares the point and the particle, since the ball may be moved until then. */
 static void freezing_refuses_a_point_off_its_particle(void **state)
 {
   (void)state;
   every_element parts = open_parts();
   baum_spatial_particle_def ball;
   check(baum_mechanism_get_spatial_particle(parts.mechanism, parts.ball, &ball, sizeof ball));
-  ball.name = "ball"; /* the one read belongs to the definition that is replaced */
+  ball.name = "ball"; /* replaces the name that was read, which belongs to the old definition */
   ball.position[1] += 1e-6;
   check(baum_mechanism_set_spatial_particle(parts.mechanism, parts.ball, &ball));
   ASSERT_SAYS(baum_mechanism_freeze(parts.mechanism), BAUM_ERR_ARGUMENT,
@@ -317,7 +336,7 @@ static void loads_that_a_particle_cannot_take_are_refused(void **state)
 
 /* ---- opposite axes ---- */
 
-/* A body at a joint with the axes z of ground and axis_b of the body; axis_b may be NULL. */
+/* Joins a body to ground, with axis z in ground and axis_b in the body; axis_b may be NULL. */
 static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);
@@ -361,6 +380,27 @@ static void freezing_refuses_opposite_axes(void **state)
   }
 }
 
+static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
+{
+  (void)state;
+  static const double along[3] = {1e-7, 0.0, -2.0};
+  static const double z[3] = {0.0, 0.0, 1.0};
+  baum_mechanism *mechanism = mount("spatial_universal", along);
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
+              "\"mount\": axis and axis_b are parallel in the design configuration, must be "
+              "perpendicular");
+  baum_mechanism_destroy(mechanism);
+  mechanism = mount("spatial_planar", NULL);
+  baum_joint_id id = baum_mechanism_joint_at(mechanism, 0);
+  baum_spatial_planar_def def;
+  check(baum_mechanism_get_spatial_planar(mechanism, id, &def, sizeof def));
+  memcpy(def.x_axis, z, sizeof z);
+  check(baum_mechanism_set_spatial_planar(mechanism, id, &def));
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
+              "\"mount\": x_axis is along axis, must not be");
+  baum_mechanism_destroy(mechanism);
+}
+
 /* From an orientation in which the rows are fulfilled, but in which nobody mounts the joint. */
 static void check_reversed(const char *kind, const double orientation[4])
 {
@@ -393,13 +433,43 @@ static void assembly_refuses_joints_that_end_the_wrong_way_round(void **state)
   (void)state;
   static const double about_x[4] = {0.0, 1.0, 0.0, 0.0};
   static const double about_z[4] = {0.0, 0.0, 0.0, 1.0};
-  static const double third[4] = {0.5, 0.5, 0.5, 0.5}; /* of a revolution about (1, 1, 1) */
+  static const double third[4] = {0.5, 0.5, 0.5, 0.5}; /* rotation by 120 degrees about (1, 1, 1) */
   for (size_t k = 0; k < sizeof directed / sizeof *directed; k++) {
     check_reversed(directed[k], about_x);
   }
   check_reversed("spatial_prismatic", about_z);
   check_reversed("spatial_fixed", about_z);
   check_reversed("spatial_fixed", third);
+}
+
+/* A body turned by 1.2 rad from where its two spherical joints hold it. */
+static void a_body_turned_too_far_off_is_refused(void **state)
+{
+  (void)state;
+  const double turned[3] = {cos(1.2), sin(1.2), 0.0};
+  baum_mechanism *mechanism = NULL;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_spatial_body_def body = baum_spatial_body_def_default();
+  body.name = "bar";
+  baum_spatial_spherical_def joint = baum_spatial_spherical_def_default();
+  joint.body_a = BAUM_GROUND;
+  assert_int_equal(baum_mechanism_add_spatial_body(mechanism, &body, &joint.body_b), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    for (int i = 0; i < 3; i++) {
+      joint.point_a[i] = k * turned[i];
+      joint.point_b[i] = k * (i == 0);
+    }
+    assert_int_equal(baum_mechanism_add_spatial_spherical(mechanism, &joint, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_euler();
+  options.step = 1e-3;
+  baum_simulation *run = NULL;
+  ASSERT_SAYS(baum_simulation_create(mechanism, &options, &run), BAUM_ERR_INCONSISTENT,
+              "assembly would move body 1 \"bar\" by 1.2 rad, more than 1 rad");
+  assert_null(run);
+  baum_mechanism_destroy(mechanism);
 }
 
 int main(void)
@@ -410,12 +480,14 @@ int main(void)
     cmocka_unit_test(axes_without_direction_are_refused),
     cmocka_unit_test(the_shortest_axis_has_a_direction),
     cmocka_unit_test(bodies_of_the_wrong_kind_are_refused),
-    cmocka_unit_test(couplings_of_joints_in_space_are_refused),
+    cmocka_unit_test(coordinates_that_joints_do_not_have_are_refused),
     cmocka_unit_test(points_are_given_in_one_way_only),
     cmocka_unit_test(freezing_refuses_a_point_off_its_particle),
     cmocka_unit_test(loads_that_a_particle_cannot_take_are_refused),
     cmocka_unit_test(freezing_refuses_opposite_axes),
+    cmocka_unit_test(freezing_refuses_axes_that_leave_coordinates_open),
     cmocka_unit_test(assembly_refuses_joints_that_end_the_wrong_way_round),
+    cmocka_unit_test(a_body_turned_too_far_off_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Starts that are inconsistent, and functions of the user that fail: named, and a run keeps its
+/* Inconsistent starts and failing user functions: messages name the cause, and the run keeps its
  * last good step. */
 #include <math.h>
 #include <setjmp.h>
@@ -41,7 +41,7 @@ typedef struct bead_def {
   double y;
   double v[2];
   double length;
-  double second_length; /* of a second rod, or 0 for none */
+  double second_length; /* length of a second rod, or 0 for none */
   bool held;
 } bead_def;
 
@@ -88,7 +88,7 @@ static void check_bead_refused(const bead_def *def, baum_start start, const char
   baum_mechanism_destroy(mechanism);
 }
 
-static void exact_refuses_a_configuration_that_is_not(void **state)
+static void an_exact_start_refuses_positions_off_the_constraints(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -97,7 +97,7 @@ static void exact_refuses_a_configuration_that_is_not(void **state)
                      "t = 0 s: start is exact, but joint 1 \"rod\" has Phi = -0.00995 m or rad");
 }
 
-static void exact_refuses_velocities_that_are_not(void **state)
+static void an_exact_start_refuses_velocities_off_the_constraints(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -163,6 +163,82 @@ static void a_design_too_far_off_is_refused(void **state)
     &def, BAUM_START_ASSEMBLE,
     "assembly would move body 1 \"bead\" by 1 m, more than| m; the design configuration|"
     "\"rod\"|closer");
+}
+
+/* An arm of three bars, designed straight, whose joints all begin at 2.5 rad. */
+static void drivers_may_begin_away_from_the_design(void **state)
+{
+  (void)state;
+  enum { BARS = 3 };
+  const double start = 2.5;
+  baum_mechanism *mechanism = NULL;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_driver_def motor = baum_driver_def_default();
+  motor.value = start;
+  pin.body_a = BAUM_GROUND;
+  for (int k = 0; k < BARS; k++) {
+    baum_planar_body_def bar = baum_planar_body_def_default();
+    bar.position[0] = 0.5 + k;
+    pin.point[0] = k;
+    pin.point[1] = 0.0;
+    assert_int_equal(baum_mechanism_add_planar_body(mechanism, &bar, &pin.body_b), BAUM_OK);
+    assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &motor.joint), BAUM_OK);
+    assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
+    pin.body_a = pin.body_b;
+  }
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  ASSERT_NEAR(counters.start_change, 0.0, 1e-12, 0.0);
+  double x = 0.0;
+  for (int k = 0; k < BARS; k++) {
+    const double angle = (k + 1) * start;
+    const double *q = baum_simulation_q(run) + 3 * (ptrdiff_t)k;
+    ASSERT_NEAR(q[0], x + 0.5 * cos(angle), 1e-12, 0.0);
+    ASSERT_NEAR(q[2], angle, 1e-12, 0.0);
+    x += cos(angle);
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* A bar on a pin reaches only 1 m, but the driver of its tip begins at 3 m. */
+static void drivers_that_begin_out_of_reach_are_refused(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_body_def bar = baum_planar_body_def_default();
+  bar.position[0] = 0.6;
+  bar.position[1] = 0.8;
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.body_a = BAUM_GROUND;
+  rod.point_a[0] = rod.point_a[1] = rod.point_b[0] = rod.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &bar, &rod.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_distance(mechanism, &rod, NULL), BAUM_OK);
+  baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
+  slot.body_a = BAUM_GROUND;
+  slot.body_b = rod.body_b;
+  slot.point[0] = 0.6;
+  slot.point[1] = 0.8;
+  baum_driver_def motor = baum_driver_def_default();
+  assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &motor.joint), BAUM_OK);
+  motor.name = "motor";
+  motor.value = 3.0;
+  assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  baum_simulation *run = NULL;
+  ASSERT_SAYS(baum_simulation_create(mechanism, &o, &run), BAUM_ERR_INCONSISTENT,
+              "contradict each other|\"motor\"");
+  baum_mechanism_destroy(mechanism);
 }
 
 static void a_rough_design_is_assembled_and_reported(void **state)
@@ -241,13 +317,13 @@ static void check_readable(baum_simulation *run)
   assert_true(counters.steps > 0);
 }
 
-/* Steps up to the place where a function begins to fail, then what can still be read and done. */
+/* Steps until a function begins to fail, then reads from the run and continues it. */
 static void check_fault_on_the_way(step_mode mode, int f)
 {
   every_fault fault = {.answer = faults[f].answer, .fails = true, .after = 0.0505};
   every_element parts = every_element_make(&fault);
   baum_simulation_options o = start_options(mode);
-  /* The first step of rk8 may otherwise be the one that fails. */
+  /* Otherwise the first step of rk8 could be the one that fails. */
   o.max_step = mode.fixed ? (double)NAN : 0.02;
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
@@ -255,8 +331,8 @@ static void check_fault_on_the_way(step_mode mode, int f)
   assert_non_null(strstr(baum_simulation_message(run), faults[f].message));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
   double t = baum_simulation_time(run);
-  /* The step before the fault; Euler's last step ends after it, for it looks at the beginning of
-   * steps only. */
+  /* The run stands at the step before the fault. Euler's last step may end after the fault, because
+   * it evaluates functions only at the beginning of a step. */
   bool fixed = mode.fixed;
   if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(mode.integrator),
@@ -289,7 +365,8 @@ static bool is_documented_failure(baum_status status, int f)
   return status == faults[f].status;
 }
 
-/* The n-th call of any function fails, and all after it, for as many n as create makes calls. */
+/* Fails the n-th call of any function and all later ones, for n up to the number of calls that
+ * create makes. */
 static void check_fault_at_create(const baum_integrator *integrator, int f, baum_start start)
 {
   every_fault fault = {.answer = faults[f].answer, .fails = false, .from = 1};
@@ -327,8 +404,7 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* One call fails and the next are fine: whichever it is, the run stands at a good step and goes
- * on. */
+/* Fails one call of a function only; for every n the run stops at a good step and can continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};
@@ -369,13 +445,15 @@ static void whichever_call_fails_the_run_can_go_on(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(exact_refuses_a_configuration_that_is_not),
-    cmocka_unit_test(exact_refuses_velocities_that_are_not),
+    cmocka_unit_test(an_exact_start_refuses_positions_off_the_constraints),
+    cmocka_unit_test(an_exact_start_refuses_velocities_off_the_constraints),
     cmocka_unit_test(given_velocities_that_conflict_are_named),
     cmocka_unit_test(given_velocities_that_fit_are_held_exactly),
     cmocka_unit_test(joints_that_contradict_each_other_are_named),
     cmocka_unit_test(a_held_body_out_of_place_is_named),
     cmocka_unit_test(a_design_too_far_off_is_refused),
+    cmocka_unit_test(drivers_may_begin_away_from_the_design),
+    cmocka_unit_test(drivers_that_begin_out_of_reach_are_refused),
     cmocka_unit_test(a_rough_design_is_assembled_and_reported),
     cmocka_unit_test(as_given_takes_the_design),
     cmocka_unit_test(a_function_that_fails_during_a_call_leaves_the_last_good_step),

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every kind of function of the user, one after the other: it fails, gives NaN, or uses the library
- * itself. What fails is named, the run stands at its last good step and goes on from there as if
- * nothing had been. What a function may not use is refused, and the motion is the same to the last
- * bit.
- */
+/* User functions of every kind that fail, return NaN or call the library. A message names the
+ * function that fails; the run stays at its last good step and continues as if nothing had
+ * happened. Calls that a user function may not make are refused, and the motion stays the same to
+ * the last bit. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,7 +37,7 @@ static baum_simulation *start(asked *b, step_mode mode)
   return run;
 }
 
-/* Steps, and a look at energies, for which potentials are asked. */
+/* Reads the energies, which evaluates the potentials, then steps. */
 static baum_status go(baum_simulation *run, int64_t steps)
 {
   double energies[2];
@@ -61,9 +60,9 @@ static state state_of(const baum_simulation *run)
   return s;
 }
 
-/* ---- they fail ---- */
+/* ---- functions that fail ---- */
 
-/* Times and states after GOOD steps, and after STEPS more. */
+/* Stores time and state after GOOD steps, and after STEPS more. */
 static void run_well(asked *b, step_mode mode, state after[2])
 {
   baum_simulation *run = start(b, mode);
@@ -74,7 +73,8 @@ static void run_well(asked *b, step_mode mode, state after[2])
   baum_simulation_destroy(run);
 }
 
-/* A method of its own past restarts after a failure; one that has none goes on to the same bits. */
+/* A method with memory restarts after a failure, so its result differs slightly; the result of a
+ * method without memory is the same to the last bit. */
 static void fail_one(asked *b, step_mode mode, const state after[2])
 {
   char says[80];
@@ -88,7 +88,7 @@ static void fail_one(asked *b, step_mode mode, const state after[2])
   b->fault = now;
   b->calls = 0;
   baum_status status = go(run, STEPS);
-  if (b->calls == 0) { /* not every method needs all of them */
+  if (b->calls == 0) { /* some methods do not call nu or the Jacobian */
     assert_true(status >= BAUM_OK && (b->kind == ASKED_NU || b->kind == ASKED_JACOBIAN));
   } else {
     ASSERT_SAYS(status, nan ? BAUM_ERR_NOT_FINITE : BAUM_ERR_CALLBACK, says);
@@ -99,7 +99,7 @@ static void fail_one(asked *b, step_mode mode, const state after[2])
     check(baum_simulation_advance_to(run, after[1].t));
     const state end = state_of(run);
     for (int i = 0; i < ASKED_NV; i++) {
-      double close = step_mode_remembers(mode) ? 1e-4 : 0.0; /* 100 rtol, or nothing remembered */
+      double close = step_mode_remembers(mode) ? 1e-4 : 0.0; /* 100 rtol for methods with memory */
       assert_true(fabs(end.q[i] - after[1].q[i]) <= close);
     }
   }
@@ -107,7 +107,7 @@ static void fail_one(asked *b, step_mode mode, const state after[2])
   baum_simulation_destroy(run);
 }
 
-static void what_fails_is_named_and_the_run_goes_on(void **unused)
+static void a_failing_function_is_named_and_the_run_continues(void **unused)
 {
   (void)unused;
   asked b;
@@ -116,7 +116,7 @@ static void what_fails_is_named_and_the_run_goes_on(void **unused)
   for (int i = 0; step_mode_at(i).integrator; i++) {
     step_mode mode = step_mode_at(i);
     if (mode.integrator == baum_rattle()) {
-      continue; /* takes no forces that depend on velocities */
+      continue; /* RATTLE takes no forces that depend on velocities */
     }
     b.fault = ASKED_FINE;
     run_well(&b, mode, after);
@@ -130,11 +130,11 @@ static void what_fails_is_named_and_the_run_goes_on(void **unused)
   baum_mechanism_destroy(b.mechanism);
 }
 
-/* ---- they call back ---- */
+/* ---- functions that call the library ---- */
 
 #define REFUSED(CALL) ASSERT_SAYS(CALL, BAUM_ERR_STATE, "baum_")
 
-/* What changes a run, or leaves it in another place. */
+/* Calls that would change the run. */
 static void try_to_change(const asked *b)
 {
   static unsigned char bytes[BYTES];
@@ -159,7 +159,7 @@ static void try_to_change(const asked *b)
   baum_simulation_destroy(b->run);
 }
 
-/* Evaluates at the present state; progress may. */
+/* Calls that evaluate at the present state; only the progress function may make them. */
 static void look(const asked *b, baum_status want)
 {
   bool unique[ASKED_NC];
@@ -208,7 +208,7 @@ static void try_workspace(baum_workspace *w, baum_input_id input)
   baum_workspace_destroy(w);
 }
 
-/* The mechanism is constant, and what is made of it again is another's. */
+/* The constant mechanism may be used: a new workspace is independent of the calling run. */
 static void use_another(const asked *b)
 {
   double q[ASKED_NV];
@@ -306,7 +306,7 @@ static void workspaces_cannot_be_used_by_the_functions_they_call(void **unused)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_fails_is_named_and_the_run_goes_on),
+    cmocka_unit_test(a_failing_function_is_named_and_the_run_continues),
     cmocka_unit_test(runs_cannot_be_used_by_the_functions_they_call),
     cmocka_unit_test(workspaces_cannot_be_used_by_the_functions_they_call),
   };

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates: whichever of its allocations fails, it says BAUM_ERR_MEMORY
- * or does without, what it was called on is as before, and the same call with memory then does what
- * it always does. Nothing is left behind. tests/layout/check_allocation.sh finds each public
- * function here or in test_calls_without_memory.c.
- */
+/* Every public function that allocates, with failing allocations. It returns BAUM_ERR_MEMORY and
+ * leaves its objects as before, or works without the memory. A second call with memory then gives
+ * the usual result, and no memory is lost. tests/layout/check_allocation.sh finds each public
+ * function here or in test_calls_without_memory.c. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -20,110 +19,12 @@
 #include "base/digest.h"
 #include "every_element.h"
 #include "heap.h"
-#include "models.h"
+#include "losing_memory_scene.h"
 
-enum { MOST = 24 /* allocations that are made to fail, of one call */, BYTES = 1 << 17 };
+enum { MOST = 24 /* largest number of failing allocations per call */, BYTES = 1 << 17 };
 static const char FILE_NAME[] = "test_calls_losing_memory.out";
 
-/* ---- what is called on ---- */
-
-/* Each has what is before it, but a study is of a pendulum. */
-typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
-
-typedef struct scene {
-  stage stage;
-  every_element parts;
-  baum_workspace *w;
-  double q[EVERY_NQ];
-  double v[EVERY_NV];
-  double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
-  baum_simulation *run;
-  baum_simulation *from; /* further on, with a schedule and a law of its own */
-  model pendulum;
-  baum_study *study;
-} scene;
-
-static baum_simulation_options rk4_options(double step)
-{
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = baum_rk4();
-  o.step = step;
-  return o;
-}
-
-static baum_simulation *start(const scene *s)
-{
-  baum_simulation *run = NULL;
-  const baum_simulation_options o = rk4_options(1e-3);
-  assert_int_equal(baum_simulation_create(s->parts.mechanism, &o, &run), BAUM_OK);
-  return run;
-}
-
-static baum_status schedule(const scene *s, baum_simulation *run)
-{
-  const double times[2] = {6e-3, 8e-3};
-  const double values[2] = {0.9, 1.1};
-  return baum_simulation_schedule_input(run, s->parts.throttle, times, values, 2);
-}
-
-static baum_status drive(const scene *s, baum_simulation *run)
-{
-  return baum_simulation_set_driver(run, s->parts.motor, 0.5, 2.0, 0.3);
-}
-
-static void make_runs(scene *s)
-{
-  s->run = start(s);
-  s->from = start(s);
-  assert_int_equal(drive(s, s->from), BAUM_OK);
-  assert_int_equal(schedule(s, s->from), BAUM_OK);
-}
-
-static void make_study(scene *s)
-{
-  baum_study_options o = baum_study_options_default();
-  o.samples = 3;
-  o.repeats = 1;
-  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &s->pendulum), BAUM_OK);
-  assert_int_equal(baum_study_create(s->pendulum.mechanism, 0.0, 0.05, &s->study), BAUM_OK);
-  assert_int_equal(baum_study_set_options(s->study, &o), BAUM_OK);
-  for (int k = 1; k <= 2; k++) {
-    const baum_simulation_options run = rk4_options(0.01 * k);
-    assert_int_equal(baum_study_add(s->study, &run), BAUM_OK);
-  }
-}
-
-static void make_scene(scene *s, stage wanted)
-{
-  *s = (scene){.stage = wanted};
-  if (wanted == STUDIED) {
-    make_study(s);
-  } else if (wanted >= OPEN) {
-    assert_int_equal(every_element_build(&s->parts), BAUM_OK);
-  }
-  if (wanted == FROZEN || wanted == RUNNING) {
-    assert_int_equal(baum_mechanism_freeze(s->parts.mechanism), BAUM_OK);
-    assert_int_equal(baum_workspace_create(s->parts.mechanism, &s->w), BAUM_OK);
-    assert_int_equal(baum_workspace_design(s->w, s->q, NULL), BAUM_OK);
-    memcpy(s->y, s->q, sizeof s->q);
-    s->q[0] += 1e-3; /* something to be assembled */
-  }
-  if (wanted == RUNNING) {
-    make_runs(s);
-  }
-}
-
-static void end_scene(scene *s)
-{
-  baum_simulation_destroy(s->run);
-  baum_simulation_destroy(s->from);
-  baum_workspace_destroy(s->w);
-  baum_mechanism_destroy(s->parts.mechanism);
-  baum_study_destroy(s->study);
-  model_destroy(&s->pendulum);
-}
-
-/* ---- what can be told of it ---- */
+/* ---- digests of the objects ---- */
 
 static void add_mechanism(baum_i_digest *d, const baum_mechanism *m)
 {
@@ -136,7 +37,7 @@ static void add_mechanism(baum_i_digest *d, const baum_mechanism *m)
   baum_i_digest_add(d, times, (size_t)breaks * sizeof *times);
 }
 
-/* All that a run is. */
+/* Adds all that the run saves. */
 static void add_saved(baum_i_digest *d, baum_simulation *run)
 {
   static unsigned char bytes[BYTES];
@@ -145,7 +46,7 @@ static void add_saved(baum_i_digest *d, baum_simulation *run)
   baum_i_digest_add(d, bytes, size);
 }
 
-/* What it stands at. */
+/* Adds time and state of a run. */
 static void add_state(baum_i_digest *d, const baum_simulation *run)
 {
   double t = baum_simulation_time(run);
@@ -174,7 +75,7 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* What is seen of it: runs with all that they are, or what they stand at. */
+/* Returns the digest of a scene: of a run its state, and if `all`, everything that it saves. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};
@@ -197,7 +98,7 @@ static uint64_t look(const scene *s, bool all)
   return d.value;
 }
 
-/* Where it comes to from there. */
+/* Steps the run and returns the digest of the state that it reaches. */
 static uint64_t go_on(const scene *s)
 {
   if (s->run) {
@@ -210,7 +111,7 @@ static uint64_t go_on(const scene *s)
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 
-/* A create or copy function: NULL on failure; what it has made is given up. */
+/* Defines the call of a create or copy function: on failure it has to return NULL. */
 #define MADE(TYPE, CALL)                                                \
   {                                                                     \
     baum_##TYPE *out = GARBAGE;                                         \
@@ -288,7 +189,7 @@ CALL(baum_mechanism_report)
   return baum_mechanism_report(s->parts.mechanism, &out, sizeof out);
 }
 
-/* Velocities that are to be found. */
+/* Sets all velocities to NaN: assembly has to find them. */
 static void free_all(double v[EVERY_NV])
 {
   for (int i = 0; i < EVERY_NV; i++) {
@@ -401,13 +302,49 @@ CALL(baum_study_write)
   return baum_study_write(s->study, BAUM_REPORT_JSON, NULL, FILE_NAME);
 }
 
+CALL(baum_mechanism_svg)
+{
+  return baum_mechanism_svg(s->parts.mechanism, s->q, NULL, 0, NULL);
+}
+
+CALL(baum_mechanism_write_svg)
+{
+  return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
+}
+
+static baum_page page_of(const scene *s, const baum_channel *channel)
+{
+  static const double time = 0.0;
+  baum_page page = baum_page_default();
+  page.times = &time;
+  page.count = 1;
+  page.channels = channel;
+  page.channel_count = 1;
+  page.rows = s->q;
+  return page;
+}
+
+CALL(baum_page_print)
+{
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  const baum_page page = page_of(s, &channel);
+  return baum_page_print(s->parts.mechanism, &page, NULL, 0, NULL);
+}
+
+CALL(baum_page_write)
+{
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  const baum_page page = page_of(s, &channel);
+  return baum_page_write(s->parts.mechanism, &page, FILE_NAME);
+}
+
 /* ---- the table ---- */
 
 typedef struct call {
   const char *name;
   stage stage;
   baum_status (*make)(scene *s);
-  bool works; /* on the run, whose counts of work change though it fails */
+  bool works; /* the call evaluates by the run, which changes its counters even if the call fails */
 } call;
 
 /* clang-format off */
@@ -445,14 +382,18 @@ static const call CALLS[] = {
   ROW(baum_study_run, STUDIED),
   ROW(baum_study_print, STUDIED),
   ROW(baum_study_write, STUDIED),
+  ROW(baum_mechanism_svg, FROZEN),
+  ROW(baum_mechanism_write_svg, FROZEN),
+  ROW(baum_page_print, FROZEN),
+  ROW(baum_page_write, FROZEN),
 };
 
-/* What it allocates, and what is seen after it. */
+/* Counts the allocations of a call; *seen receives the digest of the scene after it. */
 static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
   make_scene(&s, c->stage);
-  (void)look(&s, !c->works); /* saving makes solvers choose their pivots again */
+  (void)look(&s, !c->works); /* as fail_once(): saving makes solvers choose their pivots again */
   heap_watch();
   baum_status status = c->make(&s);
   long allocations = heap_stop();
@@ -464,14 +405,14 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Opening a file needs memory too, and fails for the system's reason. */
+/* Opening a file allocates too: then the status is BAUM_ERR_FILE with the system's reason. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||
          (status == BAUM_ERR_FILE && strstr(baum_message(), strerror(ENOMEM)));
 }
 
-/* Returns whether it failed. */
+/* Returns whether the call failed. */
 static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 {
   scene s;
@@ -500,7 +441,7 @@ static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 static void fail_some(const call *c)
 {
   uint64_t wanted = 0;
-  long allocations = count_allocations(c, &wanted); /* and what libraries keep for good */
+  long allocations = count_allocations(c, &wanted); /* the first call allocates for good */
   long step = allocations > MOST ? allocations / MOST : 1;
   long before = heap_blocks();
   int failures = 0;
@@ -516,7 +457,7 @@ static void fail_some(const call *c)
   }
 }
 
-static void what_fails_for_memory_changes_nothing_and_can_be_repeated(void **state)
+static void a_call_that_fails_for_memory_changes_nothing_and_can_be_repeated(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -543,7 +484,8 @@ static uint64_t look_at_element(const every_element *parts, const element_kind *
   return d.value;
 }
 
-/* A second one of a kind, or another definition for the first; returns how often it failed. */
+/* Adds a second element of a kind, or replaces the definition of the first, until no allocation
+ * fails any more; returns the number of failures. */
 static int until_it_works(every_element *parts, const element_kind *kind, bool replace)
 {
   any_def def;
@@ -586,7 +528,7 @@ static void elements_are_added_and_replaced_wholly_or_not_at_all(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_fails_for_memory_changes_nothing_and_can_be_repeated),
+    cmocka_unit_test(a_call_that_fails_for_memory_changes_nothing_and_can_be_repeated),
     cmocka_unit_test(elements_are_added_and_replaced_wholly_or_not_at_all),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates nothing, called with good arguments while there is no memory
- * at all. tests/layout/check_allocation.sh finds each public function here or in
- * test_calls_losing_memory.c.
- */
+/* Every public function that allocates nothing, called with good arguments while every allocation
+ * fails. tests/layout/check_allocation.sh finds each public function here or in
+ * test_calls_losing_memory.c. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -21,14 +20,14 @@
 
 enum { BYTES = 1 << 16, TEXT = 256, GRID = 4, WIDTH = 64, TIMES = 4096 };
 
-/* What the calls are made on, and room for what they give. */
+/* The objects of the calls, and memory for their results. */
 typedef struct scene {
   every_element parts; /* frozen */
   every_element open;
   baum_workspace *w;
   baum_simulation *run;
   report_scene report;
-  baum_study *study; /* of report, over */
+  baum_study *study; /* a completed study of `report` */
   baum_study *fresh;
 
   double q[EVERY_NQ];
@@ -47,8 +46,9 @@ typedef struct scene {
   unsigned char bytes[BYTES];
   baum_dae dae;
   baum_channel channel;
+  baum_page page;
   baum_catalog_choice choice;
-  baum_mechanism *pendulum; /* of the catalogue */
+  baum_mechanism *pendulum; /* a mechanism of the catalogue */
   baum_catalog_error error;
   baum_catalog_entry entry;
   baum_catalog_parameter parameter;
@@ -180,6 +180,7 @@ typedef struct scene {
   X(baum_simulation_message, (s->run))                                                           \
   X(baum_simulation_cancel, (NULL))                                                              \
   X(baum_event_def_init, (&s->event_def, sizeof s->event_def))                                   \
+  X(baum_page_init, (&s->page, sizeof s->page))                                                  \
   X(baum_channel_init, (&s->channel, sizeof s->channel))                                         \
   X(baum_gains_auto, ())                                                                         \
   X(baum_gains_best_damping, ())                                                                 \
@@ -295,7 +296,8 @@ static void end_scene(scene *s)
   baum_mechanism_destroy(s->pendulum);
 }
 
-/* There is no event, singular configuration or warning to read. */
+/* BAUM_ERR_ARGUMENT is right for the calls that read an event, a singular configuration or a
+ * warning, because there is none. */
 static bool is_done(baum_status status, const char *name)
 {
   return status >= BAUM_OK ||
@@ -327,7 +329,7 @@ static void calls_that_need_no_memory_take_none(void **state)
   end_scene(&s);
 }
 
-/* Of the elements: defaults, and definitions that are read back. */
+/* Default definitions, and reading definitions back, for every kind of element. */
 static void definitions_are_made_and_read_without_memory(void **state)
 {
   (void)state;

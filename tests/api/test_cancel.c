@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run, a sampling or a study that is cancelled after any of its steps stands there and goes on to
- * the same end, to the last bit.
- */
+/* A run, a sampling or a study may be cancelled at any step. It stops there, and continued, it ends
+ * with the same result to the last bit. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,16 +13,17 @@
 #include "check.h"
 #include "driven.h"
 #include "models.h"
+#include "spatial_scenes.h"
 #include "step_mode.h"
 #include "study_entries.h"
 
-enum { NV_MOST = 16, MOST_STEPS = 400, SAMPLES = 7 };
+enum { NQ_MOST = 24, MOST_STEPS = 400, SAMPLES = 7 };
 static const double END = 0.3; /* [s] */
 
-/* When a run is cancelled: at the call of progress that brings it to zero. */
+/* Cancels a run at the call of the progress function in which `left` reaches zero. */
 typedef struct cancelling {
   int left;
-  bool by_flag; /* with baum_simulation_cancel(), which takes effect before the next step */
+  bool by_flag; /* else by return value */
   baum_simulation *run;
 } cancelling;
 
@@ -52,8 +52,8 @@ static baum_simulation *start(const baum_mechanism *m, const baum_simulation_opt
 
 typedef struct state {
   double t;
-  double q[NV_MOST];
-  double v[NV_MOST];
+  double q[NQ_MOST];
+  double v[NQ_MOST];
 } state;
 
 static state state_of(const baum_mechanism *m, const baum_simulation *run)
@@ -63,7 +63,7 @@ static state state_of(const baum_mechanism *m, const baum_simulation *run)
   int32_t nv = 0;
   memset(&s, 0, sizeof s);
   check(baum_mechanism_sizes(m, &nq, &nv, NULL));
-  assert_in_range(nv, 1, NV_MOST);
+  assert_in_range(nq, 1, NQ_MOST);
   s.t = baum_simulation_time(run);
   memcpy(s.q, baum_simulation_q(run), (size_t)nq * sizeof(double));
   memcpy(s.v, baum_simulation_v(run), (size_t)nv * sizeof(double));
@@ -72,7 +72,7 @@ static state state_of(const baum_mechanism *m, const baum_simulation *run)
 
 /* ---- advancing ---- */
 
-/* Returns whether there was such a step. */
+/* Cancels at the k-th step and continues; returns false if the run has fewer steps. */
 static bool cancel_at(const baum_mechanism *m, const baum_simulation_options *o, int k,
                       const state *want)
 {
@@ -105,7 +105,18 @@ static void cancel_everywhere(const baum_mechanism *m, const baum_simulation_opt
   assert_true(steps >= 5); /* the longest steps, of rk8, are a sixteenth of the period */
 }
 
-static void a_run_goes_on_as_if_it_had_not_been_cancelled(void **unused)
+static void a_cancelled_run_of_rattle_in_space_continues(void **unused)
+{
+  (void)unused;
+  baum_mechanism *m = spatial_make_rssr();
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rattle();
+  o.step = 0.02;
+  cancel_everywhere(m, &o);
+  baum_mechanism_destroy(m);
+}
+
+static void a_cancelled_run_continues_as_if_it_had_not_been_cancelled(void **unused)
 {
   (void)unused;
   model pendulum;
@@ -125,7 +136,7 @@ static void a_run_goes_on_as_if_it_had_not_been_cancelled(void **unused)
   model_destroy(&pendulum);
 }
 
-static void kinematics_go_on_likewise(void **unused)
+static void cancelled_kinematics_continue_as_if_not_cancelled(void **unused)
 {
   (void)unused;
   const drive motor = {.angle = 0.4, .rate = 1.0};
@@ -137,9 +148,9 @@ static void kinematics_go_on_likewise(void **unused)
   baum_mechanism_destroy(four_bar);
 }
 
-/* ---- by a function of the user ---- */
+/* ---- by a user function ---- */
 
-/* How often the law has been called, and at which call it cancels. */
+/* The number of calls of the law, and the call in which it cancels. */
 typedef struct caller {
   int calls;
   int last;
@@ -158,8 +169,8 @@ static int turn_and_cancel(double t, double s[3], void *user)
   return 0;
 }
 
-/* Its last call is made at the end, where no step is left that it could stop. */
-static void a_call_that_is_over_is_not_cancelled_nor_is_the_next(void **unused)
+/* The law cancels in its last call, at the end of the run, where no step is left to cancel. */
+static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unused)
 {
   (void)unused;
   caller c = {0};
@@ -184,7 +195,7 @@ static void a_call_that_is_over_is_not_cancelled_nor_is_the_next(void **unused)
 
 /* ---- sampling ---- */
 
-/* Rows of positions and energies; what is cancelled goes on with the samples that are left. */
+/* Samples positions and energies; when cancelled, it continues with the remaining samples. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_ENERGY)};
@@ -253,7 +264,7 @@ static baum_study *study_of(const baum_mechanism *m, int *left)
   return study;
 }
 
-/* All of them inside a step that has been taken. */
+/* All three samples are inside a step that has been taken. */
 static void samples_that_need_no_step_are_cancelled(void **unused)
 {
   (void)unused;
@@ -297,7 +308,7 @@ static void a_study_goes_on_to_the_same_entries(void **unused)
     assert_same_entries(got, want);
     baum_study_destroy(got);
   }
-  assert_true(k > 2 * 4); /* two stages of each entry */
+  assert_true(k > 2 * 4); /* each of the four entries is measured, then timed */
   baum_study_destroy(want);
   model_destroy(&pendulum);
 }
@@ -321,9 +332,10 @@ static void entries_are_not_added_by_a_study_that_is_cancelled(void **unused)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_run_goes_on_as_if_it_had_not_been_cancelled),
-    cmocka_unit_test(kinematics_go_on_likewise),
-    cmocka_unit_test(a_call_that_is_over_is_not_cancelled_nor_is_the_next),
+    cmocka_unit_test(a_cancelled_run_continues_as_if_it_had_not_been_cancelled),
+    cmocka_unit_test(a_cancelled_run_of_rattle_in_space_continues),
+    cmocka_unit_test(cancelled_kinematics_continue_as_if_not_cancelled),
+    cmocka_unit_test(cancelling_in_the_last_step_does_not_cancel_the_next_call),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
     cmocka_unit_test(a_study_goes_on_to_the_same_entries),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The catalogue as it is called: what entries and parameters say, what is refused and with which
- * message, what errors mean; and the elements of a mechanism in order and by name. */
+/* The calls of the catalogue: descriptions of entries and parameters, refusals with their messages,
+ * and the definition of errors. Also the elements of a mechanism in order and by name. */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@
 #include "heap.h"
 #include "message.h"
 
-enum { NQ = 9 }; /* of a slider-crank */
+enum { NQ = 9 }; /* of the slider-crank */
 
 static const baum_catalog_choice CRANK = {.name = "slider_crank"};
 
@@ -45,7 +45,7 @@ static void every_entry_says_what_it_is(void **state)
     assert_int_equal(baum_catalog_entry_at(k, &entry, sizeof entry), BAUM_OK);
     assert_int_equal(entry.struct_size, sizeof entry);
     assert_int_equal(baum_catalog_find(entry.name, &found, sizeof found), BAUM_OK);
-    assert_ptr_equal(found.title, entry.title); /* another of the same name would come first */
+    assert_ptr_equal(found.title, entry.title); /* fails if an earlier entry has the same name */
     assert_true(strlen(entry.title) > 0 && strlen(entry.source) > 0);
     assert_true(entry.end_time > entry.start_time);
     bool known = entry.sample_count > 0;
@@ -56,7 +56,8 @@ static void every_entry_says_what_it_is(void **state)
   }
 }
 
-/* What a mechanism is at its start: M, g, the rows of the Jacobian, and the velocities given. */
+/* Describes a mechanism by weighted sums of q, v and M at its start, of its rows, and of g next to
+ * the start, where no spring has its free length. */
 static void describe(const baum_catalog_choice *choice, double out[6])
 {
   baum_mechanism *m = build(choice);
@@ -75,15 +76,11 @@ static void describe(const baum_catalog_choice *choice, double out[6])
   for (int i = 0; i < n; i++) {
     out[0] += (i + 1) * q[i];
     out[1] += isnan(v[i]) ? 0.0 : (i + 1) * v[i];
-    v[i] = isnan(v[i]) ? 1.0 + i : v[i]; /* for dampers, anything */
+    v[i] = (isnan(v[i]) ? 0.0 : v[i]) + 1.0 + i; /* any velocity, so that dampers have a force */
   }
   assert_int_equal(baum_workspace_mass(w, 0.0, q, x), BAUM_OK);
   for (int i = 0; i < n * n; i++) {
     out[2] += (i + 1) * x[i];
-  }
-  assert_int_equal(baum_workspace_force(w, 0.0, q, v, x), BAUM_OK);
-  for (int i = 0; i < n; i++) {
-    out[3] += (i + 1) * x[i];
   }
   assert_int_equal(baum_workspace_jacobian(w, 0.0, q, x), BAUM_OK);
   for (int i = 0; i < n * nc; i++) {
@@ -92,6 +89,14 @@ static void describe(const baum_catalog_choice *choice, double out[6])
   assert_int_equal(baum_workspace_nu(w, 0.0, q, x), BAUM_OK);
   for (int i = 0; i < nc; i++) {
     out[5] += (i + 1) * x[i];
+  }
+  for (int i = 0; i < n; i++) {
+    x[i] = 1e-3 * (i + 1);
+  }
+  assert_int_equal(baum_workspace_move(w, x, q), BAUM_OK);
+  assert_int_equal(baum_workspace_force(w, 0.0, q, v, x), BAUM_OK);
+  for (int i = 0; i < n; i++) {
+    out[3] += (i + 1) * x[i];
   }
   free(q);
   free(v);
@@ -152,7 +157,7 @@ static void a_shorter_struct_gets_its_part(void **state)
 
 /* ---- refusals ---- */
 
-static void what_is_not_there_is_refused_by_name(void **state)
+static void missing_entries_and_parameters_are_refused_by_name(void **state)
 {
   (void)state;
   baum_catalog_entry entry;
@@ -223,7 +228,7 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
               "may be off by |at t = 10000 s, which is more than their 12 digits");
   ASSERT_SAYS(baum_catalog_reference(&swing, 1e300, q, NULL), BAUM_ERR_UNSUPPORTED, "off by inf");
   assert_int_equal(baum_catalog_reference(&swing, -10.0, q, NULL), BAUM_OK);
-  /* Downwards the rod does not reach up to the guide: 0.153 + 0.05 > 0.19. */
+  /* With the crank downwards the rod is too short to reach the guide: 0.153 + 0.05 > 0.19. */
   assert_int_equal(baum_catalog_reference(&too_short, 0.0, q, NULL), BAUM_OK);
   ASSERT_SAYS(baum_catalog_reference(&too_short, 0.0314159, q, NULL), BAUM_ERR_UNSUPPORTED,
               "with these parameters");
@@ -263,13 +268,13 @@ static void errors_are_differences_by_the_scales(void **state)
   }
   q[0] += 1e-3 * length; /* x of the crank, first sample */
   q[NQ + 5] += 1e-4;     /* angle of the rod, second sample */
-  v[NQ + 2] += 3.0;      /* of the crank, whose 150 rad/s are nearly the largest */
+  v[NQ + 2] += 3.0;      /* angular velocity of the crank: 150 rad/s in this sample */
   assert_int_equal(baum_catalog_compare(&CRANK, m, t, 2, q, v, &error, sizeof error), BAUM_OK);
   ASSERT_NEAR(error.q, 1e-3, 1e-12, 0.0);
   ASSERT_NEAR(error.q_final, 1e-4, 1e-11, 0.0);
-  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the largest over all samples is 150.2 */
+  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the largest of all samples is 150.2 */
   assert_true(error.v == error.v_final && error.q_time == t[0] && error.v_time == t[1]);
-  /* 15 digits of angles of up to 30 rad, 14 of 150 rad/s. */
+  /* Digits of the reference: 15 for angles of up to 30 rad, 14 for 150 rad/s. */
   assert_true(error.q_floor > 1e-15 && error.q_floor < 5e-14);
   ASSERT_NEAR(error.v_floor, 1e-14, 1e-2, 0.0);
   q[NQ] = (double)NAN;
@@ -353,7 +358,7 @@ static void references_and_errors_allocate_nothing(void **state)
 
 /* ---- messages and elements ---- */
 
-static void libraries_on_top_set_the_sentence(void **state)
+static void other_libraries_can_set_the_message(void **state)
 {
   (void)state;
   assert_int_equal(baum_fail(BAUM_ERR_STEP, "the 100 % message"), BAUM_ERR_STEP);
@@ -384,7 +389,7 @@ static void elements_are_found_in_order_and_by_name(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void inputs_are_found_too(void **state)
+static void inputs_are_found_by_name(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -430,7 +435,7 @@ int main(void)
     cmocka_unit_test(every_parameter_changes_its_mechanism),
     cmocka_unit_test(a_default_that_is_given_changes_nothing),
     cmocka_unit_test(a_shorter_struct_gets_its_part),
-    cmocka_unit_test(what_is_not_there_is_refused_by_name),
+    cmocka_unit_test(missing_entries_and_parameters_are_refused_by_name),
     cmocka_unit_test(parameters_out_of_range_are_refused),
     cmocka_unit_test(a_reference_that_does_not_hold_is_not_given),
     cmocka_unit_test(a_study_takes_a_formula_as_its_solution),
@@ -438,9 +443,9 @@ int main(void)
     cmocka_unit_test(states_of_something_else_are_not_compared),
     cmocka_unit_test(every_allocation_of_a_mechanism_may_fail),
     cmocka_unit_test(references_and_errors_allocate_nothing),
-    cmocka_unit_test(libraries_on_top_set_the_sentence),
+    cmocka_unit_test(other_libraries_can_set_the_message),
     cmocka_unit_test(elements_are_found_in_order_and_by_name),
-    cmocka_unit_test(inputs_are_found_too),
+    cmocka_unit_test(inputs_are_found_by_name),
     cmocka_unit_test(elements_that_are_not_there_are_none),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What channels hold, and what they cost. */
+/* Values of channels, and the evaluations that they cost. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,7 +44,8 @@ static int64_t evaluations(baum_simulation *run)
 
 enum { AROUND = 5, WIDTH = 8 };
 
-/* At -2 to 2 times d from t: velocities and accelerations of the rod's end and of the slider. */
+/* Times from t - 2 d to t + 2 d; channels: velocities and accelerations of the rod's end and the
+ * slider. */
 static void accelerations_are_the_slopes_of_velocities(void **state)
 {
   (void)state;
@@ -104,8 +105,8 @@ static void bodies_without_axes_give_their_part_of_a(void **state)
 
 enum { INTERVALS = 200 };
 
-/* Simpson's rule over the power effort times rate is the change of energy: nothing else does
- * work on a driven slider-crank without dampers. */
+/* The driver's power, integrated by Simpson's rule, is the change of energy: nothing else does work
+ * on a driven slider-crank without dampers. */
 static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 {
   (void)state;
@@ -135,8 +136,8 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
     work += weight * h / 3.0 * rows[k][2] * rows[k][4];
     largest = fmax(largest, fabs(energy));
   }
-  /* The power has harmonics up to about ten times the 150 rad/s: Simpson's error is near
-   * (1500 h)^4 / 180 = 2e-7 of the work going to and fro. */
+  /* The power has harmonics up to about ten times the 150 rad/s: Simpson's error is near (1500 h)^4
+   * / 180 = 2e-7 of the largest energy. */
   double change = rows[INTERVALS][0] + rows[INTERVALS][1] - rows[0][0] - rows[0][1];
   assert_true(fabs(change) > 0.1 * largest);
   ASSERT_NEAR(work, change, 0.0, 2e-7 * largest);
@@ -146,7 +147,7 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 
 /* ---- cost ---- */
 
-/* All that needs no solution of (5). */
+/* Channels that need no solution of (5). */
 static int cheap_channels(const every_element *parts, baum_channel channels[8])
 {
   int count = 0;
@@ -163,7 +164,8 @@ static int cheap_channels(const every_element *parts, baum_channel channels[8])
 
 enum { SAMPLES = 12, ROW = EVERY_NQ + EVERY_NV + 2 * EVERY_NC + 12 };
 
-/* Evaluations of a run that records count channels, from 0.05 s on at every step. */
+/* Number of evaluations of a run that samples the channels at 12 times, one per step, from 0.05
+ * s. */
 static int64_t cost_of(const every_element *parts, const baum_integrator *integrator,
                        const baum_channel *channels, int count)
 {
@@ -198,8 +200,8 @@ static void a_sample_costs_a_solution_only_when_it_asks_for_one(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Not even the functions of the user are called for what follows from q and v alone. */
-static void what_follows_from_the_state_calls_nothing(void **state)
+/* Channels that follow from q and v alone do not even call user functions. */
+static void channels_that_follow_from_the_state_call_no_user_function(void **state)
 {
   (void)state;
   every_fault fault = {0};
@@ -223,8 +225,8 @@ static void what_follows_from_the_state_calls_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* A point so far out that its velocity is no number any more. */
-static void what_overflows_is_told(void **state)
+/* A point at such a distance from the body that its velocity overflows. */
+static void overflow_is_reported(void **state)
 {
   (void)state;
   double row[ROW];
@@ -233,14 +235,14 @@ static void what_overflows_is_told(void **state)
   baum_channel channels[2] = {baum_channel_of(BAUM_Q),
                               baum_channel_of_body(BAUM_BODY_VELOCITY, parts.crank)};
   assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-  channels[1].point[0] = -1.79e308; /* it rotates at 2 rad/s */
+  channels[1].point[0] = -1.79e308; /* the body rotates at 2 rad/s */
   ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_NOT_FINITE,
               "channel 1|of the velocity is -inf");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* 10000 columns each; the count is refused, and nothing is written or evaluated for it. */
+/* Each channel has 10000 columns. Only the count is refused: nothing is evaluated or written. */
 static void more_columns_than_can_be_counted_are_refused(void **state)
 {
   (void)state;
@@ -268,7 +270,7 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
 
 /* ---- structs of other versions ---- */
 
-/* As they were before they had bodies, joints and points. */
+/* The struct of channels before the fields for bodies, joints and points were added. */
 typedef struct short_channel {
   size_t struct_size;
   baum_quantity quantity;
@@ -311,7 +313,7 @@ static void channels_of_wrong_or_mixed_sizes_are_refused(void **state)
     channels[0].struct_size = sizeof *channels;
     channels[1].struct_size = sizes[k];
     ASSERT_SAYS(baum_simulation_sample(run, &t, 1, channels, 2, row, NULL), BAUM_ERR_STRUCT,
-                "channel 1: struct_size is |as of channel 0|baum_channel_of()");
+                "channel 1: struct_size is |as in channel 0|baum_channel_of()");
     assert_int_equal(baum_channels_width(parts.mechanism, channels, 2), -1);
   }
   baum_simulation_destroy(run);
@@ -335,9 +337,9 @@ int main(void)
     cmocka_unit_test(bodies_without_axes_give_their_part_of_a),
     cmocka_unit_test(the_power_of_a_driver_is_the_change_of_energy),
     cmocka_unit_test(a_sample_costs_a_solution_only_when_it_asks_for_one),
-    cmocka_unit_test(what_follows_from_the_state_calls_nothing),
+    cmocka_unit_test(channels_that_follow_from_the_state_call_no_user_function),
     cmocka_unit_test(more_columns_than_can_be_counted_are_refused),
-    cmocka_unit_test(what_overflows_is_told),
+    cmocka_unit_test(overflow_is_reported),
     cmocka_unit_test(channels_of_an_older_version_have_defaults_where_they_end),
     cmocka_unit_test(channels_of_wrong_or_mixed_sizes_are_refused),
     cmocka_unit_test(a_point_outside_of_a_bodys_plane_is_refused),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The omitted rows change during a run and are put back by restoring: every allocation may fail. */
+/* Every allocation may fail when the omitted rows change during a run or when they are restored. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +15,7 @@
 
 static unsigned char buffer[1 << 16];
 
-/* A quarter of a revolution, saved before and after a change of the omitted rows, and restored. */
+/* Saves, runs through a change of the omitted rows, and restores. */
 static baum_status simulate(void *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run whose steps lead nowhere ends with a message; one whose steps are short for a reason goes
- * on. */
+/* A run whose steps are too short to ever reach the end stops with a message. A run with short
+ * steps that still advances is continued. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,9 +15,10 @@
 #include "check.h"
 #include "models.h"
 
-enum { STEPS = 10000 }; /* between two looks at the pace */
+enum { STEPS = 10000 }; /* a run checks its progress after this many steps */
 
-/* A link of 1 kg and 1 m, level, that rotates in grease with this rate of decay [1/s]. */
+/* A horizontal link of 1 kg and 1 m in a viscous medium; its angular velocity decays with this rate
+ * [1/s]. */
 static baum_mechanism *greased_link(double rate)
 {
   baum_mechanism *m = NULL;
@@ -38,7 +39,7 @@ static baum_mechanism *greased_link(double rate)
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
   grease.body_a = BAUM_GROUND;
   grease.body_b = body;
-  grease.damping = rate / 3.0; /* the link has 1/3 kg m^2 about the pin */
+  grease.damping = rate / 3.0; /* the link's moment of inertia about the pin is 1/3 kg m^2 */
   assert_int_equal(baum_mechanism_add_planar_torsion_spring(m, &grease, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
@@ -62,8 +63,7 @@ static int64_t steps_of(baum_simulation *run)
   return c.steps;
 }
 
-/* Explicit steps are about 5 over the rate of decay: 1e-11 of the time of the motion, which is
- * about 1 s. */
+/* Stability limits explicit steps to about 5 / rate = 5e-12 s. The motion takes about 1 s. */
 static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
 {
   (void)state;
@@ -76,26 +76,25 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
     assert_non_null(strstr(message, "hardly advances: each of the last 10000 steps"));
     assert_non_null(strstr(message, "\"pin\" bears the largest load"));
     assert_true(steps_of(run) == STEPS);
-    assert_true(baum_simulation_time(run) > 0.0); /* where its last step ended */
+    assert_true(baum_simulation_time(run) > 0.0); /* the end of its last step */
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
 }
 
-/* Steps of 1e-6 of that time are what a stiff force costs; they are taken as long as max_steps
- * allows. */
+/* Here steps are about 5e-7 s. They are accepted until max_steps. */
 static void short_steps_that_lead_on_are_taken(void **state)
 {
   (void)state;
   baum_mechanism *m = greased_link(1e7);
   baum_simulation *run = open_run(m, baum_dp5(), 1e-6);
   assert_int_equal(baum_simulation_step(run, 3 * STEPS), BAUM_OK);
-  assert_true(baum_simulation_time(run) < 0.1); /* the steps were short */
+  assert_true(baum_simulation_time(run) < 0.1); /* confirms that the steps are short */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
 
-/* Next to a flat configuration BDF may get stuck; whatever comes of such a run, it comes soon. */
+/* Next to a flat configuration BDF may fail to advance; the run must then stop within few steps. */
 static void a_run_next_to_a_singular_configuration_ends(void **state)
 {
   (void)state;
@@ -109,7 +108,7 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
     baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
     baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
     assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
-    assert_true(steps_of(run) <= 2 * STEPS); /* some hundred where it gets through */
+    assert_true(steps_of(run) <= 2 * STEPS); /* a successful run takes some hundred */
     baum_simulation_destroy(run);
   }
   model_destroy(&m);

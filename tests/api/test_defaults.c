@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The `Default:` texts of the headers against what the default functions give; definitions there
- * and back. */
+/* The `Default:` texts of the headers agree with the values of the default functions. A definition
+ * that is added and read back is unchanged. */
 #include <ctype.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +24,7 @@ static const char *const header_names[] = {"mechanism.h",  "planar.h",  "planar_
                                            "spline.h"};
 enum { HEADERS = sizeof header_names / sizeof *header_names };
 
-/* The headers, one after the other; to be freed. */
+/* The text of all headers, one after the other; the caller frees it. */
 static char *read_headers(void)
 {
   char *text = calloc(HEADERS, HEADER_SIZE);
@@ -43,7 +43,7 @@ static char *read_headers(void)
   return text;
 }
 
-/* The body of a struct, up to its closing name; both ends. */
+/* Finds the body of a struct: returns its begin; *end is at the closing name. */
 static const char *find_struct(const char *headers, const char *name, const char **end)
 {
   char opening[TEXT_SIZE];
@@ -58,7 +58,7 @@ static const char *find_struct(const char *headers, const char *name, const char
   return begin + strlen(opening);
 }
 
-/* The name that a declaration ends with, before its semicolon. */
+/* The last name of a declaration, before its semicolon. */
 static void name_of(const char *semicolon, char name[TEXT_SIZE])
 {
   const char *last = semicolon;
@@ -77,7 +77,7 @@ static void name_of(const char *semicolon, char name[TEXT_SIZE])
   (void)snprintf(name, TEXT_SIZE, "%.*s", (int)(last - first), first);
 }
 
-/* What follows "Default: " in a comment; "" without it. */
+/* The text after "Default: " in a comment, or "" if there is none. */
 static void default_of(const char *comment, const char *comment_end, char text[TEXT_SIZE])
 {
   const char *given = strstr(comment, "Default: ");
@@ -88,8 +88,9 @@ static void default_of(const char *comment, const char *comment_end, char text[T
   }
 }
 
-/* The next declaration from `from` on: its name and the Default of its comment, "" for none. The
- * comment stands before the declaration or behind it. NULL when there is no more. */
+/* Reads the next declaration from `from` on: its name, and the Default of its comment or "". The
+ * comment is before or after the declaration. Returns the end of the declaration, or NULL if there
+ * is no more. */
 static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
                               char text[TEXT_SIZE])
 {
@@ -107,7 +108,7 @@ static const char *next_field(const char *from, const char *end, char name[TEXT_
   return before ? semicolon + 1 : comment_end + 2;
 }
 
-/* ---- what a text says ---- */
+/* ---- comparing a text with a value ---- */
 
 static bool begins(const char *text, const char *with)
 {
@@ -152,7 +153,7 @@ static bool numbers_are(const char *text, const unsigned char *bytes, size_t siz
   return same;
 }
 
-/* Enumerators that are defaults. */
+/* Compares with the enumerators that occur as defaults, or with a number. */
 static bool integer_is(const char *text, int64_t value)
 {
   static const struct {
@@ -161,7 +162,8 @@ static bool integer_is(const char *text, int64_t value)
   } enumerators[] = {{"BAUM_FORMULATION_DEFAULT", BAUM_FORMULATION_DEFAULT},
                      {"BAUM_GAINS_DEFAULT", BAUM_GAINS_DEFAULT},
                      {"BAUM_START_ASSEMBLE", BAUM_START_ASSEMBLE},
-                     {"BAUM_SOLVER_AUTO", BAUM_SOLVER_AUTO}};
+                     {"BAUM_SOLVER_AUTO", BAUM_SOLVER_AUTO},
+                     {"BAUM_COORDINATE_FIRST", BAUM_COORDINATE_FIRST}};
   for (size_t k = 0; k < sizeof enumerators / sizeof *enumerators; k++) {
     if (begins(text, enumerators[k].name)) {
       return value == enumerators[k].value;
@@ -175,7 +177,7 @@ static bool is_nothing(const char *text, const char *word, const unsigned char *
   return begins(text, word) && is_zero(bytes, size);
 }
 
-/* Most ids are none; the one that is not is the ground's. */
+/* The default of an id is none or BAUM_GROUND. */
 static bool id_is(const char *text, const unsigned char *bytes, size_t size)
 {
   if (begins(text, "BAUM_GROUND")) {
@@ -189,7 +191,7 @@ static bool flag_is(const char *text, unsigned char flag)
   return flag <= 1 && begins(text, flag ? "true" : "false");
 }
 
-/* Whether the bytes of a field are what its text says. */
+/* Whether the bytes of a field have the value that its text documents. */
 static bool is_as_documented(const element_field *field, const char *text, const any_def *def)
 {
   const unsigned char *bytes = def->bytes + field->offset;
@@ -316,7 +318,7 @@ static void init_writes_at_most_the_callers_size(void **state)
   }
 }
 
-/* ---- there and back ---- */
+/* ---- reading definitions back ---- */
 
 static size_t array_bytes(const element_kind *kind, const element_field *field, const any_def *def)
 {
@@ -342,7 +344,7 @@ static const char *pointer_at(const any_def *def, const element_field *field)
   return pointer;
 }
 
-/* Texts and arrays say the same from another place. */
+/* Names and arrays have the same content, but are copies at another address. */
 static void check_same_copied(const element_kind *kind, const element_field *field,
                               const any_def *got, const any_def *want)
 {
@@ -378,7 +380,7 @@ static void check_is_in(const baum_mechanism *mechanism, const element_kind *kin
   check_same(kind, &got, want);
 }
 
-/* Another definition with the same ties: other name, other numbers. */
+/* A definition with the same bodies and joints, but another name and other numbers. */
 static any_def change(const element_kind *kind, const any_def *good, const char *name)
 {
   const element_fields fields = element_fields_of(kind);
@@ -508,7 +510,7 @@ static void names_are_copied_and_default_to_family_and_number(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* ---- what is set on the whole ---- */
+/* ---- gravity and characteristic length ---- */
 
 static void gravity_and_scale_default_as_documented_and_can_be_set(void **state)
 {

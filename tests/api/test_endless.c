@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whatever the numbers, a call returns: within max_steps, or with a status that says why not. */
+/* Every call returns, whatever the numbers are: within max_steps, or with a failure status and a
+ * message. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,9 +19,15 @@
 #include "message.h"
 #include "step_mode.h"
 
-enum { MOST_STEPS = 200, PATIENCE = 30 /* [s] for a case of some ms */, MOST_NV = 9 };
+enum {
+  MOST_STEPS = 200,
+  PATIENCE = 30 /* [s] time limit of a case, which normally takes some
+                                        * milliseconds */
+  ,
+  MOST_NV = 9
+};
 
-/* A pinned body; NaN: the default. */
+/* A pinned body with extreme numbers; NaN stands for the default. */
 typedef struct hostile {
   double mass;
   double inertia;
@@ -112,7 +119,7 @@ static baum_mechanism *build(const hostile *c)
   return m;
 }
 
-/* A failure has a message, and the state stays finite. */
+/* Whether the state is finite and a failure has a message. */
 static bool is_sound(const baum_simulation *run, baum_status status)
 {
   const double *q = baum_simulation_q(run);
@@ -124,7 +131,7 @@ static bool is_sound(const baum_simulation *run, baum_status status)
   return sound;
 }
 
-/* From the velocities of another case. */
+/* Continues the run from another angular velocity. */
 static bool goes_on_from(baum_simulation *run, double angular_velocity)
 {
   const double *q = baum_simulation_q(run);
@@ -149,7 +156,7 @@ static bool is_sound_by(const baum_mechanism *m, const baum_simulation_options *
   return sound;
 }
 
-/* In a process of its own, which the alarm ends. */
+/* Runs a case in a process of its own, which the alarm ends if the case does not return. */
 static int bad_of(const baum_mechanism *m, const baum_simulation_options *o, int k)
 {
   int answer = -1;
@@ -183,7 +190,7 @@ static int bad_of_mode(const baum_mechanism *m, int k, step_mode mode)
   return bad;
 }
 
-static void no_call_goes_on_for_ever(void **state)
+static void every_call_returns(void **state)
 {
   (void)state;
   const int count = sizeof CASES / sizeof CASES[0];
@@ -198,8 +205,8 @@ static void no_call_goes_on_for_ever(void **state)
   assert_int_equal(bad, 0);
 }
 
-/* The same for a crank that is driven so fast, by kinematics. */
-static void nor_does_one_of_kinematics(void **state)
+/* The same with kinematics, for a driven crank with extreme speeds. */
+static void every_call_of_kinematics_returns(void **state)
 {
   (void)state;
   static const double rates[] = {1e308, 1e300, 1e160, 1e150, 1e100, 1e16, 1e-160, 1e-300, 5e-324};
@@ -221,7 +228,7 @@ static void nor_does_one_of_kinematics(void **state)
   assert_int_equal(bad, 0);
 }
 
-/* What is too large is named. */
+/* The message names the quantity that is too large. */
 static void a_velocity_that_overflows_is_named(void **state)
 {
   (void)state;
@@ -245,8 +252,8 @@ static void a_velocity_that_overflows_is_named(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(no_call_goes_on_for_ever),
-    cmocka_unit_test(nor_does_one_of_kinematics),
+    cmocka_unit_test(every_call_returns),
+    cmocka_unit_test(every_call_of_kinematics_returns),
     cmocka_unit_test(a_velocity_that_overflows_is_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

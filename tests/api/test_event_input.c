@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is refused of events, functions that fail, and that looking for events allocates nothing. */
+/* Events: invalid definitions, event functions that fail, and that locating events allocates
+ * nothing. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -24,7 +25,7 @@ static baum_simulation *open_mode(const swing *s, step_mode mode)
 
 enum { HEALED = 2 };
 
-/* Fails after a quarter of a second: with *user, unless HEALED. */
+/* An event function that fails after 0.25 s with the answer *user, unless that is HEALED. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -105,8 +106,8 @@ static void failing_functions_end_the_call(void **state)
       baum_status want = answer == 0 ? BAUM_ERR_NOT_FINITE : BAUM_ERR_CALLBACK;
       assert_int_equal(baum_simulation_advance_to(run, 0.3), want);
       assert_non_null(strstr(baum_message(), "event 0"));
-      assert_true(baum_simulation_time(run) <= 0.26); /* a step more at most */
-      /* It stands where it can go on from. */
+      assert_true(baum_simulation_time(run) <= 0.26); /* at most one more step */
+      /* The run can continue once the function works. */
       answer = HEALED;
       assert_int_equal(baum_simulation_advance_to(run, 0.27), BAUM_OK);
       assert_true(baum_simulation_time(run) == 0.27);
@@ -171,7 +172,7 @@ static void every_allocation_of_an_event_may_fail(void **state)
 
 int main(void)
 {
-  (void)heap_is_ours(); /* heap.h looks its exceptions up before anything else runs */
+  (void)heap_is_ours(); /* first call: heap.h looks up the functions that it excludes */
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),
     cmocka_unit_test(failing_functions_end_the_call),

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whichever call of a user's function fails, in whatever the library was asked for: that fails with
- * the message of the function, nothing has changed, and the same is done right as soon as the
- * function works again.
- */
+/* Fails every single call of a user function, for each request to the library. The request then
+ * fails with the message of the function and changes nothing, and succeeds when the function works
+ * again. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,11 +16,11 @@
 #include "dynamics/dynamics.h"
 #include "step_mode.h"
 
-/* ---- a bead on a hoop, all of it by functions ---- */
+/* ---- a bead on a hoop, defined by user functions only ---- */
 
 typedef struct fault {
-  int answer;   /* 0: NaN is given */
-  int64_t from; /* which call is the first to fail; 0: none */
+  int answer;   /* return value of a failing call; 0: it returns 0 but gives NaN */
+  int64_t from; /* number of the first call that fails; 0: none */
   int64_t calls;
 } fault;
 
@@ -163,13 +162,13 @@ static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *be
   check(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
-/* Off the hoop, so that a run has to assemble it. */
-static const double DRAWN[2] = {0.48, 0.64};
+/* A point off the hoop, so that a run has to assemble it. */
+static const double DESIGN_Q[2] = {0.48, 0.64};
 
 typedef struct variant {
   int hoops;
   bool constant_mass;
-  bool lifted; /* no degree of freedom is left */
+  bool lifted; /* a driver in y: no degree of freedom is left */
 } variant;
 
 static baum_mechanism *make_bead(variant of, fault *f)
@@ -179,7 +178,7 @@ static baum_mechanism *make_bead(variant of, fault *f)
   baum_body_id bead;
   def.name = "bead";
   def.size = 2;
-  def.q = DRAWN;
+  def.q = DESIGN_Q;
   def.mass = of.constant_mass ? bead_constant_mass : bead_mass;
   def.constant_mass = of.constant_mass;
   def.depends_on_velocity = !of.constant_mass;
@@ -199,7 +198,7 @@ static baum_mechanism *make_bead(variant of, fault *f)
   return m;
 }
 
-/* ---- what is asked for ---- */
+/* ---- requests to a workspace ---- */
 
 enum { MOST_ROWS = 2, MOST_OUT = 16 };
 
@@ -307,7 +306,7 @@ static request request_of(baum_workspace *w)
   return (request){.w = w, .q = {0.606, 0.808}, .v = {-0.8, 0.63}};
 }
 
-/* ---- what comes of it ---- */
+/* ---- failures and how they are reported ---- */
 
 static const struct {
   int answer;
@@ -320,12 +319,12 @@ static const struct {
 };
 enum { FAULT_COUNT = 3 };
 
-/* Bits: v[1] may be NaN. */
+/* Compares numbers; both may be NaN, as v[1] may be. */
 static void assert_same_numbers(const double *got, const double *want, int count)
 {
   for (int i = 0; i < count; i++) {
     if (!(isnan(got[i]) && isnan(want[i]))) {
-      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* pivots chosen again round otherwise */
+      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* new pivots may round otherwise */
     }
   }
 }
@@ -333,7 +332,7 @@ static void assert_same_numbers(const double *got, const double *want, int count
 static void check_ask(baum_workspace *w, fault *f, int which)
 {
   request want = request_of(w);
-  check(ASKS[which](&want)); /* once for what is kept: the metric of GGL */
+  check(ASKS[which](&want)); /* a first call computes what is kept: the metric of GGL */
   want = request_of(w);
   f->calls = 0;
   check(ASKS[which](&want));
@@ -362,7 +361,7 @@ static void check_ask(baum_workspace *w, fault *f, int which)
   assert_true(calls > 0);
 }
 
-/* By blocks, by both solvers of the whole system, and with an omitted row. */
+/* With blocks, and with both solvers of the whole system. */
 static void a_workspace_passes_on_every_failing_call(void **state)
 {
   (void)state;
@@ -380,7 +379,7 @@ static void a_workspace_passes_on_every_failing_call(void **state)
   }
 }
 
-static void so_does_one_with_redundant_rows(void **state)
+static void a_workspace_with_redundant_rows_passes_on_every_failing_call(void **state)
 {
   (void)state;
   fault f = {0};
@@ -407,7 +406,8 @@ static bool is_of_fault(baum_status status, int k)
   return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].message);
 }
 
-/* Whether the run was created; it is then at the end, though a call may have failed before. */
+/* Returns whether the run was created. A created run reaches the end, even if a call has failed in
+ * between. */
 static bool check_run(const baum_mechanism *m, const baum_simulation_options *o, fault *f, int k)
 {
   baum_simulation *run = NULL;
@@ -433,7 +433,7 @@ static bool check_run(const baum_mechanism *m, const baum_simulation_options *o,
   return true;
 }
 
-/* Which call is the first to fail grows by its share 1 / rarer. */
+/* Makes the n-th call fail, for n from 1 on with increments of 1 + n / rarer. */
 static void check_every_call(const baum_simulation_options *o, variant of, int64_t rarer)
 {
   fault f = {.from = 0};
@@ -446,12 +446,12 @@ static void check_every_call(const baum_simulation_options *o, variant of, int64
     f = (fault){.answer = FAULTS[k].answer, .from = n};
     failed += check_run(m, o, &f, k) ? 0 : 1;
   }
-  assert_in_range(failed, 10, calls - 1); /* at create, and not all */
+  assert_in_range(failed, 10, calls - 1); /* creation fails for some n, but not for all */
   baum_mechanism_destroy(m);
 }
 
-/* With either solver: assembled from afar, checked, started, advanced. */
-static void a_run_is_not_made_or_stops_and_goes_on(void **state)
+/* With blocks and with KLU: the run is assembled, checked, started and advanced. */
+static void a_failing_call_ends_creation_or_a_step_and_the_run_can_continue(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -465,7 +465,7 @@ static void a_run_is_not_made_or_stops_and_goes_on(void **state)
   }
 }
 
-static void so_does_kinematics(void **state)
+static void a_failing_call_in_kinematics_ends_creation_or_a_step(void **state)
 {
   (void)state;
   baum_simulation_options o = baum_simulation_options_default();
@@ -475,7 +475,7 @@ static void so_does_kinematics(void **state)
   }
 }
 
-/* ---- what is read of a run ---- */
+/* ---- reading from a run ---- */
 
 typedef baum_status read_fn(baum_simulation *run, fault *f);
 
@@ -524,7 +524,7 @@ static baum_status add_event(baum_simulation *run, fault *f)
   return baum_simulation_add_event(run, &def, NULL);
 }
 
-static void what_is_read_of_a_run_fails_with_the_function(void **state)
+static void reading_from_a_run_fails_if_a_user_function_fails(void **state)
 {
   (void)state;
   static read_fn *const READS[] = {read_channels, read_counters, read_account, add_event};
@@ -564,10 +564,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_workspace_passes_on_every_failing_call),
-    cmocka_unit_test(so_does_one_with_redundant_rows),
-    cmocka_unit_test(a_run_is_not_made_or_stops_and_goes_on),
-    cmocka_unit_test(so_does_kinematics),
-    cmocka_unit_test(what_is_read_of_a_run_fails_with_the_function),
+    cmocka_unit_test(a_workspace_with_redundant_rows_passes_on_every_failing_call),
+    cmocka_unit_test(a_failing_call_ends_creation_or_a_step_and_the_run_can_continue),
+    cmocka_unit_test(a_failing_call_in_kinematics_ends_creation_or_a_step),
+    cmocka_unit_test(reading_from_a_run_fails_if_a_user_function_fails),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

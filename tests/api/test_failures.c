@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All causes that end a run early: a message with time, step, joint or body, and advice; the
- * last good step stays readable; and another run goes on from there. */
+/* Every failure that ends a run early has a message with time, step, joint or body, and advice. The
+ * last good step stays readable, and another run can continue from there. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,18 +19,18 @@
 
 typedef enum fault {
   FAULT_NONE,
-  FAULT_STOPS,   /* answers that the run shall stop */
-  FAULT_RETRIES, /* asks for smaller steps for ever */
+  FAULT_STOPS,   /* return value: stop */
+  FAULT_RETRIES, /* return value: retry with a smaller step, at every call */
   FAULT_RETRIES_ONCE,
   FAULT_NAN,
-  FAULT_NOISE,  /* another large force at every place */
-  FAULT_GROWTH, /* grows without bound: the motion ends in finite time */
+  FAULT_NOISE,  /* large forces that vary at random from place to place */
+  FAULT_GROWTH, /* grows without bound: the motion becomes infinite in finite time */
   FAULT_COUNT
 } fault;
 
-static const double AFTER = 0.1; /* [s] when it goes wrong */
+static const double AFTER = 0.1; /* [s] time of the first fault */
 
-/* A large number that says nothing of x. */
+/* A large pseudo-random number that depends on the bits of x. */
 static double noise(double x)
 {
   uint64_t bits;
@@ -97,7 +97,7 @@ static baum_mechanism *pendulum(fault *user)
   return m;
 }
 
-/* A crank that keeps rotating, with a rod too short for it. */
+/* A slider-crank with a driven crank and a rod too short for a full revolution. */
 static baum_mechanism *locking_crank(void)
 {
   const drive motor = {.angle = 0.4, .rate = 1.0};
@@ -105,7 +105,7 @@ static baum_mechanism *locking_crank(void)
   return slider_crank_make(&data);
 }
 
-/* ---- what comes of it ---- */
+/* ---- failures and their messages ---- */
 
 enum { CONVERGENCE = 1, STEP = 2, NOT_FINITE = 4, SINGULAR = 8, CALLBACK = 16 };
 
@@ -122,10 +122,10 @@ static int flag_of(baum_status status)
 }
 
 typedef struct expectation {
-  fault fault;         /* FAULT_COUNT: the locking crank */
-  int statuses;        /* one of these */
+  fault fault;         /* FAULT_COUNT stands for the locking crank */
+  int statuses;        /* a set of flags, one of which must occur */
   const char *element; /* named */
-  const char *words;   /* in the message */
+  const char *words;   /* part of the message */
 } expectation;
 
 static const expectation EXPECTED[] = {
@@ -133,14 +133,14 @@ static const expectation EXPECTED[] = {
   {FAULT_RETRIES, CALLBACK, "\"gust\"", "returned 2 (retry)"},
   {FAULT_NAN, NOT_FINITE, "\"gust\"", "is nan at t = "},
   {FAULT_NOISE, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
-  /* fixed steps end where the force is infinite, which names it */
+  /* a fixed step may instead end at an infinite force, whose message names the force */
   {FAULT_GROWTH, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
   {FAULT_COUNT, NOT_FINITE | CONVERGENCE | STEP | SINGULAR, "joint ",
    "at the last good step, t = "},
 };
 enum { EXPECTATIONS = sizeof EXPECTED / sizeof *EXPECTED };
 
-/* The message of a failure: time, where it was, whose fault, and what to do. */
+/* Checks that the message has the time, the last good step, the element and advice. */
 static void check_sentence(const baum_simulation *run, const expectation *e, const char *name)
 {
   const char *message = baum_simulation_message(run);
@@ -158,7 +158,8 @@ static bool reached(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* A run of fixed steps may have left its mechanism before it fails, or be too fast for any step. */
+/* Whether the state is still near the constraint and slow. A failing run with fixed steps may have
+ * left the constraint, or be too fast for any step. */
 static bool is_still_a_pendulum(const baum_simulation *run)
 {
   const double *q = baum_simulation_q(run);
@@ -166,8 +167,8 @@ static bool is_still_a_pendulum(const baum_simulation *run)
   return fabs(hypot(q[0], q[1]) - 1.0) < 0.1 && hypot(v[0], v[1]) < 10.0;
 }
 
-/* Another method takes over where the run stands, and so does the run itself, now that the reason
- * has gone. */
+/* The fault is over: another method continues from the state of the run, and so does the run
+ * itself. */
 static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();
@@ -183,7 +184,7 @@ static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   assert_true(reached(baum_simulation_advance_to(next, t + 0.01)));
   assert_true(reached(baum_simulation_advance_to(run, t + 0.01)));
-  /* both fall freely on from there; what differs is the error of the loosest method in 10 ms */
+  /* both move freely for 10 ms; they differ by the error of the less accurate method */
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   baum_simulation_destroy(next);
 }
@@ -218,16 +219,16 @@ static void check_failure(const baum_simulation_options *o, const expectation *e
   baum_mechanism_destroy(m);
 }
 
-/* Not these: they may go through. */
+/* Combinations that may pass the fault without a failure. */
 static bool gets_over(const baum_simulation_options *o, fault f)
 {
   bool drifts =
     o->formulation == BAUM_FORMULATION_UNSTABILIZED || o->formulation == BAUM_FORMULATION_BAUMGARTE;
   if (!isnan(o->step)) {
-    /* steps of one length that nothing holds to the constraints leave them where these end */
+    /* fixed steps without projection may leave the constraints and pass the dead centre */
     return drifts && (f == FAULT_NOISE || f == FAULT_COUNT);
   }
-  /* IDA at index 3 does not test velocities, and so does not see what forces do to them */
+  /* IDA at index 3 does not test velocities, so it does not notice large forces */
   return o->formulation == BAUM_FORMULATION_INDEX3 && (f == FAULT_NOISE || f == FAULT_GROWTH);
 }
 
@@ -256,7 +257,7 @@ static void every_failure_names_time_place_and_remedy(void **state)
   assert_true(checked > 100);
 }
 
-static void what_a_method_gets_over_leaves_no_message(void **state)
+static void a_failure_that_a_method_overcomes_leaves_no_message(void **state)
 {
   (void)state;
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -301,9 +302,9 @@ static void more_digits_than_there_are_are_refused(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- going on ---- */
+/* ---- continuing from another run ---- */
 
-static void inputs_and_laws_go_on_too(void **state)
+static void inputs_and_laws_continue_after_a_failure(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -324,13 +325,13 @@ static void inputs_and_laws_go_on_too(void **state)
   for (int k = 0; k < 2; k++) {
     assert_true(reached(baum_simulation_advance_to(runs[k], 0.05)));
   }
-  /* assembled at the start, to rounding */
+  /* the continued run is assembled, which changes the state by rounding */
   assert_true(fabs(baum_simulation_q(runs[1])[2] - baum_simulation_q(runs[0])[2]) < 1e-9);
   double driven = 0.5403 + 0.03 * (2.006 + 0.03 * 2.5);
   const baum_channel angle = baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.pin);
   double coordinate[2];
   assert_int_equal(baum_simulation_get(runs[1], &angle, 1, coordinate), BAUM_OK);
-  assert_true(fabs(coordinate[0] - driven) < 1e-9); /* projected to rounding */
+  assert_true(fabs(coordinate[0] - driven) < 1e-9); /* the state is projected to rounding */
   for (int k = 0; k < 2; k++) {
     baum_simulation_destroy(runs[k]);
   }
@@ -365,9 +366,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_failure_names_time_place_and_remedy),
-    cmocka_unit_test(what_a_method_gets_over_leaves_no_message),
+    cmocka_unit_test(a_failure_that_a_method_overcomes_leaves_no_message),
     cmocka_unit_test(more_digits_than_there_are_are_refused),
-    cmocka_unit_test(inputs_and_laws_go_on_too),
+    cmocka_unit_test(inputs_and_laws_continue_after_a_failure),
     cmocka_unit_test(only_runs_of_the_same_mechanism_go_on),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

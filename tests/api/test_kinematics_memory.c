@@ -42,7 +42,7 @@ static void steps_and_outputs_allocate_nothing(void **state)
   baum_mechanism *mechanisms[3] = {four_bar_make(&motor), slider_crank_make(&data),
                                    parallelogram_make(&motor)};
   for (int k = 0; k < 3; k++) {
-    double end = k == 2 ? 2.0 : 20.0; /* the parallelogram is flat at 2.7 s */
+    double end = k == 2 ? 2.0 : 20.0; /* before the parallelogram is flat, at 2.7 s */
     baum_simulation *run = NULL;
     assert_int_equal(create(mechanisms[k], &run), BAUM_OK);
     assert_true(go(run, 0.0, 0.5 * end) >= BAUM_OK);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE, which does not take the mechanism of test_allocation.c: steps and outputs allocate
- * nothing, and every allocation may fail. */
+/* RATTLE does not support the mechanism of test_allocation.c. Here its steps and outputs, in the
+ * plane and in space, allocate nothing, and every allocation may fail. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -12,12 +12,15 @@
 
 #include "heap.h"
 #include "models.h"
+#include "spatial_scenes.h"
+
+enum { REDUNDANT, PLAIN, SPACE, KINDS };
 
 static baum_status go(baum_simulation *run, double from, double to)
 {
   const baum_channel channels[2] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_A)};
   double times[9];
-  double rows[9][18];
+  double rows[9][SPATIAL_RSSR_NQ + SPATIAL_RSSR_NV];
   for (int k = 0; k < 9; k++) {
     times[k] = from + (k + 1) * (to - from) / 9.0;
   }
@@ -34,27 +37,33 @@ static baum_status create(const baum_mechanism *mechanism, baum_solver solver,
   return baum_simulation_create(mechanism, &o, run);
 }
 
-static model make_crank(bool redundant)
+/* One of three. */
+static model make(int kind)
 {
   model m = {0};
-  assert_int_equal(model_slider_crank_build((model_slider_crank){.doubled_guide = redundant}, &m),
-                   BAUM_OK);
+  if (kind == SPACE) {
+    m.mechanism = spatial_make_rssr();
+    return m;
+  }
+  assert_int_equal(
+    model_slider_crank_build((model_slider_crank){.doubled_guide = kind == REDUNDANT}, &m),
+    BAUM_OK);
   return m;
 }
 
-/* The crank makes one revolution in 0.04 s. By then KLU has chosen its pivots, and the blocks
- * the rows to omit; with KLU these are checked again and again. */
+/* The crank makes one revolution in 0.04 s. By then KLU has chosen its pivots, and the block solver
+ * the rows to omit; KLU checks its pivots repeatedly. */
 static void steps_and_outputs_allocate_nothing(void **state)
 {
-  static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU};
   (void)state;
   if (!heap_is_ours()) {
     skip();
   }
-  for (int k = 0; k < 2; k++) {
-    model m = make_crank(k == 0);
+  for (int k = 0; k < KINDS; k++) {
+    model m = make(k);
     baum_simulation *run = NULL;
-    assert_int_equal(create(m.mechanism, SOLVERS[k], &run), BAUM_OK);
+    assert_int_equal(create(m.mechanism, k == PLAIN ? BAUM_SOLVER_KLU : BAUM_SOLVER_AUTO, &run),
+                     BAUM_OK);
     assert_true(go(run, 0.0, 0.1) >= BAUM_OK);
     heap_watch();
     assert_int_equal(go(run, 0.1, 0.3), BAUM_OK);
@@ -78,13 +87,9 @@ static baum_status simulate(const baum_mechanism *mechanism)
   return status == BAUM_WARNED ? BAUM_OK : status;
 }
 
-static void a_run_survives_every_failing_allocation(void **state)
+static void fail_every_allocation(int kind)
 {
-  (void)state;
-  if (!heap_is_ours()) {
-    skip();
-  }
-  model m = make_crank(true);
+  model m = make(kind);
   assert_int_equal(simulate(m.mechanism), BAUM_OK);
   long before = heap_blocks();
   heap_watch();
@@ -100,6 +105,16 @@ static void a_run_survives_every_failing_allocation(void **state)
     }
   }
   model_destroy(&m);
+}
+
+static void a_run_survives_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  fail_every_allocation(REDUNDANT);
+  fail_every_allocation(SPACE);
 }
 
 int main(void)

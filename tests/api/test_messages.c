@@ -86,7 +86,8 @@ static void a_step_below_the_rounding_of_time_is_an_error(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* alpha h = beta h = 1 is dead-beat with Euler; the factor 1.97 leaves 0.97 of a violation. */
+/* alpha h = beta h = 1 is dead-beat with Euler. With a factor of 1.97 on the gains, a step leaves
+ * 0.97 of a violation. */
 static void factors_that_hardly_damp_are_warned_of(void **state)
 {
   (void)state;
@@ -107,7 +108,8 @@ static void factors_that_hardly_damp_are_warned_of(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A free particle at 1e300 m/s: accelerations are fine, but a step of 1e9 s leaves the doubles. */
+/* A free particle at 1e300 m/s: accelerations are finite, but positions overflow in a step of 1e9
+ * s. */
 static void a_step_to_infinity_is_an_error(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions and options of programs that were compiled with an older version: shorter structs are
- * the same as whole ones whose missing fields have their defaults. */
+/* Definitions and options of programs compiled with an older version are shorter structs. Missing
+ * fields have their defaults. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,14 +14,14 @@
 
 enum { WORD = sizeof(size_t), FILL = 0xA5, TEXT_SIZE = 1024 };
 
-/* Whether a field is wholly within so many bytes. */
+/* Whether a field ends within the first `size` bytes. */
 static bool is_within(const element_field *field, size_t size)
 {
   return field->offset + field->size <= size;
 }
 
-/* Two structs that say the same: the whole one, with defaults from `size` on, and the short one,
- * with garbage there. */
+/* Two structs with the same meaning: `whole` has defaults from `size` on; `cut` ends there and has
+ * garbage behind its end. */
 typedef struct two_structs {
   any_def whole;
   any_def cut;
@@ -43,7 +43,7 @@ static two_structs cut_at(const any_def *good, const any_def *defaults, size_t s
   return two;
 }
 
-/* Sizes that an older version can have had: where a field ends, filled up to a whole word. */
+/* The size of an older struct that ended with this field, with padding to a whole word. */
 static size_t older_size(const element_field *last)
 {
   size_t end = last->offset + last->size;
@@ -52,7 +52,7 @@ static size_t older_size(const element_field *last)
 
 /* ---- definitions ---- */
 
-/* Names and arrays are copies of the element's own. */
+/* Compares all fields except arrays, which are copies at different addresses. */
 static void check_same_fields(const element_kind *kind, const any_def *a, const any_def *b)
 {
   const element_fields fields = element_fields_of(kind);
@@ -65,7 +65,7 @@ static void check_same_fields(const element_kind *kind, const any_def *a, const 
   assert_string_equal(a->head.name, b->head.name);
 }
 
-/* Add to a copy of a mechanism and read back. */
+/* Adds the element to a copy of the mechanism and reads it back. */
 static baum_status add_to_copy(const baum_mechanism *mechanism, const element_kind *kind,
                                const any_def *def, any_def *got, char text[TEXT_SIZE])
 {
@@ -76,7 +76,7 @@ static baum_status add_to_copy(const baum_mechanism *mechanism, const element_ki
   (void)snprintf(text, TEXT_SIZE, "%s", status == BAUM_OK ? "" : baum_message());
   if (status == BAUM_OK) {
     assert_int_equal(kind->get(copy, id, got, kind->size), BAUM_OK);
-    got->head.name = def->head.name; /* its own ends with the copy */
+    got->head.name = def->head.name; /* the element's own name is freed with the copy */
     assert_int_equal(kind->set(copy, id, def), BAUM_OK);
   }
   baum_mechanism_destroy(copy);
@@ -118,14 +118,14 @@ static void a_shorter_definition_has_defaults_where_it_ends(void **state)
       accepted += check_cut(&parts, kind, older_size(&fields.list[f]));
     }
   }
-  /* Each kind as a whole, and a good part of the others: not only refusals have been compared. */
+  /* Enough definitions are accepted, so not only refusals are compared. */
   assert_in_range(accepted, 2 * ELEMENT_KINDS, 1000);
   baum_mechanism_destroy(parts.mechanism);
 }
 
 /* ---- options ---- */
 
-/* The status of a run with options, and what it says of itself. */
+/* The status of a run with these options, and its explanation or the message. */
 static baum_status run_with(const baum_mechanism *mechanism, const any_def *def,
                             char text[TEXT_SIZE])
 {
@@ -160,7 +160,7 @@ static void shorter_options_have_defaults_where_they_end(void **state)
     assert_string_equal(text[0], text[1]);
     accepted += whole == BAUM_OK;
   }
-  /* From `step` on, the last field that these options need. */
+  /* All sizes that include `step`, the last field that these options need. */
   assert_int_equal(accepted, OPTION_FIELDS - 5);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Files of reports: whole or not there, with the mode of the file they replace, and no harm to
- * others in the folder. */
+/* A report file is written completely or not at all. It keeps the mode of the file that it
+ * replaces, and other files in the folder are untouched. */
 #define _GNU_SOURCE /* mkdtemp, chown */
 #include <dirent.h>
 #include <errno.h>
@@ -24,7 +24,7 @@
 
 enum { PATH = 300, TRIES = 100, OTHER_USER = 65534 };
 
-/* A report in a folder of its own. */
+/* A report in a temporary folder. */
 typedef struct scene {
   report_scene report;
   char folder[PATH / 4];
@@ -40,7 +40,7 @@ static scene make_scene(void)
   return s;
 }
 
-/* The files of the folder; removes them where `empty`. */
+/* Counts the files of the folder, and removes them if `empty`. */
 static int count_files(const scene *s, bool empty)
 {
   DIR *folder = opendir(s->folder);
@@ -69,7 +69,8 @@ static void end_scene(scene *s)
 static int syncs;
 static int sync_error;
 
-/* Takes the place of the system's for the library in this program. */
+/* Replaces the system's fsync() for this program: counts the calls, and lets tests make them
+ * fail. */
 int fsync(int descriptor)
 {
   (void)descriptor;
@@ -182,7 +183,7 @@ static void a_file_of_another_owner_keeps_that_owner(void **state)
   end_scene(&s);
 }
 
-/* "X.part", and the names that the library would take itself. */
+/* Other files are "X.part" and those with the names of the library's temporary files. */
 static void files_of_others_are_not_touched(void **state)
 {
   (void)state;
@@ -223,7 +224,7 @@ static void a_path_without_a_folder_is_in_the_present_one(void **state)
   end_scene(&s);
 }
 
-static void a_full_disk_is_told_and_a_device_stays_one(void **state)
+static void a_full_disk_is_reported_and_a_device_is_not_replaced(void **state)
 {
   (void)state;
   struct stat found;
@@ -240,7 +241,7 @@ static void a_full_disk_is_told_and_a_device_stays_one(void **state)
   end_scene(&s);
 }
 
-/* A limit on the size of files stands for a disk that is full in the midst. */
+/* A limit on file sizes simulates a disk that becomes full while writing. */
 static void a_failed_write_leaves_the_older_file_and_no_other(void **state)
 {
   (void)state;
@@ -273,13 +274,13 @@ static void file_and_folder_are_on_the_disk_before_the_call_returns(void **state
   syncs = 0;
   assert_int_equal(write_report(&s), BAUM_OK);
   assert_int_equal(syncs, 2);
-  sync_error = EINVAL; /* as of pipes */
+  sync_error = EINVAL; /* fsync() returns this for pipes */
   assert_int_equal(baum_study_write(s.report.study, BAUM_REPORT_CSV, NULL, "/dev/null"), BAUM_OK);
   sync_error = 0;
   end_scene(&s);
 }
 
-static void a_folder_that_is_not_there_is_told(void **state)
+static void a_missing_folder_is_reported(void **state)
 {
   (void)state;
   scene s = make_scene();
@@ -297,10 +298,10 @@ int main(void)
     cmocka_unit_test(a_file_of_another_owner_keeps_that_owner),
     cmocka_unit_test(files_of_others_are_not_touched),
     cmocka_unit_test(a_path_without_a_folder_is_in_the_present_one),
-    cmocka_unit_test(a_full_disk_is_told_and_a_device_stays_one),
+    cmocka_unit_test(a_full_disk_is_reported_and_a_device_is_not_replaced),
     cmocka_unit_test(a_failed_write_leaves_the_older_file_and_no_other),
     cmocka_unit_test(file_and_folder_are_on_the_disk_before_the_call_returns),
-    cmocka_unit_test(a_folder_that_is_not_there_is_told),
+    cmocka_unit_test(a_missing_folder_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a run is driven: steps, targets, samples, progress, cancelling, warnings, counters, words. */
+/* Advancing a run: steps, targets, samples, progress, cancelling, warnings, counters, messages. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +28,7 @@ static baum_simulation_options options_in(step_mode mode)
   return step_mode_options(mode, STEP, 1e-8);
 }
 
-/* With a fixed step where there is one. */
+/* Options with a fixed step if the integrator has one, else with tolerances. */
 static baum_simulation_options options_for(const baum_integrator *integrator)
 {
   return options_in((step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
@@ -66,7 +66,7 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Every integrator, in its ways to step, that this build can run with the mechanism here. */
+/* The k-th integrator and kind of step that suits this mechanism and is in this build. */
 static step_mode mode_at(int k)
 {
   int i = 0;
@@ -77,7 +77,7 @@ static step_mode mode_at(int k)
   return step_mode_at(i);
 }
 
-/* Bit for bit. */
+/* Compares time, q and v bit for bit. */
 static void check_same_state(const baum_simulation *a, const baum_simulation *b)
 {
   assert_true(baum_simulation_time(a) == baum_simulation_time(b));
@@ -173,7 +173,8 @@ static void the_present_time_as_target_does_nothing(void **state)
   }
 }
 
-/* Every target is met exactly, and the start is found again to the error of the method. */
+/* Every target time is reached exactly; forward and back again, the start is reached within the
+ * error of the method. */
 static void out_and_back_ends_near_the_start(void **state)
 {
   (void)state;
@@ -189,7 +190,7 @@ static void out_and_back_ends_near_the_start(void **state)
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
     assert_true(baum_simulation_time(s.run) == 0.0);
     for (int i = 0; i < EVERY_NQ; i++) {
-      /* Order 1 with h = 1e-4 over 0.2 s: |a| h t is about 1e-3. */
+      /* Error of Euler's method: h |a| t is about 1e-3 for h = 1e-4 and t = 0.2 s. */
       ASSERT_NEAR(baum_simulation_q(s.run)[i], start[i], 0.0, 1e-3);
     }
     assert_true(counters_of(s.run).max_phi < 1e-3);
@@ -265,7 +266,7 @@ static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
     assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(b.run, 0.1) >= BAUM_OK);
     for (int i = 0; i < EVERY_NQ; i++) {
-      /* Assembly of the state that was set moves it by rounding. */
+      /* The state that was set is assembled, which changes it by rounding. */
       ASSERT_NEAR(baum_simulation_q(a.run)[i], baum_simulation_q(b.run)[i], 0.0, 1e-7);
     }
     close_scene(&a);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saved runs go on in another process as in their own, bit for bit.
+/* A saved run continues in another process exactly as in its own, bit for bit.
  *
- * This process takes a run through random times, saves it at each, and goes on. Then this program
- * is started once more with the buffers; it builds the same mechanism again, restores, goes on
- * likewise, and tells where it came to.
+ * This process advances a run by random intervals and saves it before each. A second process of the
+ * same program then builds the same mechanism, restores each buffer, advances by the same interval,
+ * and returns the resulting state for comparison.
  */
 #define _GNU_SOURCE /* fork */
 #include <math.h>
@@ -21,11 +21,11 @@
 
 #include "saved_scenes.h"
 
-enum { ANEW = 10 /* every so many buffers the other process makes a run again */ };
+enum { ANEW = 10 /* the other process creates a new run for every tenth buffer */ };
 
 static const char *program; /* argv[0] */
 
-/* What a run has come to: all that can be read of it. */
+/* All that can be read of a run after an interval. */
 typedef struct outcome {
   double t;
   double q[SAVED_NQ_MAX];
@@ -39,7 +39,7 @@ typedef struct outcome {
   baum_warning warning;
 } outcome;
 
-/* What the run remembers of events and singular configurations. */
+/* Reads the run's events and singular configurations. */
 static void look_back(baum_simulation *run, outcome *out)
 {
   baum_event_record record;
@@ -76,11 +76,11 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
   out->input = scene->has_input ? baum_simulation_input(run, scene->input) : 0.0;
   look_back(run, out);
   out->counters.wall = 0.0;
-  out->counters.max_phi_joint.tag = 0; /* of each mechanism its own */
+  out->counters.max_phi_joint.tag = 0; /* ids differ between mechanisms */
   out->counters.max_phi_rate_joint.tag = 0;
 }
 
-/* The k-th stretch of a run, of a random length, with what acts on it from outside. */
+/* Advances by the k-th random interval, after changing inputs or laws for some k. */
 static void go_on(baum_simulation *run, const saved_scene *scene, int k)
 {
   double t = baum_simulation_time(run) + saved_random(k) * scene->span;
@@ -91,7 +91,7 @@ static void go_on(baum_simulation *run, const saved_scene *scene, int k)
   if (k % 7 == 3 && scene->law) {
     assert_int_equal(scene->law(run, scene), BAUM_OK);
   }
-  if (k % 5 == 4 && scene->has_input) { /* also where another one is left of the last */
+  if (k % 5 == 4 && scene->has_input) { /* also while an earlier schedule is still in effect */
     const double times[3] = {t - 0.3 * scene->span * saved_random(k), t, t + 0.5 * scene->span};
     const double values[3] = {0.7, 1.1, 0.9};
     assert_int_equal(baum_simulation_schedule_input(run, scene->input, times, values, 3), BAUM_OK);
@@ -169,13 +169,13 @@ static void start_the_other(int scene, int count, FILE *buffers, FILE *outcomes)
 
 /* ---- this one ---- */
 
-/* Saves before every stretch; where the run came to after it. */
+/* Saves before every interval, and stores the outcome after it. */
 static void run_and_save(const saved_scene *scene, FILE *buffers, outcome *came_to, int count)
 {
   baum_simulation *run = saved_scene_start(scene);
   for (int k = 0; k < count; k++) {
     size_t size = 0;
-    size_t most = 0; /* a schedule takes some more */
+    size_t most = 0; /* upper bound: schedules vary in size */
     assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
     char *buffer = malloc(most);
     assert_non_null(buffer);
@@ -228,7 +228,7 @@ static void every_method_goes_on_bit_for_bit_in_another_process(void **state)
     check_scene(number, &scene);
     saved_scene_close(&scene);
   }
-  assert_true(number > 20); /* pairs of integrator and formulation without SUNDIALS */
+  assert_true(number > 20); /* number of pairs of integrator and formulation without SUNDIALS */
 }
 
 int main(int argc, char **argv)

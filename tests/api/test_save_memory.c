@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saving and restoring allocate nothing, nor do the steps after them where nothing but blocks is
- * factored; taking over from another run may run out of memory without harm. */
+/* Saving and restoring allocate nothing. Later steps allocate nothing either if only blocks are
+ * factored. Continuing from another run may fail for lack of memory, and then changes nothing. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -20,8 +20,7 @@ static bool chooses_pivots(const saved_scene *scene)
 {
   const baum_simulation_options *o = &scene->options;
   bool by_blocks = o->solver == BAUM_SOLVER_AUTO || o->solver == BAUM_SOLVER_BLOCK;
-  /* user coordinates have a varying mass, but go by blocks too; others factor matrices of their
-   * own */
+  /* explicit methods with a fixed step factor blocks only; others factor matrices of their own */
   bool explicit = isnan(o->rtol) && baum_integrator_has_fixed_step(o->integrator) &&
                   o->integrator != baum_generalized_alpha() && o->integrator != baum_rattle();
   return !(by_blocks && explicit);
@@ -95,16 +94,16 @@ static void going_on_without_memory_changes_nothing(void **state)
     (void)heap_stop();
   }
   assert_int_equal(status, BAUM_OK);
-  assert_true(failures > 4); /* q, v, inputs, numbers of drivers, schedules */
+  assert_true(failures > 4); /* allocations for q, v, inputs, driver numbers, schedules */
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);
   baum_simulation_destroy(to);
   saved_scene_close(&scene);
-  assert_int_equal(heap_blocks(), before); /* in between a solver may keep what it has made */
+  assert_int_equal(heap_blocks(), before); /* memory kept by a solver is freed too */
 }
 
-/* Into a run that has no law and no schedule of its own yet. */
-static void what_is_restored_without_memory_changes_nothing(void **state)
+/* Restores into a run that has no law and no schedule yet. */
+static void restoring_without_memory_changes_nothing(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -138,7 +137,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(saving_and_restoring_allocate_nothing),
     cmocka_unit_test(going_on_without_memory_changes_nothing),
-    cmocka_unit_test(what_is_restored_without_memory_changes_nothing),
+    cmocka_unit_test(restoring_without_memory_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

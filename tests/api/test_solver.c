@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which solver a run uses, what it says of it, and what it refuses. */
+/* Which solver a run uses, what its explanation says, and which choices are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,7 +55,7 @@ static void assert_refused(const baum_mechanism *mechanism, const baum_simulatio
 
 /* ---- mechanisms ---- */
 
-/* A disc on the ground, as many pendulums on it, and what else one wants. Not frozen. */
+/* A disc pinned to ground with pendulums pinned to it. Not frozen. */
 static baum_mechanism *make_hub(int arms)
 {
   baum_mechanism *m = NULL;
@@ -117,7 +117,7 @@ static int tie(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Two coordinates that are one; the second is without mass. */
+/* Two coordinates that a constraint makes equal; the second has no mass. */
 static baum_mechanism *make_massless(void)
 {
   baum_mechanism *m = NULL;
@@ -140,8 +140,8 @@ static baum_mechanism *make_massless(void)
   return m;
 }
 
-/* Particles, each tied to four others of which two are far away, so that no part hangs by few
- * rods. */
+/* Particles with about four rods each, two of them to distant particles, so that elimination has
+ * many couplings. */
 static baum_mechanism *make_net(void)
 {
   baum_body_id bodies[NET];
@@ -159,14 +159,14 @@ static baum_mechanism *make_net(void)
   for (int k = 0; k < 2 * NET - 3; k++) {
     int a = k % NET;
     rod.body_a = bodies[a];
-    rod.body_b = bodies[k < NET ? (a + 1) % NET : (7 * a + 4) % NET]; /* never itself: 6 a + 4 */
+    rod.body_b = bodies[k < NET ? (a + 1) % NET : (7 * a + 4) % NET]; /* b is never a */
     check(baum_mechanism_add_planar_distance(m, &rod, NULL));
   }
   check(baum_mechanism_freeze(m));
   return m;
 }
 
-/* A mass that is known from a time on. */
+/* A mass function that fails before t = 1 s. */
 static int late_mass(double t, const double *q, double *out, void *user)
 {
   (void)q;
@@ -208,7 +208,8 @@ static void all_solvers_find_the_same(void **state)
     check(baum_simulation_get(run, channels, 2, row));
     for (int i = 0; i < 17; i++) {
       want[i] = k == 0 ? row[i] : want[i];
-      /* Rounding of accelerations of 1e4 m/s^2 and multipliers of 1e3 N, times some condition. */
+      /* Rounding of accelerations of 1e4 m/s^2 and multipliers of 1e3 N, times a condition
+       * number. */
       ASSERT_NEAR(row[i], want[i], 1e-11, i < 9 ? 1e-7 : 1e-9);
     }
     baum_simulation_destroy(run);
@@ -237,7 +238,7 @@ static void explain_names_the_solver(void **state)
   model_destroy(&m);
 }
 
-/* Kinematics and residuals are solved by matrices of their own. */
+/* Kinematics and IDA factor other matrices than that of (5). */
 static void methods_without_accelerations_say_so(void **state)
 {
   (void)state;
@@ -300,7 +301,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   const baum_channel channel = baum_channel_of(BAUM_A);
   double a[2];
   check(baum_simulation_get(run, &channel, 1, a));
-  ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* differences of Phi */
+  ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* accuracy of the Jacobian by differences of Phi */
   ASSERT_NEAR(a[1], 3.0, 0.0, 1e-10);
   assert_explained(run,
                    "\nsolver        klu on the whole system: the mass matrix of body 1 \"twin\" "
@@ -312,7 +313,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void nets_that_blocks_would_fill_are_told(void **state)
+static void joints_in_a_dense_net_are_refused_for_blocks(void **state)
 {
   (void)state;
   baum_mechanism *m = make_net();
@@ -398,7 +399,7 @@ int main(void)
     cmocka_unit_test(bodies_with_very_many_joints_are_named),
     cmocka_unit_test(many_joints_below_that_are_fine),
     cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
-    cmocka_unit_test(nets_that_blocks_would_fill_are_told),
+    cmocka_unit_test(joints_in_a_dense_net_are_refused_for_blocks),
     cmocka_unit_test(masses_unknown_in_the_design_configuration_are_reported),
     cmocka_unit_test(blocks_alone_stop_close_to_a_singular_configuration),
     cmocka_unit_test(no_joints_are_no_nodes),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation may fail that test_allocation.c does not reach: fixed bodies, dense mass
- * matrices with rows, break times, and the solver that is made when a configuration is singular. */
+/* Failing allocations that test_allocation.c does not reach: fixed bodies, dense mass matrices with
+ * rows, break times, and the solver that is created at a singular configuration. */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 #include "failing_heap.h"
 #include "saddle_solver.h"
 
-/* ---- a pendulum on a frame on the ground, and a triple of coordinates with a row ---- */
+/* ---- a pendulum on a frame fixed to ground, and three user coordinates with a row ---- */
 
 static int triple_mass(double t, const double *q, double *out, void *user)
 {
@@ -167,7 +167,7 @@ static baum_status solve_singular(void *context)
   return status;
 }
 
-static void so_does_a_singular_configuration(void **state)
+static void solving_at_a_singular_configuration_survives_every_failing_allocation(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -184,7 +184,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(fixed_bodies_survive_every_failing_allocation),
-    cmocka_unit_test(so_does_a_singular_configuration),
+    cmocka_unit_test(solving_at_a_singular_configuration_survives_every_failing_allocation),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of a study that are refused, with the message and nothing changed; defaults; entries that
- * cannot be run; memory that runs out. */
+/* Calls of a study: refusals with messages and without effect, defaults, entries that cannot be
+ * run, and lack of memory. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -46,7 +46,7 @@ static int clear(void **state)
 
 /* ---- refused ---- */
 
-static void making_one_is_refused_without_a_frozen_mechanism_or_a_span(void **state)
+static void a_study_needs_a_frozen_mechanism_and_a_span(void **state)
 {
   const model *m = *state;
   baum_study *study = (baum_study *)(uintptr_t)16;
@@ -137,7 +137,7 @@ static void options_out_of_range_are_refused_by_name(void **state)
   baum_study_destroy(study);
 }
 
-/* Many coordinates leave room for fewer samples. */
+/* The limit of samples depends on the number of coordinates. */
 static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state)
 {
   baum_study *study = make(*state);
@@ -163,7 +163,7 @@ static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   baum_study_destroy(study);
 
-  enum { BODIES = 200 }; /* 1200 numbers at each sample */
+  enum { BODIES = 200 }; /* 1200 values of q and v per sample */
   baum_mechanism *mechanism = NULL;
   const baum_planar_body_def body = baum_planar_body_def_default();
   assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
@@ -238,8 +238,9 @@ static void progress_cannot_change_a_running_study(void **state)
   baum_study_destroy(study);
 }
 
-/* Its finer neighbours are passed over when an entry reaches the limit; these are none. */
-static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
+/* The first entry exceeds the time limit, so entries with smaller steps are skipped. The invalid
+ * ones are still reported as refused. */
+static void invalid_settings_are_refused_even_if_others_exceed_the_time_limit(void **state)
 {
   baum_study *study = make(*state);
   const double steps[] = {1e-6, -1.0, (double)NAN};
@@ -251,14 +252,14 @@ static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
   options.validate = false;
   options.entry_limit = 1e-6;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
-  (void)baum_study_run(study); /* the limit is the reference's, too */
+  (void)baum_study_run(study); /* fails, because the limit also applies to the reference */
   assert_int_equal(study_entry(study, 0).state, BAUM_STUDY_TIMED_OUT);
   assert_int_equal(study_entry(study, 1).state, BAUM_STUDY_REFUSED);
   assert_int_equal(study_entry(study, 2).state, BAUM_STUDY_REFUSED);
   baum_study_destroy(study);
 }
 
-static void what_error_means_is_told_by_name(void **state)
+static void the_definition_of_error_is_described_with_names(void **state)
 {
   const model *m = *state;
   baum_study *study = make(m);
@@ -278,7 +279,7 @@ static void what_error_means_is_told_by_name(void **state)
   baum_study_destroy(study);
 }
 
-static void what_is_not_known_yet_is_refused(void **state)
+static void results_of_entries_that_were_not_run_are_refused(void **state)
 {
   baum_study *study = make(*state);
   baum_simulation_options o = rk4(0.01);
@@ -292,7 +293,7 @@ static void what_is_not_known_yet_is_refused(void **state)
   ASSERT_SAYS(baum_study_cost_at(study, 1, 1e-3, BAUM_STUDY_WORK, &cost), BAUM_ERR_ARGUMENT,
               "no method 1");
   ASSERT_SAYS(baum_study_reference_sample(study, 0, NULL, NULL, NULL, NULL), BAUM_ERR_STATE,
-              "has not been made");
+              "has not been computed");
   baum_study_entry entry = study_entry(study, 0);
   assert_int_equal(entry.state, BAUM_STUDY_WAITING);
   assert_true(isnan(entry.error) && isnan(entry.cpu) && isnan(entry.error_validated));
@@ -300,7 +301,7 @@ static void what_is_not_known_yet_is_refused(void **state)
   baum_study_destroy(study);
 }
 
-static void what_entries_depend_on_stays_once_they_are_run(void **state)
+static void options_that_entries_depend_on_cannot_change_after_a_run(void **state)
 {
   baum_study *study = make(*state);
   baum_study_options o = small_study_options();
@@ -350,9 +351,9 @@ static void nothing_is_recommended_where_nothing_was_compared(void **state)
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no entry that is done has followed the motion");
+              BAUM_ERR_ARGUMENT, "no entry that is done followed the true motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, 1.0, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no entry that is done has followed the motion");
+              BAUM_ERR_ARGUMENT, "no entry that is done followed the true motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, INFINITY, &best, sizeof best, NULL, 0),
               BAUM_ERR_ARGUMENT, "seconds is inf s, must be finite and > 0");
   baum_study_destroy(study);
@@ -374,11 +375,11 @@ static void a_setting_that_cannot_be_run_is_an_entry_with_its_reason(void **stat
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_fixed(1e4, 1e4);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  o = rk4(1e-7); /* ten million steps are not done in a millisecond; nor are those of half of it */
+  o = rk4(1e-7); /* ten million steps take more than a millisecond, and twice as many even more */
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   o.step = 5e-8;
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  /* The study's own reference may take more than that limit. */
+  /* A given reference, because the study's own could exceed the time limit. */
   double t = 1.0;
   const double place[2] = {0.0, -1.0};
   assert_int_equal(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_OK);
@@ -429,8 +430,7 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
   baum_study_destroy(study);
 }
 
-/* One method for each kind of step that an integrator takes, as it is when nothing else is
- * given. */
+/* For each integrator and kind of step the quick grid has one method, with default settings. */
 static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
 {
   baum_study *study = make(*state);
@@ -481,8 +481,8 @@ static baum_status study_little(const model *m)
   return status;
 }
 
-/* Every seventh, for there are some thousand; no entry is taken for refused because there was no
- * memory for it. */
+/* Only every seventh of some thousand allocations. Lack of memory is never reported as a refused
+ * entry. */
 static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 {
   const model *m = *state;
@@ -507,16 +507,16 @@ static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(making_one_is_refused_without_a_frozen_mechanism_or_a_span),
+    cmocka_unit_test(a_study_needs_a_frozen_mechanism_and_a_span),
     cmocka_unit_test(calls_on_no_study_are_refused),
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
     cmocka_unit_test(sizes_that_cannot_be_meant_are_refused_with_their_limit),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
     cmocka_unit_test(progress_cannot_change_a_running_study),
-    cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
-    cmocka_unit_test(what_error_means_is_told_by_name),
-    cmocka_unit_test(what_is_not_known_yet_is_refused),
-    cmocka_unit_test(what_entries_depend_on_stays_once_they_are_run),
+    cmocka_unit_test(invalid_settings_are_refused_even_if_others_exceed_the_time_limit),
+    cmocka_unit_test(the_definition_of_error_is_described_with_names),
+    cmocka_unit_test(results_of_entries_that_were_not_run_are_refused),
+    cmocka_unit_test(options_that_entries_depend_on_cannot_change_after_a_run),
     cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),
     cmocka_unit_test(nothing_is_recommended_where_nothing_was_compared),
     cmocka_unit_test(a_setting_that_cannot_be_run_is_an_entry_with_its_reason),

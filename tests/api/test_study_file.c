@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study that was interrupted goes on from its file: no entry is lost, none is run twice. */
+/* An interrupted study continues from its file: no entry is lost, none is run twice. */
 #define _GNU_SOURCE /* fork, mkstemp */
 #include <errno.h>
 #include <setjmp.h>
@@ -26,7 +26,7 @@ enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
 
 static int sync_error;
 
-/* Takes the place of the system's for the library in this program. */
+/* Replaces the system's fsync() for this program, so that tests can let it fail. */
 int fsync(int descriptor)
 {
   (void)descriptor;
@@ -80,7 +80,7 @@ static void write_file(const char *path, const char *text, size_t size)
   (void)fclose(stream);
 }
 
-/* Lines `entry KEY STAGE ...` of a stage. */
+/* Counts the lines `entry KEY STAGE ...` with this stage. */
 static int lines_at(const char *text, int stage)
 {
   int count = 0;
@@ -97,7 +97,7 @@ static int die(const baum_study *study, int32_t done, int32_t total, void *user)
   return done == *(const int *)user ? raise(SIGKILL) : 0;
 }
 
-/* Run until so many stages are done, and be killed there. */
+/* Runs the study in a child process that is killed after `at` stages. */
 static void run_and_be_killed(scene *s, int at)
 {
   pid_t child = fork();
@@ -121,7 +121,8 @@ static int count_entries(const baum_study *study, int32_t done, int32_t total, v
   return 0;
 }
 
-/* The study of a scene, ended; *first receives what was done when its first new entry was. */
+/* Runs the study of a scene; *first receives the number of stages done at the first call of
+ * progress. */
 static baum_study *run_to_the_end(scene *s, int *first)
 {
   *first = 0;
@@ -149,12 +150,12 @@ static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **sta
   int first = 0;
   baum_study *want = run_to_the_end(&whole, &first);
   int entries = baum_study_entry_count(want);
-  const int kills[] = {KILLED_AT, entries - 1, entries + 3}; /* among errors, and among times */
+  const int kills[] = {KILLED_AT, entries - 1, entries + 3}; /* during errors, during times */
   for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
     run_and_be_killed(&broken, kills[k]);
   }
   baum_study *got = run_to_the_end(&broken, &first);
-  assert_int_equal(first, entries + 1); /* no error is taken again */
+  assert_int_equal(first, entries + 1); /* no error is measured again */
   assert_same_entries(got, want);
   char *text = read_file(broken.path);
   for (int stage = 1; stage <= 2; stage++) { /* measured, timed */
@@ -217,7 +218,7 @@ static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
   end_scene(&s);
 }
 
-/* The last ones begin like a study file, one up to a zero in its first line. */
+/* The last two begin like a study file; one of them has a zero byte in its first line. */
 static void a_file_of_something_else_is_refused_and_left_alone(void **state)
 {
   (void)state;
@@ -242,7 +243,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   end_scene(&s);
 }
 
-/* The head of a file, sealed as its lines are, but of a version before the first. */
+/* A correctly sealed first line, but with version 0 of the format. */
 static void a_file_of_another_version_is_refused(void **state)
 {
   (void)state;
@@ -256,7 +257,7 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The same entries of a heavier pendulum, put behind the head of this one. */
+/* The lines of a heavier pendulum's study after the first line of this one's file. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;
@@ -308,7 +309,7 @@ static void a_file_of_another_study_is_refused_with_what_differs(void **state)
   end_scene(&s);
 }
 
-/* As an editor or a version control may leave them. */
+/* Line ends as other systems or editors write them. */
 static void lines_may_end_as_on_other_systems(void **state)
 {
   (void)state;
@@ -331,7 +332,7 @@ static void lines_may_end_as_on_other_systems(void **state)
   end_scene(&s);
 }
 
-static void what_is_no_regular_file_is_refused(void **state)
+static void a_path_that_is_no_regular_file_is_refused(void **state)
 {
   (void)state;
   scene s = make_scene();
@@ -355,7 +356,7 @@ static void a_missing_folder_is_a_status(void **state)
   end_scene(&s);
 }
 
-/* A limit on the size of files stands for a disk of that size. */
+/* Runs with a limit on file sizes, which simulates a full disk. */
 static baum_status run_on_small_disk(baum_study *study, rlim_t size)
 {
   struct rlimit before;
@@ -368,8 +369,8 @@ static baum_status run_on_small_disk(baum_study *study, rlim_t size)
   return status;
 }
 
-/* In the head, in the reference, among the errors; what had no room is there as soon as there is
- * some. */
+/* The disk becomes full in the first line, in the reference, or among the errors. Once there is
+ * space, the missing lines are written. */
 static void a_full_disk_is_a_status_and_loses_nothing(void **state)
 {
   (void)state;
@@ -415,7 +416,7 @@ int main(void)
     cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
     cmocka_unit_test(lines_may_end_as_on_other_systems),
-    cmocka_unit_test(what_is_no_regular_file_is_refused),
+    cmocka_unit_test(a_path_that_is_no_regular_file_is_refused),
     cmocka_unit_test(a_missing_folder_is_a_status),
     cmocka_unit_test(a_file_that_does_not_reach_the_disk_is_a_status),
     cmocka_unit_test(a_full_disk_is_a_status_and_loses_nothing),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports of a study: what is in them, what users' names cannot do to them. */
+/* Reports of a study: their content, and users' names with special characters. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -56,9 +56,9 @@ static int count(const char *text, const char *part)
   return found;
 }
 
-/* ---- what is in them ---- */
+/* ---- content ---- */
 
-static void entries_are_what_the_tests_want(void **state)
+static void the_scene_has_an_entry_of_each_kind(void **state)
 {
   (void)state;
   assert_int_equal(baum_study_entry_count(scene.study), REPORT_ENTRIES);
@@ -81,7 +81,7 @@ static void a_text_names_every_entry_and_what_was_said(void **state)
     assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
     assert_true(count(text, entry.name) >= 1);
   }
-  assert_true(count(text, "refused") >= 3); /* of the counts, of its entry, of what was said */
+  assert_true(count(text, "refused") >= 3); /* in counts, entry and messages */
   assert_true(count(text, "unstable") >= 1);
   assert_int_equal(count(text, "Recommended settings"), 1);
   assert_int_equal(count(text, "\n  1e-10  "), 1);
@@ -125,15 +125,15 @@ static void a_json_has_null_for_what_is_not_known(void **state)
   free(text);
 }
 
-/* What its script makes of them is tested in a browser (tests/browser). */
+/* tests/browser tests how the page's script shows them. */
 static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
 {
   (void)state;
   char *page = print(scene.study, BAUM_REPORT_PAGE);
   assert_int_equal(count(page, "\"DATA\""), 0);
-  assert_int_equal(count(page, "\"levels\": "), 1);                     /* rk2 alone has gains */
+  assert_int_equal(count(page, "\"levels\": "), 1);                     /* only rk2 has gains */
   assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4); /* and methods */
-  assert_int_equal(count(page, "http"), 2); /* http-equiv, and the namespace of SVG */
+  assert_int_equal(count(page, "http"), 2); /* in http-equiv and in the namespace of SVG */
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);
 }
@@ -142,7 +142,7 @@ static void a_page_has_no_markup_of_users(void **state)
 {
   (void)state;
   char *page = print(scene.study, BAUM_REPORT_PAGE);
-  assert_int_equal(count(page, "<script"), 2); /* its data and its program */
+  assert_int_equal(count(page, "<script"), 2); /* one for the data, one for the program */
   assert_int_equal(count(page, "</title><script>"), 0);
   assert_int_equal(count(page, "<img"), 0);
   assert_true(count(page, "\\u003cimg src=x onerror=\\\"") >= 1);
@@ -202,7 +202,7 @@ static void bad_calls_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(entries_are_what_the_tests_want),
+    cmocka_unit_test(the_scene_has_an_entry_of_each_kind),
     cmocka_unit_test(a_text_names_every_entry_and_what_was_said),
     cmocka_unit_test(a_csv_has_a_line_for_each_entry_and_as_many_cells),
     cmocka_unit_test(a_json_has_null_for_what_is_not_known),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A report that runs out of memory says so and leaves nothing behind. */
+/* Lack of memory for a report is a status, and no memory is lost. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -12,12 +12,12 @@
 #include "heap.h"
 #include "report_scene.h"
 
-/* Without memory for the file that names the processor a report is made all the same. */
+/* A report does not fail if only the memory for reading the processor's name is missing. */
 static void check_form(const baum_study *study, baum_report_form form)
 {
   int failures = 0;
   size_t size = 0;
-  /* what the C library keeps from a first time */
+  /* a first call allocates what the C library keeps */
   assert_int_equal(baum_study_print(study, form, NULL, NULL, 0, &size), BAUM_OK);
   long asked = 1;
   for (long n = 0; n < asked; n++) {
@@ -30,7 +30,7 @@ static void check_form(const baum_study *study, baum_report_form form)
     failures += status == BAUM_ERR_MEMORY;
     asked = status == BAUM_ERR_MEMORY ? n + 2 : asked;
   }
-  assert_true(failures >= 6); /* entries, their order, methods, two fronts, the text */
+  assert_true(failures >= 6); /* entries, order, methods, two fronts, the text */
 }
 
 static void every_allocation_of_a_report_may_fail(void **state)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What entries of a study are called, what tells methods apart, and what error means. */
+/* Names of a study's entries, which settings are separate methods, and the definition of error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -75,7 +75,8 @@ static void entries_are_called_by_their_gains(void **state)
   baum_study_destroy(study);
 }
 
-/* They are copied; other factors are another method, another step is not. */
+/* Factors are copied. Entries with other factors belong to another method, those with another step
+ * to the same. */
 static void gains_of_rows_belong_to_the_method(void **state)
 {
   baum_study *study = make(*state);
@@ -100,9 +101,9 @@ static void gains_of_rows_belong_to_the_method(void **state)
   baum_study_destroy(study);
 }
 
-/* ---- error ---- */
+/* ---- definition of error ---- */
 
-/* Errors of two steps; channel NULL: as the study finds by itself. */
+/* Errors of two entries with steps h and h / 2; without a channel, the study's default error. */
 static void errors_of(const model *m, const baum_channel *channel, double unit, double errors[2])
 {
   baum_study *study = make(m);
@@ -136,7 +137,8 @@ static void error_may_be_of_channels_by_a_unit(void **state)
   double of_speed[2];
   double of_pull[2];
   errors_of(m, NULL, 0.0, own);
-  errors_of(m, &place, 1.0, same); /* the rod is 1 m long */
+  errors_of(m, &place, 1.0, same); /* the same as the default, whose length is that of the rod, 1
+                                    * m */
   errors_of(m, &place, 0.5, finer);
   errors_of(m, &speed, 1.0, of_speed);
   errors_of(m, &pull, 1.0, of_pull);
@@ -144,7 +146,7 @@ static void error_may_be_of_channels_by_a_unit(void **state)
     ASSERT_NEAR(same[k], own[k], 1e-12, 0.0);
     ASSERT_NEAR(finer[k], 2.0 * own[k], 1e-12, 0.0);
   }
-  /* 2^4, and what the next order adds. */
+  /* Fourth order: a ratio of 2^4, with allowance for higher terms. */
   assert_in_range(own[0] / own[1], 12, 40);
   assert_in_range(of_speed[0] / of_speed[1], 12, 40);
   assert_in_range(of_pull[0] / of_pull[1], 12, 40);
@@ -152,7 +154,7 @@ static void error_may_be_of_channels_by_a_unit(void **state)
 
 /* ---- refused ---- */
 
-static void what_is_no_unit_no_entry_and_no_cost_is_refused(void **state)
+static void invalid_units_entries_and_costs_are_refused(void **state)
 {
   baum_study *study = make(*state);
   const baum_simulation_options o = baumgarte(baum_gains_fixed(5.0, 5.0), 0.05);
@@ -189,7 +191,7 @@ int main(void)
     cmocka_unit_test(entries_are_called_by_their_gains),
     cmocka_unit_test(gains_of_rows_belong_to_the_method),
     cmocka_unit_test(error_may_be_of_channels_by_a_unit),
-    cmocka_unit_test(what_is_no_unit_no_entry_and_no_cost_is_refused),
+    cmocka_unit_test(invalid_units_entries_and_costs_are_refused),
   };
   return cmocka_run_group_tests(tests, build, clear);
 }

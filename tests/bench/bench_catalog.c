@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The whole catalogue through a bounded grid: are errors of studies, with references of their own,
- * those that the stored references tell?
+/* Runs the whole catalogue through a bounded grid, once with references that the studies compute,
+ * once with those of the catalogue, and compares the errors.
  *
  * usage: bench_catalog [ENTRY]
  *
- * Every integrator with each of its formulations, gains by its rule, auto and two constants, at
- * three settings; no run takes more than 0.05 s. tests/support/catalog_grid.c says what must be so.
+ * The grid has every integrator with each of its formulations, the gains of its rule, of `auto` and
+ * two constants, at three settings; no run takes more than 0.05 s. tests/support/catalog_grid.h
+ * says which entries are wrong.
  */
 #include <stdio.h>
 #include <string.h>

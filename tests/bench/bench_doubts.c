@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do runs that come out wrong carry a warning that doubts the motion?
+/* Do inaccurate runs have a warning that doubts the motion?
  *
  *   bench_doubts [-n MECHANISMS] [-f FIRST_SEED] [-s SETTING] [-j THREADS] [-c] [-e]
  *
@@ -9,15 +9,15 @@
  *   -c      print a line of CSV per run instead of the tables
  *   -e      with the option error_check
  *
- * Mechanisms, their equations and the reference are those of tests/judge, which share nothing with
- * baum. A mechanism counts when two runs of the reference agree to 1e-6. The error of a run is the
- * largest of positions at ten samples, lengths by the characteristic length: right below 0.01, grey
- * below 0.1, else wrong. Growth is the largest amplification of a perturbation from any of 20 times
- * to any later one, velocities by the mean rate of the motion.
+ * Mechanisms, their equations and the reference are those of tests/judge, which share no code with
+ * baum. A mechanism is used if two runs of the reference agree to 1e-6. The error of a run is the
+ * largest position error at ten samples, relative to the characteristic length for lengths: right
+ * below 0.01, grey below 0.1, else wrong. Growth is the largest amplification of a perturbation
+ * from any of 20 times to any later one; velocities are divided by the mean rate of the motion.
  *
- * Fails when more than 3 % of the right runs of a setting are doubted, or when fixed steps are
- * silently wrong: once at growth up to 30, in more than 1 % of the wrong runs up to 1000, and with
- * error_check once up to 1e4.
+ * Fails if more than 3 % of the right runs of a setting are doubted, or if fixed steps are silently
+ * wrong: one run with growth up to 30, more than 1 % of the wrong runs with growth up to 1000, or,
+ * with error_check, one run with growth up to 1e4.
  */
 #include <math.h>
 #include <pthread.h>
@@ -63,7 +63,7 @@ enum { SETTINGS_COUNT = sizeof SETTINGS / sizeof *SETTINGS, GROWTHS = 4, CODES =
 
 static const double GROWTH_LIMITS[GROWTHS] = {30.0, 1e3, 1e4, INFINITY};
 
-/* What is kept of a mechanism. */
+/* A mechanism, its properties and its runs. */
 typedef struct entry {
   uint64_t seed;
   const char *failed;
@@ -245,7 +245,7 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Error over its estimate, of runs with both. */
+/* Quantiles of error over estimated error, of runs that have both. */
 static void print_quantiles(const bench *b, int setting)
 {
   double *ratios = malloc((size_t)b->count * sizeof *ratios);
@@ -298,7 +298,7 @@ static void add_runs(const bench *b, tally *tallies)
   }
 }
 
-/* The last tally is of all settings. */
+/* The last tally is the sum over all settings. */
 static void print_tables(const bench *b, const tally *tallies)
 {
   print_mechanisms(b);
@@ -330,7 +330,7 @@ static bool complain(const char *name, const char *what, long part, long whole)
   return false;
 }
 
-/* What is demanded of the warnings of fixed steps, together and of each setting. */
+/* Whether the warnings fulfil the conditions in the head of this file. */
 static bool judge_tallies(const bench *b, const tally *tallies)
 {
   bool fine = true;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What one acceleration costs, by which solver, and where the time goes.
+/* The time of one acceleration with each solver, and how it divides into phases.
  *
  * usage: bench_eval [--json] [--case NAME] [--largest N]
  *
- * All solvers run in this process on the same scene and after the same geometry; rounds of one and
- * the other take turns. See parts/timing.h for what is taken as the time. --json prints one object
- * a line.
+ * All solvers run in this process on the same scene with the same code for the geometry, in
+ * alternating rounds. parts/timing.h defines the time. --json prints one object a line.
  */
 #include <math.h>
 #include <stdint.h>
@@ -46,7 +45,7 @@ typedef struct measured {
   void *self;
   double whole;             /* [s] */
   double upto[PHASE_COUNT]; /* [s] from the start to the end of a phase */
-  double apart;             /* of a from that of the first solver, relative to its largest */
+  double apart;             /* relative difference of a from that of the first solver */
 } measured;
 
 static double smaller(double a, double b)
@@ -78,7 +77,7 @@ static void time_round(measured *m)
   m->whole = smaller(timing_round(m->way->run, m->self, PHASE_WHOLE), m->whole);
 }
 
-/* Do they find the same? */
+/* Compares the accelerations of all solvers. */
 static void compare_solutions(const scene *at, measured *all, int count)
 {
   size_t nv = (size_t)at->workspace->mechanism->nv;
@@ -146,7 +145,7 @@ static void print_head(void)
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
-/* False: something failed, or solvers disagree. */
+/* Returns false if something failed or solvers disagree. */
 static bool bench_scene(scene_kind kind, int n, bool json)
 {
   scene at;
@@ -204,7 +203,7 @@ static bool step_once(void *self, int part)
   return baum_simulation_step(self, 16) == BAUM_OK;
 }
 
-/* Steps of 1e-9 s, so that the mechanism stays where it is. */
+/* Takes steps of 1e-9 s, so that the configuration hardly changes. */
 static bool bench_steps_of(scene_kind kind, int n)
 {
   scene at;
@@ -245,7 +244,7 @@ static bool bench_steps(const arguments *given)
 
 /* ---- fixed bodies ---- */
 
-/* [s] of a step; all: also what holds frames is solved. */
+/* [s] per step; `all`: fixed bodies and their joints are solved too */
 static double time_mounted(int frames, bool all)
 {
   model m;
@@ -276,7 +275,7 @@ static bool bench_fixed_bodies(void)
 {
   bool fine = true;
   printf("\nslider-crank on welded frames, ns per step of semi-implicit Euler\n%6s %10s %10s %6s\n",
-         "frames", "left out", "solved", "ratio");
+         "frames", "omitted", "solved", "ratio");
   for (int frames = 0; frames <= 10; frames += 5) {
     double without = time_mounted(frames, false);
     double with = time_mounted(frames, true);
@@ -288,7 +287,7 @@ static bool bench_fixed_bodies(void)
 
 /* ---- redundant rows ---- */
 
-/* [s] of the library's own way. */
+/* [s] per evaluation with the library's block solver. */
 static double time_library(scene_kind kind)
 {
   scene at;
@@ -310,7 +309,7 @@ static bool bench_redundancy(void)
   } pairs[] = {
     {SCENE_TWO_GUIDES, SCENE_ONE_GUIDE},
     {SCENE_THREE_CRANKS, SCENE_THIRD_BY_A_ROD},
-    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* one body less: the ratio per body is 3/4 of it */
+    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* one body less: per body the ratio is 3/4 of this */
   };
   bool fine = true;
   printf("\nredundant rows, ns per evaluation\n%-26s %8s   %-26s %8s %6s\n", "with", "", "without",

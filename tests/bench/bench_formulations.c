@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a formulation is worth: error, violation, steps and evaluations of methods at the same
- * tolerances, or steps.
+/* Compares formulations: error, violation, steps and evaluations at the same tolerances or steps.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *
- * such as ida/ggl or rk4/projection; without arguments the forms of IDA, from the index 3 down.
- * Methods of fixed step are given steps of 1/100, 1/1000 and 1/10000 of the whole time. References:
- * tests/data. Error: the largest over all samples, lengths relative to the scale of the mechanism,
- * angles in radians. Phi and Phi': the largest over all steps, in m or rad and by the second.
- * Evaluations: of residuals or accelerations. Setups: matrices factored.
+ * An argument is for example ida/ggl or rk4/projection. Without arguments: the formulations of IDA,
+ * from index 3 down. Fixed steps are 1/100, 1/1000 and 1/10000 of the whole time. References:
+ * tests/data. Error: the largest over all samples, lengths relative to the characteristic length,
+ * angles in radians. Phi and Phi': the largest over all steps, in m or rad, and in m/s or rad/s.
+ * Evaluations: of residuals or accelerations. Setups: factored matrices.
  */
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +26,7 @@ typedef struct method {
   baum_formulation formulation;
 } method;
 
-/* "integrator/formulation"; false when there is no such pair. */
+/* Reads "integrator/formulation"; returns false if there is no such pair. */
 static bool find_method(const char *text, method *out)
 {
   for (int32_t k = 0; baum_integrator_at(k); k++) {

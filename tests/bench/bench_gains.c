@@ -4,15 +4,15 @@
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
  * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over
- * perturbed starts. Cost: evaluations of (7), each of which factors its matrix, and factorizations
- * of the integrator's own matrix; for `auto` those of its pilot run too. Error: largest over all
+ * perturbed starts. Cost: evaluations of (7), each of which factors its matrix, plus factorizations
+ * of the integrator's own matrix; for `auto` including its pilot run. Error: largest over all
  * coordinates and samples, relative to the scales. `auto` is beaten in a cell where a constant
  *   costs no more and has less than a third of the error, or
  *   has no more error and costs less than 1 / 1.25.
- * The sweep is of 12 decades, four a decade. Gains that cost more than twice of `auto` are not run
- * to the end, for they cannot beat it; one that fails from any start does not beat it either.
- * --table prints every pair, and follows them further. --quick takes every fourth alpha and two
- * starts.
+ * The sweep is of 12 decades, four a decade. A run with constant gains is stopped at twice the
+ * steps of `auto`, because it can no longer beat it. Gains that fail from any start do not beat it
+ * either. --table prints every constant, with a limit of six times the steps. --quick takes every
+ * fourth alpha and two starts.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,13 +32,13 @@ typedef struct arguments {
   bool quick;
   bool table;
   int problem;            /* -1: all */
-  int lot;                /* of random numbers that perturb the starts */
+  int lot;                /* number of the set of random perturbations of the starts */
   const char *integrator; /* NULL: all */
 } arguments;
 
 /* Geometric means over starts. */
 typedef struct outcome {
-  bool ended; /* from every start */
+  bool ended; /* the runs from all starts reached the end */
   double alpha;
   double cost;
   double error;
@@ -80,7 +80,7 @@ static double own_factorizations(const baum_simulation *run)
   return (double)own.factorizations;
 }
 
-/* Adds logarithms to the sums in out. */
+/* Adds the logarithms of cost, steps and error to the sums in out. */
 static baum_status run_once(const cell *at, const gain_start *start,
                             const baum_simulation_options *options, outcome *out)
 {
@@ -150,7 +150,7 @@ static void print_outcome(const cell *at, const char *what, const outcome *o)
   }
 }
 
-/* Whether `auto` holds. */
+/* Returns whether no constant beats `auto`. */
 static bool judge(const cell *at, const arguments *args)
 {
   outcome automatic = run_all(at, baum_gains_auto(), 1000000);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What grows in long runs, and how fast, with every integrator of fixed step: pendulum A01 and the
- * slider-crank that is not driven. Neither dissipates, so that their energy should stay.
+/* How energy and violations grow in long runs with every fixed-step integrator: pendulum A01, the
+ * undriven slider-crank, and in space a heavy top and a four-bar (RSSR). None dissipates, so the
+ * energy should stay constant.
  *
  *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
  *
- * A line for every decade of steps: least and largest change of energy since the start, of the
- * largest kinetic energy, over the looks of that decade; p in "the change grows like the p-th power
- * of time", from this decade and the one before; the largest violations since the start; heap in
- * use; seconds. A run that blows up ends with its message.
+ * Prints a line for every decade of steps: least and largest energy change since the start in this
+ * decade, relative to the largest kinetic energy; p in "the change grows like the p-th power of
+ * time", from this decade and the one before; the largest violations since the start; heap in use;
+ * seconds. A run that fails ends with its message.
  */
 #include <malloc.h>
 #include <math.h>
@@ -15,9 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "manifold_tops.h"
 #include "models.h"
+#include "spatial_scenes.h"
 
-/* Between two looks at the energy; prime, so that they meet all phases. */
+/* Steps between two energy samples; prime, so that samples cover all phases of the motion. */
 enum { STRIDE = 37 };
 
 static void check(baum_status status)
@@ -55,7 +58,7 @@ static double energy_of(baum_simulation *run, double *kinetic)
   return energy[0] + energy[1];
 }
 
-/* Largest kinetic energy of two seconds of true motion. */
+/* Largest kinetic energy during the first two seconds, from an accurate run. */
 static double largest_kinetic(const model *m)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -87,7 +90,7 @@ static void print_decade(baum_simulation *run, int64_t first, int64_t last, cons
   (void)fflush(stdout);
 }
 
-/* Steps to the end of a decade, looking at the energy. */
+/* Takes the steps of a decade and samples the energy. */
 static baum_status run_decade(baum_simulation *run, double start, double unit, int64_t steps,
                               band *b)
 {
@@ -155,6 +158,17 @@ static void compare(const char *name, const model *m, double step, int64_t steps
   }
 }
 
+static void compare_built(const char *name, void (*build)(baum_mechanism *), double step,
+                          int64_t steps, const char *only)
+{
+  model m = {0};
+  check(baum_mechanism_create(&m.mechanism));
+  build(m.mechanism);
+  check(baum_mechanism_freeze(m.mechanism));
+  compare(name, &m, step, steps, only);
+  model_destroy(&m);
+}
+
 int main(int argc, char **argv)
 {
   int64_t steps = argc > 1 ? strtoll(argv[1], NULL, 10) : 10000000;
@@ -165,6 +179,8 @@ int main(int argc, char **argv)
   check(model_slider_crank_build((model_slider_crank){.driven = false}, &crank));
   compare("pendulum A01", &pendulum, 0.01, steps, only);
   compare("slider-crank, free", &crank, 1e-4, steps, only);
+  compare_built("heavy top", manifold_build_spatial_top, 5e-3, steps, only);
+  compare_built("RSSR", spatial_build_rssr, 1e-3, steps, only);
   model_destroy(&pendulum);
   model_destroy(&crank);
   return EXIT_SUCCESS;

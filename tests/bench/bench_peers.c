@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an error costs here, beside the best that was got out of other software.
+/* The cost of an error with this library and with other software.
  *
- * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all without
+ * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; without it, all
  *
- * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the
- * cheapest entry by CPU time, from the making of a run to its end. Errors are of all positions at
- * 50 samples; bench_work_precision has others, of N-four-bar one angle at ten times, and finer
- * ladders, so that its cheapest runs cost less. Runs through flat positions find and tell each of
- * them, which is a fifth of the cost of N = 1 at 1e-4; the others do not.
+ * A study runs rk8, dp5 and rk4 with every formulation and many steps and tolerances. For each
+ * error the table has the cheapest entry by CPU time, from the creation of a run to its end. Errors
+ * are those of all positions at 50 samples. bench_work_precision compares one angle of the
+ * N-four-bar at ten times, and has more settings, so its cheapest runs cost less. Runs through flat
+ * configurations locate and report each of them, which is a fifth of their cost with N = 1 at 1e-4;
+ * the other programs do not.
  *
- * The others' times are own measurements on a similar machine, whole runs, the cheapest of Exudyn
- * 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE around compiled right-hand
- * sides, and a hand-written RK4; no command repeats them. Trust ratios of 2 and more only.
+ * The times of the others were measured for this table on a similar machine, over whole runs: the
+ * cheapest of Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE with compiled
+ * right-hand sides, and a hand-written RK4. No command repeats them. Only ratios of 2 and more are
+ * significant.
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,15 +25,15 @@
 enum { TARGETS = 4, SAMPLES = 50 };
 static const double TARGET[TARGETS] = {1e-4, 1e-6, 1e-8, 1e-10};
 
-/* [s] of a run: nothing that takes longer can be ten times cheaper than the others. */
+/* [s] limit of a run; longer runs are not ten times cheaper than the others */
 static const double LONGEST = 0.2;
 
 typedef struct peer {
   const char *entry;
   const char *what;
-  baum_catalog_setting setting; /* the one parameter that is not its default, if named */
+  baum_catalog_setting setting; /* the parameter with another value than its default, if any */
   double span;                  /* [s] */
-  double ms[TARGETS];           /* of the best of the others; NaN: none got there */
+  double ms[TARGETS];           /* of the cheapest other program; NaN: none reached the error */
 } peer;
 
 static const peer PEERS[] = {
@@ -51,7 +53,8 @@ static const peer PEERS[] = {
 };
 enum { PEER_COUNT = sizeof PEERS / sizeof PEERS[0] };
 
-/* Where it is, given; else the study makes its own. */
+/* Gives the exact solution of the catalogue if there is one; else the study computes a
+ * reference. */
 static baum_status give_reference(baum_study *study, baum_catalog_choice *choice)
 {
   baum_catalog_entry entry;
@@ -79,7 +82,7 @@ static baum_status add_settings(baum_study *study)
   return status;
 }
 
-/* The cheapest entry that keeps an error; NaN and "" where there is none. */
+/* The cheapest entry with at most this error; NaN and "" if there is none. */
 static double cheapest(const baum_study *study, double error, const char **name)
 {
   double best = (double)NAN;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is projection as exact as Baumgarte's gains? For every integrator that offers both, at the same
- * step or tolerance: the error with PROJECTION, with BAUMGARTE and the gains of `auto`, and with
- * the best of a sweep of constant gains, alpha = beta, four a decade over twelve decades, among
- * those runs that take at most a quarter more evaluations.
+/* Is projection as accurate as Baumgarte's gains? For every integrator that offers both, the table
+ * has the errors at the same step or tolerance with PROJECTION, with BAUMGARTE and the gains of
+ * `auto`, and with the best constant gains alpha = beta of a sweep (four a decade over twelve
+ * decades). Runs of the sweep may take at most a quarter more evaluations.
  *
  * usage: bench_projection
  *
- * The best of a sweep is found by knowing the answer, and of 49 errors that scatter it is the
- * luckiest: the mean of its neighbours, in brackets, tells how much of it is luck.
+ * The best of the sweep is chosen by its error, so among 49 scattered errors it is low partly by
+ * chance. The geometric mean of its neighbours, in brackets, shows by how much.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 
 enum { GAINS = 49, RUNGS = 3 };
 static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
-static const double PARTS[RUNGS] = {16.0, 64.0, 256.0}; /* of the longest step */
+static const double PARTS[RUNGS] = {16.0, 64.0, 256.0}; /* longest step / step */
 
 typedef struct outcome {
   double error;
@@ -24,7 +24,7 @@ typedef struct outcome {
 } outcome;
 
 typedef struct swept {
-  double error[GAINS]; /* infinite where the run failed or was more expensive */
+  double error[GAINS]; /* infinite if the run failed or was more expensive */
   int best;
 } swept;
 
@@ -47,7 +47,7 @@ static swept sweep(const problem *at, const baum_mechanism *mechanism, baum_simu
                    double evaluations)
 {
   swept all = {.best = 0};
-  o.max_steps = (int64_t)evaluations; /* no run that counts takes more */
+  o.max_steps = (int64_t)evaluations; /* every step takes at least one evaluation */
   for (int k = 0; k < GAINS; k++) {
     o.gains = baum_gains_fixed(gain_at(k), gain_at(k));
     outcome found = run(at, mechanism, &o);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What functions in Python cost: calls in a step of rk4, and what a call takes beyond the function
+"""The cost of functions in Python: calls in a step of rk4, and the time of a call beyond the
+function itself
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
@@ -77,7 +78,7 @@ def calls_of(functions):
 
 
 def own_seconds(name):
-    """What the function itself takes."""
+    """The time that the function itself takes."""
     q = np.array([0.6, 0.8])
     arguments = (0.0, q, q) if name == "gamma" else (0.0, q)
     timer = timeit.Timer(partial(PYTHON[name], *arguments), timer=time.process_time)

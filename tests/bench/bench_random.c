@@ -3,8 +3,8 @@
  *
  *   bench_random [COUNT [FIRST SEED]]     10000 mechanisms from seed 0 by default
  *
- * Prints every acceleration that is off by more than 1e-9, every refusal of independent rows, and
- * the counts at the end; fails when there is any of them.
+ * Prints every acceleration with an error above 1e-9, every refusal of independent rows, and their
+ * counts; fails if there is any.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of random mechanisms, by every integrator and formulation, against a tight reference.
+/* Runs of random mechanisms with every integrator and formulation, compared with an accurate
+ * reference.
  *
- *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     50 mechanisms from seed 0, at 0 s
- *   over 2 s by default
+ *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     default: 50 mechanisms from
+ *   seed 0, from 0 s over 2 s
  *
- * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12; rk8 with
- * gains and KLU must agree with it, else the mechanism is left out and counted. An error is the
- * largest of positions at the end, lengths by the scale. With a variable step it may be PROMISE
- * rtol times the growth of what is between neighbours, with a fixed one WRONG, or the step times
- * that growth. More than that without a warning is poor, and above WRONG silently wrong, but where
- * a quarter of the step halves it. Errors that arise on the way may grow by more than those of the
- * start: look there first. Prints what is wrong silently, what fails where the reference does not,
- * and warnings in vain.
+ * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12. If rk8
+ * with gains and KLU does not agree with it, the mechanism is skipped. The error of a run is the
+ * largest position error at the end, lengths relative to the characteristic length. Growth is the
+ * amplification of small perturbations of the start. The allowed error is PROMISE rtol times the
+ * growth with a variable step; with a fixed step it is the step times the growth, but at least
+ * WRONG. A run with a larger error and no warning is poor, or silently wrong if the error is above
+ * WRONG; with a fixed step it is only poor if a quarter of the step halves the error. Errors during
+ * the motion may grow more than perturbations of the start: check that first. Prints silently wrong
+ * runs, failures where the reference succeeds, and unjustified warnings.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -111,7 +113,8 @@ static void set_velocity(scene *s, const random_body *b)
   assert_int_equal(status, BAUM_OK);
 }
 
-/* A copy with velocities that fulfil the constraints; false where there are none. */
+/* Copies the mechanism and sets velocities that fulfil the constraints; returns false if projection
+ * fails. */
 static bool make(scene *s, uint64_t seed, double begin, double span)
 {
   chance c = chance_of(seed);
@@ -144,7 +147,7 @@ static bool make(scene *s, uint64_t seed, double begin, double span)
 typedef struct result {
   baum_status status;
   bool began;
-  bool doubts; /* has a warning that leaves the motion in doubt */
+  bool doubts; /* has a warning that doubts the motion */
   double q[SIZE];
   char text[400];
 } result;
@@ -160,7 +163,7 @@ static void read_warnings(const baum_simulation *run, result *out)
   }
 }
 
-/* From (q, v), or as designed where these are NULL. */
+/* Runs from (q, v), or from the design configuration if q is NULL. */
 static result run(const scene *s, baum_simulation_options o, const double *q, const double *v)
 {
   baum_simulation *r = NULL;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What becomes of runs through singular configurations, and what they say of it.
+/* Results and warnings of runs through singular configurations.
  *
  *   bench_singular [STARTS [MECHANISM [SEED]]]
  *
  * STARTS: 20 by default. MECHANISM: all by default, or one of MECHANISMS. SEED of the starts: 1 by
  * default.
  *
- * A line for each mechanism and setting: runs that failed; right ones, those of them with a branch
- * warning, and their largest error; wrong ones (an angle off by more than 0.1 rad), and those of
- * them without a branch warning and without any. The last two columns: near-singular intervals and
+ * Each line is for a mechanism and setting: failed runs; right runs, those with a branch warning,
+ * and their largest error; wrong runs (an angle off by more than 0.1 rad), those without a branch
+ * warning, and those without any warning. The last two columns are the near-singular intervals and
  * forced steps of all runs.
  */
 #include <math.h>

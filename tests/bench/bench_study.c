@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do recommendations of a study hold, and what do they cost against the best?
+/* Do the recommended settings of a study keep their errors in other runs, and what do they cost
+ * compared with the cheapest setting?
  *
  * usage: bench_study [PROBLEM]
  *
- * A study of the standard grid recommends a setting for each error. These and all entries of the
- * grid are then run from perturbed starts over twice the span, in a study of their own. A
- * recommendation is met where its error there is at most the one asked for; its price is its cost
- * over that of the cheapest entry of the grid that was met there.
+ * A study of the standard grid recommends a setting for each error. A second study runs these and
+ * the whole grid from perturbed starts over twice the span. A recommendation is met if its error
+ * there is at most the requested one. Its price is its cost over that of the cheapest entry of the
+ * grid with such an error there.
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,9 +19,9 @@
 enum { STARTS = 5, TARGETS = 5, WHY = 1024 };
 static const double TARGET[TARGETS] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
 static const double NUDGE[STARTS + 1] = {0.0, 0.03, -0.03, 0.06, -0.06, 0.1};
-static const double LONGEST = 0.03; /* [s] of a run; nothing that is wanted takes longer */
+static const double LONGEST = 0.03; /* [s] limit of a run; recommended entries take less */
 
-/* ---- problems, by how much their start is nudged ---- */
+/* ---- problems with perturbed starts ---- */
 
 static baum_status pendulum(double nudge, model *out)
 {
@@ -29,7 +30,8 @@ static baum_status pendulum(double nudge, model *out)
   return model_pendulum_rod(&data, out);
 }
 
-/* The first body turns at another rate, and all others follow. */
+/* Changes the angular velocity of the first body; the other velocities follow from the
+ * constraints. */
 static baum_status nudge_rates(model *m, double rate)
 {
   baum_mechanism *copy = NULL;
@@ -135,7 +137,7 @@ static void ask(const baum_study *study, advice *out)
   }
 }
 
-/* ---- how they do elsewhere ---- */
+/* ---- recommendations from perturbed starts ---- */
 
 typedef struct tally {
   int asked;

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sweeps over steps and tolerances in scenes that are hard on a method: how many runs are wrong,
- * and which of them silently.
+/* Sweeps over steps and tolerances in difficult scenes: how many runs are wrong, and how many of
+ * them silently.
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *
  *   four-bar  linkages within 1 % of a change point, every method of fixed step
- *   euler     the same for a part of a turn, both Eulers, which are right for so long only
+ *   euler     the same for half a revolution, both Euler methods, which are accurate no longer
  *   taut      a light rod that comes taut, 20 mass ratios, every method of fixed step
  *   rtol      the same rod, 320 mass ratios, every method of variable step at rtol 1e-9
  *   singular  through singular configurations, 60 tolerances, every method of variable step
  *
- * References are integrated in reduced coordinates and owe nothing to the library. Errors are the
- * largest of positions at ten samples, lengths by the characteristic length: right below 0.01, grey
- * below 0.1, wrong above. A false alarm is a right run with a warning that doubts the motion; a
- * silent one is wrong without. The last table adds up all parts. --full: every linkage with and
- * without gravity, and more steps. --csv: a line for each run. Fails where a run is silently wrong.
+ * References are integrated in reduced coordinates without the library. The error is the largest
+ * position error at ten samples, lengths relative to the characteristic length: right below 0.01,
+ * grey below 0.1, wrong above. A false alarm is a right run with a warning that doubts the motion;
+ * a silent run is wrong without such a warning. The last table is the sum of all parts. --full:
+ * every linkage with and without gravity, and more steps. --csv: a line for each run. Fails if a
+ * run is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>
@@ -33,7 +34,7 @@ typedef struct arguments {
   FILE *csv;
 } arguments;
 
-/* The k-th of n numbers from first to last, geometrically. */
+/* The k-th of n numbers from first to last, in geometric progression. */
 static double spread(double first, double last, int k, int n)
 {
   return first * pow(last / first, (double)k / (n - 1));
@@ -48,8 +49,8 @@ static void sweep_steps(const sweep_scene *s, double first, double last, int n)
   }
 }
 
-/* From a step that is too long down to one that is right, then to both sides of it: about half of
- * the runs are right. */
+/* Shortens the step until a run is right, then takes n steps from a quarter to four times that
+ * step, so that about half of the runs are right. */
 static void sweep_limit_of(const sweep_scene *s, int method, double longest, int n)
 {
   double step = longest;
@@ -69,7 +70,8 @@ static void sweep_limit(const sweep_scene *s, double longest, int n)
   }
 }
 
-/* Count the part, and print it; how many runs are silently wrong. */
+/* Adds the counts of the part to the total and prints them; returns how many runs are silently
+ * wrong. */
 static int end_part(void)
 {
   sweep_add(&tally, &all);
@@ -119,8 +121,7 @@ static int sweep_taut_steps(const arguments *with)
   sweep_begin(&tally, "taut", true, with->csv);
   for (int k = 0; k < RATIOS; k++) {
     sweep_scene s = sweep_taut(spread(1e-5, 1e-1, k, RATIOS), true);
-    double turn =
-      sqrt(s.parameter) * s.rate; /* it comes taut within about sqrt(mass ratio) radians */
+    double turn = sqrt(s.parameter) * s.rate; /* angle until it is taut: about sqrt(mass ratio) */
     sweep_steps(&s, 5e-4 * s.rate, 2e-2 * s.rate, with->full ? 60 : 15);
     sweep_limit(&s, 0.3 * turn / s.rate, with->full ? 60 : 30);
     sweep_close(&s);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a second thread is worth to a study: the standard grid of a free slider-crank with one and
- * with two.
+/* The speed of a study with two threads and with one, on the standard grid of an undriven
+ * slider-crank.
  *
- * Errors are found by all threads, times are taken one by one afterwards, so that the wall ratio
- * stays above one half; the repeats are one here. Total CPU time should not grow.
+ * All threads measure errors, but one thread measures the times afterwards, so the wall time does
+ * not halve. Here each time is measured once. The total CPU time should not grow.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an error costs: for every integrator and formulation the cheapest run, over a ladder of
- * steps or tolerances, whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
+/* Work-precision: for every integrator and formulation the cheapest run, over a series of steps or
+ * tolerances, whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
  *
  * usage: bench_work_precision [PROBLEM]
  *
- * Errors: lengths relative to the scale of the mechanism, angles in radians. Time: CPU time of this
- * thread from the start to the last sample, with the making of the run, the smallest of some
- * repeats. Ladders end where a run takes longer than LONGEST or gets no better.
+ * Errors: lengths relative to the characteristic length, angles in radians. Time: CPU time of this
+ * thread from the creation of the run to the last sample, the smallest of some repeats. A series
+ * ends when a run takes longer than LONGEST or the error no longer decreases.
  */
 #include <math.h>
 #include <stdio.h>
@@ -59,13 +59,13 @@ static void keep_cheapest(priced best[TARGETS], double error, priced found)
   }
 }
 
-/* Steps are halved, tolerances go down by half decades. */
+/* Each step is half of the one before; tolerances decrease by half a decade. */
 static double setting_of(const problem *at, bool fixed, int rung)
 {
   return fixed ? at->step / exp2(rung) : pow(10.0, -2.0 - 0.5 * rung);
 }
 
-/* The cheapest runs of one integrator with one formulation. */
+/* Finds the cheapest runs of one integrator with one formulation. */
 static void climb(const problem *at, const baum_mechanism *mechanism, baum_simulation_options o,
                   bool fixed, priced best[TARGETS])
 {

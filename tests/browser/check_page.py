@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_page.py FOLDER
 
-Makes the pages of studies, under a title that tries to be a program, and uses them in headless
-Chromium as a reader would: on a desk, on a telephone and on paper, in light and in dark. Breaks a
-page in several ways, to see that the checks notice. Leaves the pages and pictures of them in FOLDER.
-Fails with a list of what is wrong.
+Writes the pages of studies, with a title that contains a script, and uses them in headless Chromium
+as a reader would: on desktop and telephone screens and on paper, in light and dark. Also breaks a
+page in several ways and tests that the checks then fail. Leaves pages and screenshots in FOLDER. On
+failure, lists the errors.
 """
 
 import json
@@ -51,7 +51,8 @@ def slider_crank():
 
 
 def make_studies(mechanism):
-    """The first has more methods than colours; the others are a stress test, one entry, and one that waits."""
+    """Four studies: one with more methods than colours, a stress test, one with a single entry, and
+    one that was not run."""
     grid, stress, single, waiting = (
         baum.study(mechanism, 0, 0.1, repeats=1, entry_limit=0.05, validate=False) for _ in range(4))
     for name in ("euler", "rk4", "ab3", "rk8"):
@@ -95,13 +96,13 @@ def check_quiet(browser, checks):
     checks.expect(count(browser, "main b, main img, header img") == 0, "a name has become markup")
 
 
-# Boxes [left, top, right, bottom] of elements of a kind inside of each chart or map.
+# Returns, for each chart or map, [left, top, right, bottom] of the elements that match a selector.
 BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map'), svg =>
   Array.from(svg.querySelectorAll(selector), element => {
     const at = element.getBoundingClientRect();
     return [at.left, at.top, at.right, at.bottom]; })))"""
 
-# Cells whose contents are wider than they are, and figures in more than one line.
+# Lists texts that are wider than their table cells, and numbers that take more than one line.
 BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
   const lines = document.createRange();
   lines.selectNodeContents(cell);
@@ -111,7 +112,8 @@ BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
 
 
 def check_layout(browser, checks):
-    """Nothing is wider than the window, no cell is cut or wraps its figure, and no texts overlap."""
+    """Check that the page fits the window, cells show all their text, with numbers on one line, and
+    no texts overlap."""
     width, room = browser.run(
         "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
@@ -135,7 +137,8 @@ def check_layout(browser, checks):
 
 
 def check_entries(browser, study, checks):
-    """One row for each entry, with its name, and every message of one that did not end well."""
+    """Check that the table has one row for each entry, with its name, and all messages of failed
+    entries."""
     names = browser.run("Array.from(document.querySelectorAll('#rows tbody tr'), row =>"
                         " `${row.cells[0].textContent}, ${row.cells[1].textContent}`)")
     wanted = [entry.name for entry in study.entries]
@@ -149,7 +152,8 @@ def check_entries(browser, study, checks):
 
 
 def check_advice(browser, checks):
-    """What recommended settings cost is what the library says, but for the rounding of the setting."""
+    """Check that a run with a recommended setting costs what the library states, except for the
+    effect of rounding the setting."""
     advice = json.loads(browser.run("document.getElementById('data').textContent"))["report"]["recommendations"]
     why = {each["setting"]: each["why"] for each in advice if each["setting"]}
     rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"
@@ -189,7 +193,8 @@ def count(browser, selector):
 
 
 def check_maps(browser, study, checks):
-    """Gains in use are drawn, and those of refused runs whose rule tells them."""
+    """Check that the maps show the gains of every run, and of refused runs if they can be
+    computed."""
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")
@@ -201,7 +206,7 @@ def check_maps(browser, study, checks):
 
 
 def check_parts(browser, study, checks):
-    """Everything else that the page shows is there, as often as the study has it."""
+    """Check the number of all other elements of the page."""
     wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#environment dd": 6,
               "#methods tbody tr": len(study.methods), "#methods svg": 8}
     for selector, number in wanted.items():
@@ -213,7 +218,7 @@ def check_parts(browser, study, checks):
 
 
 def cells(browser, column):
-    """Numbers of the entries that are shown, None where not known."""
+    """Return the values of a column in all visible rows, None for unknown ones."""
     return browser.run(
         "Array.from(document.querySelectorAll('#rows tbody tr')).filter(row => !row.hidden)"
         f".map(row => row.cells[{column}].dataset.v === '' ? null"
@@ -292,7 +297,7 @@ def check_colours(browser, checks):
 
 
 def check_everywhere(browser, page, study, checks):
-    """What holds for every study, at each size, in each scheme, and on paper."""
+    """Check any study's page at each window size, in both colour schemes, and on paper."""
     for width, height, phone in SIZES:
         for scheme in ("light", "dark"):
             checks.where = f"{os.path.basename(page)}, {width} px, {scheme}"
@@ -321,7 +326,7 @@ def check_grid(browser, study, checks):
 
 
 def check_sabotage(browser, page, study, checks):
-    """Each way to break the page is noticed."""
+    """Check that each way to break the page makes a check fail."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     broken = page.replace(".html", "_broken.html")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A headless Chromium by its debugging pipe: nothing else than Python and the browser is needed."""
+"""Controls a headless Chromium through its debugging pipe, with the standard library only."""
 
 import base64
 import json
@@ -11,7 +11,8 @@ import time
 
 
 class Chromium:
-    """One page in one browser; what it logs, throws and asks the network for is kept in `events`."""
+    """One page in one browser; `events` collects its log, its exceptions and its network
+    requests."""
 
     def __init__(self, program="chromium"):
         self._folder = tempfile.mkdtemp()
@@ -65,7 +66,7 @@ class Chromium:
         return json.loads(message)
 
     def call(self, method, **parameters):
-        """The result of a command of the DevTools protocol."""
+        """Send a command of the DevTools protocol and return its result."""
         self._count += 1
         message = {"id": self._count, "method": method, "params": parameters}
         if self._session:
@@ -101,14 +102,14 @@ class Chromium:
         raise RuntimeError(f"{path} has not been loaded within 30 s")
 
     def run(self, expression):
-        """The value of an expression within the page."""
+        """Return the value of a JavaScript expression in the page."""
         answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(f"{expression}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
     def click(self, selector):
-        """Press the mouse on the first element of a selector, where a user would."""
+        """Click on the centre of the first element that matches a selector."""
         x, y = self.run(
             f"(() => {{ const e = document.querySelector({json.dumps(selector)});"
             " e.scrollIntoView({block: 'center', inline: 'center'});"
@@ -125,7 +126,7 @@ class Chromium:
             file.write(base64.b64decode(answer["data"]))
 
     def complaints(self):
-        """Errors and warnings of the console, exceptions, refused contents."""
+        """Return console messages, exceptions, and reports of blocked content."""
         out = []
         for event in self.events:
             details = event["params"]
@@ -138,7 +139,7 @@ class Chromium:
         return out
 
     def requests(self):
-        """Addresses that were asked for, but for the page's own."""
+        """Return the addresses that were requested, except the page's own."""
         urls = [
             event["params"]["request"]["url"]
             for event in self.events

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A02, N = 40, from upright to the first flat position: 1e-6 s before it.
- * Columns: angle of all cranks; departure from parallel cranks and level couplers. Origin:
- * README.md here. */
+/* Problem A02 with 40 windows, from upright until 1e-6 s before the first flat position. Columns:
+ * angle of all cranks; largest deviation from parallel cranks and horizontal couplers. README.md of
+ * this folder says where the values come from. */
 #ifndef BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 #define BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of any definitions: built, frozen, looked at and evaluated. What a call gives with
- * success is finite, and a copy gives the same.
- */
+/* Mechanisms with arbitrary definitions are built, frozen, described and evaluated. Results of
+ * successful calls have to be finite, and a copy has to give the same accelerations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "drawn.h"
 
-enum { SIZE = 200 /* coordinates and rows of mechanisms that are evaluated */ };
+enum { SIZE = 200 /* mechanisms with more coordinates or rows are not evaluated */ };
 
 static void check_finite(baum_status status, const double *x, int count)
 {
@@ -46,7 +45,7 @@ static pose draw_pose(baum_workspace *w, fuzz_bytes *b, int nv)
   return p;
 }
 
-/* Everything at one pose. */
+/* Makes every evaluation at one pose. */
 static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
 {
   static double out[SIZE * SIZE];
@@ -65,7 +64,7 @@ static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
   check_finite(status, lambda, nc);
 }
 
-/* q and v are left as they are by a failure. */
+/* Projects and assembles. After a failure q and v have to be unchanged. */
 static void move(baum_workspace *w, pose *p, int nv)
 {
   pose before = *p;
@@ -80,7 +79,7 @@ static void move(baum_workspace *w, pose *p, int nv)
   FUZZ_CHECK(status == BAUM_OK || memcmp(&before, p, sizeof before) == 0);
 }
 
-/* Its accelerations at one configuration, NaN where there are none. */
+/* Computes the accelerations at one pose; NaN if that fails. */
 static void accelerations_of(const baum_mechanism *m, const pose *p, double *a, int nv)
 {
   baum_workspace *w = NULL;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs with any options, and any calls on them. What a run stands at is finite after each. */
+/* Runs with arbitrary options, and arbitrary calls on them. After each call the state of the run
+ * has to be finite. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@ enum { STEPS = 40, CHANNELS = 14, WIDTH = 400, LOOKS = 6, MECHANISMS = 2 };
 
 /* ---- mechanisms: made once ---- */
 
-/* A pendulum on a rod, for every formulation and without functions of the user. */
+/* A particle on a massless rod, which has no functions of the user and allows every formulation. */
 static baum_mechanism *make_pendulum(every_element *parts)
 {
   baum_mechanism *m = NULL;
@@ -43,7 +44,7 @@ static const every_element *mechanism_at(int k)
 
 /* ---- calls ---- */
 
-/* A run, and what is left of the input. */
+/* A run, and the rest of the input. */
 typedef struct scene {
   baum_simulation *run;
   const every_element *parts;
@@ -104,7 +105,7 @@ static void set_acting(const scene *s)
   (void)fuzz_status(baum_simulation_set_driver(s->run, s->parts->motor, x[0], x[1], x[2]));
 }
 
-/* The functions of the user fail from some call on, or no more. */
+/* From a chosen call on, the functions of the user fail; or they no longer fail. */
 static void set_fault(const scene *s)
 {
   if (s->parts->fault) {
@@ -140,7 +141,7 @@ static void get_channels(const scene *s)
   }
 }
 
-/* A run that is restored from itself stands where it stood. */
+/* A run that is restored from its own saved state has to be at the same time again. */
 static void save_and_restore(const scene *s)
 {
   enum { BYTES = 1 << 20 };
@@ -199,7 +200,7 @@ static void check_stands(const scene *s)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  enum { CALLS = 10, COORDINATES = 128 /* more than every element has */ };
+  enum { CALLS = 10, COORDINATES = 128 /* larger than nq of every_element */ };
   fuzz_bytes b = {data, size};
   double factors[DRAWN_ROOM];
   double q[COORDINATES];

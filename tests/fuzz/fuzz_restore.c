@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restoring from bytes: any, or those of a saved run with some words changed and the sum put right.
- * What is refused changes nothing; with what is taken the run may fail, but no worse; and then it
- * goes back to where it was, to the last bit.
- */
+/* Runs are restored from bytes: arbitrary ones, or a saved run with some words changed and its
+ * checksum corrected. If the bytes are refused, the run has to be unchanged. If they are accepted,
+ * later calls may fail but not crash. The saved run can then be restored exactly. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@ enum { WORD = 8, MOST_CHANGES = 6, STEPS = 20 };
 
 /* ---- runs: made once ---- */
 
-/* A saved run, and where it comes to from there. */
+/* A saved run, and the positions that it reaches from there. */
 typedef struct scene {
   const every_element *parts;
   baum_simulation *run;
@@ -21,7 +20,7 @@ typedef struct scene {
   unsigned char *changed;
   size_t size;
   size_t room;
-  double then[EVERY_NQ]; /* q three steps on */
+  double then[EVERY_NQ]; /* q after three more steps */
 } scene;
 
 static const baum_integrator *integrator_at(int k)
@@ -102,7 +101,7 @@ static void seal(unsigned char *bytes, size_t size)
   memcpy(bytes + size - WORD, &sum.value, WORD);
 }
 
-/* Some words of a good one changed, or its end moved; returns its size. */
+/* Changes some words of a saved run or its length. Returns the length. */
 static size_t change(scene *s, fuzz_bytes *b)
 {
   size_t size = s->size;
@@ -129,7 +128,7 @@ static baum_status restore_any(scene *s, fuzz_bytes *b)
     return baum_simulation_restore(s->run, b->at, b->left);
   }
   size_t size = change(s, b);
-  /* of its own, so that a look behind its end is seen */
+  /* a separate allocation, so that a sanitizer reports reading past its end */
   unsigned char *bytes = malloc(size);
   FUZZ_CHECK(bytes);
   memcpy(bytes, s->changed, size);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies that go on from any file: bytes, or a true file with bits and lines changed, lines of
- * another study among them; or with fields changed and the sum of their line put right. What is
- * refused is left alone. What is taken gives the entries that the study has without a file, to the
- * last bit, unless a sum was put right; and in any case a study that is over is over when it goes
- * on once more.
- */
+/* Studies that continue from a file: arbitrary bytes; or a real file with changed bits and lines,
+ * also with lines of another study; or a real file in which fields are changed and the checksums of
+ * their lines corrected. A refused file has to be unchanged. An accepted one has to give exactly
+ * the entries of a study without a file, unless a checksum was corrected. In every case, a
+ * completed study that is run again has nothing to do. */
 #define _GNU_SOURCE /* mkstemp */
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +50,7 @@ static size_t read_file(char text[TEXT])
 
 /* ---- studies ---- */
 
-/* The second one spans another time. */
+/* Study 1 ends at another time than study 0. */
 static baum_study *make_study(int which)
 {
   static model pendulum;
@@ -83,7 +82,7 @@ static baum_study_entry entry_of(const baum_study *study, int k)
   return entry;
 }
 
-/* NaNs are the same. */
+/* Two NaNs are the same. */
 static bool same(double a, double b)
 {
   return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
@@ -105,11 +104,11 @@ static void check_same_entries(const baum_study *one, const baum_study *other, b
   }
 }
 
-/* The first study as it is without a file, the file it makes, and that of another study. */
+/* Study 0 without a file, the file that it writes, and the file of study 1. */
 typedef struct truth {
   baum_study *study;
   char text[2][TEXT];
-  uint64_t seed; /* of the lines of the first */
+  uint64_t seed; /* of the checksums of the lines of study 0 */
 } truth;
 
 static const truth *true_ones(void)
@@ -137,11 +136,11 @@ static const truth *true_ones(void)
 
 /* ---- texts ---- */
 
-/* Lines with their ends, as far as there is room. */
+/* Lines with their ends. Lines beyond LINES are not read. */
 typedef struct document {
   char line[LINES][BAUM_I_STUDY_LINE];
   int count;
-  bool sealed; /* something that no study has written has the right sum */
+  bool sealed; /* whether a line that no study has written has a correct checksum */
 } document;
 
 static void add_line(document *d, const char *line)
@@ -162,7 +161,7 @@ static void add_text(document *d, const char *text)
   }
 }
 
-/* Another word somewhere in a line, and the sum put right. */
+/* Replaces a word of a line and corrects the checksum. */
 static void change_field(document *d, fuzz_bytes *b, char *line, const truth *t)
 {
   static const char *const words[] = {
@@ -204,7 +203,7 @@ static void change(document *d, fuzz_bytes *b, const truth *t)
   }
 }
 
-/* Returns whether something that no study has written has the right sum. */
+/* Returns whether a line that no study has written has a correct checksum. */
 static bool write_changed(fuzz_bytes *b, const truth *t)
 {
   static document d;
@@ -253,7 +252,7 @@ static void read_all(const baum_study *study, fuzz_bytes *b)
     baum_study_recommend_budget(study, 1e-3, &options, sizeof options, text, sizeof text));
 }
 
-/* Nothing is done again, and the file stays as it is. */
+/* Running the completed study again has to compute nothing and leave the file unchanged. */
 static void check_over(const baum_study *study)
 {
   static char before[TEXT];
@@ -290,8 +289,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  /* A forged line may call an entry done that cannot be run: then the study says so when it takes
-   * its time. */
+  /* A line with a corrected checksum may mark an entry as done that cannot be simulated. The study
+   * then fails when it measures the CPU time of that entry. */
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);

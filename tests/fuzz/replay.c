@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The inputs of a fuzzer once more, without it: replay FILE... */
+/* Runs a fuzzer's target on stored inputs, without the fuzzer: replay FILE... */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -24,7 +24,7 @@ int main(int count, char **paths)
   for (int k = 1; k < count; k++) {
     size_t size = 0;
     unsigned char *bytes = read_file(paths[k], &size);
-    /* the last to be named is the one that fails */
+    /* printed first, so that the last name belongs to the input that fails */
     (void)printf("%s\n", paths[k]);
     (void)fflush(stdout);
     (void)LLVMFuzzerTestOneInput(bytes, size);

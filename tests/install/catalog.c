@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A user of the catalogue, which is a library of its own. */
+/* A program of a user of the catalogue, which is a separate library. */
 #include <stdio.h>
 
 #include <baum/baum.h>

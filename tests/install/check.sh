@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check.sh PREFIX PROJECT
-# An installed baum serves a CMake project and a plain command line, shared and static; a version
-# that is not there is refused; nothing installed knows where it was built.
+# Programs can be built with an installed baum by CMake and by a plain command line, shared and
+# static; CMake refuses another version; no installed file contains the path of the build.
 set -eu
 prefix=$1
 project=$2
@@ -55,7 +55,7 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
-# link OUT ARGUMENT...: a program that reaches every backend, on the archives.
+# link OUT ARGUMENT...: link a program that uses every backend with the static libraries.
 link() {
   out=$1
   shift
@@ -74,7 +74,7 @@ fi
 echo "every backend on archives alone"
 link "$build/all_static" -static
 
-# The C of its first chapter, in its order: functions as they are, statements as the body of main.
+# The C blocks of its first chapter, in order: functions unchanged, statements as the body of main.
 echo "the tutorial's program, as it is printed"
 awk -v main="$build/main" '
   /^## / { chapter++ }

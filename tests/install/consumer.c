@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The smallest program of a user: is the library that runs the one that was compiled against? */
+/* The smallest program of a user: it checks that the library at run time is the one it was compiled
+ * against. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program that reaches CVODE, IDA, QR and the catalogue, so that linking it needs all they
- * need. */
+/* A program that calls CVODE, IDA, QR and the catalogue, so that linking it needs all their
+ * libraries. */
 #include <stdio.h>
 
 #include <baum/baum.h>

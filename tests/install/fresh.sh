@@ -13,7 +13,7 @@ release=bookworm
 mirror=$(apt-get indextargets --format '$(REPO_URI)' "Release: $release" | head -n 1)
 [ -n "$mirror" ] || { echo "apt has no source for Debian $release here: add one to /etc/apt"; exit 1; }
 
-# Mounts and processes live in namespaces of their own and end with them.
+# Mounts and processes are in separate namespaces and end with these.
 apart="unshare --mount --pid --fork --kill-child"
 
 rm -rf "$root"
@@ -24,7 +24,7 @@ $apart debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" 2
   exit 1
 }
 apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90here" || true
-# The package ca-certificates, once something installs it, makes the bundle again from this folder too.
+# If the package ca-certificates is installed later, it also adds this folder's certificates to the bundle.
 mkdir -p "$root/usr/local/share/ca-certificates"
 cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates" 2>/dev/null || true
 for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt "${PIP_CERT:-}"; do
@@ -34,7 +34,7 @@ cp -R "$clone" "$root/root/baum"
 made=$(date +%s)
 echo "a bare Debian $release after $((made - begun)) s"
 
-# inside COMMAND...: in the bare system, with none of the environment but what finds the packages.
+# inside COMMAND...: run it in the bare system, with only those environment variables that locate the packages.
 inside() {
   set -- PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root "$@"
   for name in http_proxy https_proxy no_proxy PIP_INDEX_URL PIP_CERT; do

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A judge_scene as a mechanism of baum. */
+/* Builds a judge_scene as a mechanism of the library. */
 #ifndef BAUM_JUDGE_BAUM_H
 #define BAUM_JUDGE_BAUM_H
 
@@ -7,8 +7,8 @@
 
 #include "judge_scene.h"
 
-/** Build and freeze; the scene must outlive the mechanism, whose laws point into it. NULL on
- *  failure. */
+/** Builds and freezes the mechanism; returns NULL on failure. Driver laws point into the scene, so
+ *  it must outlive the mechanism. */
 baum_mechanism *judge_build(const judge_scene *s);
 
 #endif

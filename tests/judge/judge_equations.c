@@ -7,11 +7,11 @@
 /* ---- points ---- */
 
 typedef struct marker {
-  int first; /* column of its body; -1: ground */
+  int first; /* first column of the point's body; -1: ground */
   bool turns;
   double w;
   double angle;
-  double arm[2]; /* from the centre of mass, ground axes */
+  double arm[2]; /* from the centre of mass to the point, in ground axes */
   double p[2];
   double dp[2];
 } marker;
@@ -57,7 +57,7 @@ static double cross(const double a[2], const double b[2])
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/* Add the derivative of direction . p. */
+/* row += sign times the derivative of direction . p by the velocities */
 static void add_point(double *row, const marker *m, const double direction[2], double sign)
 {
   if (m->first >= 0) {
@@ -108,7 +108,7 @@ static void fill_pin(const gap *g, int row, judge_rows *out)
   }
 }
 
-/* d along a unit vector u that turns with body a. */
+/* Row u . d for the gap d between two points, with the unit vector u fixed in body a. */
 static void fill_along(const gap *g, const double axis[2], int row, judge_rows *out)
 {
   double u[2];
@@ -241,7 +241,7 @@ double judge_kinetic(const judge_scene *s, const double *v)
 
 /* ---- factors ---- */
 
-/* x -= 2 h (h . x) for the unit vector h of a column, which begins at entry `from`. */
+/* Reflection x -= 2 h (h . x) for the unit vector h, whose entries before `from` are 0. */
 static void reflect(const double *h, int from, int n, double *x)
 {
   double sum = 0.0;
@@ -360,7 +360,7 @@ bool judge_project(const judge_scene *s, double t, bool weighted, double *q, dou
     for (int i = 0; i < s->n; i++) {
       q[i] += step[i];
     }
-    if (size < 1e-9) { /* the next one would be below rounding */
+    if (size < 1e-9) { /* quadratic convergence: the next step would be below rounding */
       judge_evaluate_rows(s, t, q, v, &rows);
       bool fine = judge_factor(s, &rows, weighted, &f);
       if (fine) {

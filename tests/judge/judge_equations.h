@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equations of motion of a judge_scene, written for bench_doubts without a line of baum:
+/* Equations of motion of a judge_scene for bench_doubts. They use no code of the library:
  *
  *   M a + J^T lambda = g,  J a = gamma
  *
@@ -7,7 +7,7 @@
  *
  *   a = M^-1/2 Q (R^-T gamma; Q2^T M^-1/2 g),
  *
- * which does not square the condition number of J~.
+ * which, unlike J~ J~^T, does not square the condition number of J~.
  */
 #ifndef BAUM_JUDGE_EQUATIONS_H
 #define BAUM_JUDGE_EQUATIONS_H
@@ -34,19 +34,20 @@ void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const 
 void judge_forces(const judge_scene *s, const double *q, const double *v, double *g);
 double judge_mass(const judge_scene *s, int column);
 
-/** Factor the rows, weighted by mass or not. False where they are dependent to rounding. */
+/** Factors J~, or J if not weighted. Returns false if the rows are dependent within rounding. */
 bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
 
-/** The vector nearest to x in the metric of the weights that fulfils J x = rhs. */
+/** Replaces x by the nearest vector with J x = rhs, in the metric M, or E if not weighted. */
 void judge_nearest(const judge_factors *f, const double *rhs, double *x);
 
-/** Column k < n - m of an orthonormal basis of the null space of J; factors without weights. */
+/** Writes column k < n - m of an orthonormal basis of the null space of J; needs unweighted
+ *  factors. */
 void judge_null_vector(const judge_factors *f, int k, double *out);
 
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/** Nearest q and v that fulfil the constraints, in the metric of the weights. */
+/** Replaces q and v by the nearest ones on the constraints, in the metric of judge_nearest(). */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 
 double judge_kinetic(const judge_scene *s, const double *v);

@@ -20,7 +20,7 @@ typedef struct run {
 
 /* ---- a step ---- */
 
-/* y holds q, then v from JUDGE_N on. */
+/* y contains q from index 0 and v from index JUDGE_N. */
 static bool slope(const judge_scene *s, double t, const double *y, double *dy)
 {
   memcpy(dy, y + JUDGE_N, (size_t)s->n * sizeof *dy);
@@ -36,7 +36,7 @@ static void add_scaled(const judge_scene *s, const double *y, double h, const do
   }
 }
 
-/* The modified midpoint rule in `parts` parts, smoothed at its end. */
+/* Gragg's modified midpoint rule with `parts` substeps and smoothing at the end. */
 static bool midpoint(const judge_scene *s, double t, const double *y, const double *dy, double h,
                      int parts, double *out)
 {
@@ -82,8 +82,8 @@ static double scale_error(const run *r, const double *error, const double *y)
   return most / r->tolerance;
 }
 
-/* Rows of Aitken and Neville's table are overwritten from the left; returns the error over the
- * tolerance. */
+/* Extrapolates by the Aitken-Neville scheme, which overwrites each row of the table by the next.
+ * Returns the error divided by the tolerance. */
 static double extrapolate(const run *r, double t, const double *y, const double *dy, double h,
                           double *out)
 {
@@ -118,7 +118,7 @@ static void pack(const judge_state *from, double *y)
   memcpy(y + JUDGE_N, from->v, sizeof from->v);
 }
 
-/* The factor on the next step that an error over the tolerance asks for. */
+/* Returns the factor for the next step size, from the error divided by the tolerance. */
 static double rescale(const run *r, double error)
 {
   double factor = 0.85 * pow(fmax(error, 1e-30), -1.0 / (2 * r->columns - 1));
@@ -210,8 +210,8 @@ static double along(const judge_scene *s, const double *direction, const double 
   return sum;
 }
 
-/* What becomes of small independent changes of positions and velocities over one segment, by
- * differences. */
+/* Computes by differences the matrix that maps small changes of positions and velocities at sample
+ * k to those at sample k + 1. */
 static bool differentiate(const judge_scene *s, const judge_reference *ref, int k, double h,
                           matrix *out)
 {
@@ -259,7 +259,7 @@ static void multiply(const matrix *a, const matrix *b, matrix *out)
   }
 }
 
-/* The largest singular value of the first rows, by iteration with A^T A. */
+/* Computes the largest singular value of the first `rows` rows by power iteration with A^T A. */
 static double largest_singular_value(const matrix *a, int rows)
 {
   double x[FREE];
@@ -290,7 +290,7 @@ static double largest_singular_value(const matrix *a, int rows)
   return size;
 }
 
-/* From every sample to every later one. */
+/* Computes the growth of perturbations from every sample to every later one. */
 static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The true motion of a judge_scene, and how it amplifies perturbations. Extrapolation of the
- * modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966) over the accelerations of
- * judge_equations, with a projection after each step. */
+/* The reference motion of a judge_scene, and how it amplifies perturbations. The method is
+ * extrapolation of the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966) with the
+ * accelerations of judge_equations, and a projection after each step. */
 #ifndef BAUM_JUDGE_REFERENCE_H
 #define BAUM_JUDGE_REFERENCE_H
 
@@ -17,21 +17,22 @@ typedef struct judge_state {
 typedef struct judge_reference {
   double t[JUDGE_SEGMENTS + 1];
   judge_state at[JUDGE_SEGMENTS + 1];
-  double agreement;   /* of two runs: orders 14 and 12, tolerances 1e-12 and 1e-10 */
-  double rate;        /* [1/s] mean speed over the samples, of coordinates by 1 m and 1 rad */
-  double kinetic;     /* [J] largest over the samples */
-  double growth;      /* from any sample to any later one */
-  double growth_end;  /* from any sample to the end */
-  double growth_q;    /* from any sample to the positions of any later one */
-  const char *failed; /* why there is none; NULL when there is one */
+  double agreement;   /* of two runs with orders 14 and 12, tolerances 1e-12 and 1e-10 */
+  double rate;        /* [1/s] mean over the samples of |v|, in 1 m and 1 rad */
+  double kinetic;     /* [J] largest kinetic energy of the samples */
+  double growth;      /* largest factor of perturbations between any two samples */
+  double growth_end;  /* from any sample to the last */
+  double growth_q;    /* as growth, of positions only at the later sample */
+  const char *failed; /* why there is no reference, or NULL */
 } judge_reference;
 
-/** From (q, v), which fulfil the constraints to rounding, at t = 0 to the end of the scene.
- *  `length` is what errors of positions are relative to. True when both runs agree to 1e-6. */
+/** Integrates twice from (q, v) at t = 0 to the end of the scene. (q, v) must fulfil the
+ *  constraints to rounding. Errors of positions are relative to `length`. Returns true if both runs
+ *  agree to 1e-6. */
 bool judge_find_reference(const judge_scene *s, const double *q, const double *v, double length,
                           judge_reference *out);
 
-/** Whether a column is an angle. */
+/** Returns whether a column is an angle. */
 bool judge_is_angle(const judge_scene *s, int column);
 
 #endif

@@ -25,7 +25,7 @@ static bool read_start(judge_case *c)
   return true;
 }
 
-/* Both sides must mean the same mechanism: accelerations at the start. */
+/* Tests that library and reference have the same mechanism: compares accelerations at the start. */
 static bool accelerations_agree(judge_case *c)
 {
   const judge_scene *s = &c->scene;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of baum against the reference of judge_reference. */
+/* Compares runs of the library with the reference of judge_reference.h. */
 #ifndef BAUM_JUDGE_RUNS_H
 #define BAUM_JUDGE_RUNS_H
 
@@ -11,12 +11,12 @@ typedef struct judge_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  double step; /* [s] 0: chosen by rtol */
-  double rtol; /* [-] 0: by the step */
+  double step; /* [s] fixed step; 0: chosen by rtol */
+  double rtol; /* [-] 0: fixed step */
 } judge_setting;
 
 typedef enum judge_class {
-  JUDGE_UNUSED, /* refused, or not asked for */
+  JUDGE_UNUSED, /* the library does not support the setting, or it was not run */
   JUDGE_STOPPED,
   JUDGE_RIGHT,
   JUDGE_GREY,
@@ -29,8 +29,8 @@ enum { JUDGE_CODES = 8, JUDGE_SAMPLES = JUDGE_SEGMENTS / 2 };
 typedef struct judge_outcome {
   judge_class class;
   baum_status status;
-  double error;     /* [-] largest of positions over the samples, by the length and by radians */
-  double error_end; /* [-] of the last one */
+  double error;     /* [-] largest of positions over the samples: lengths / length, angles / rad */
+  double error_end; /* [-] at the last sample */
   bool doubted;
   int codes[JUDGE_CODES];
   int code_count;
@@ -42,14 +42,14 @@ typedef struct judge_case {
   judge_reference reference;
   baum_mechanism *m;
   double length;
-  const char *failed; /* NULL: there is a reference */
+  const char *failed; /* why there is no reference, or NULL */
 } judge_case;
 
-/** Draw a scene and find its reference. The case is released with judge_close() in any case. */
+/** Draws a scene and finds its reference. The caller calls judge_close(), also after a failure. */
 bool judge_open(judge_case *c, uint64_t seed);
 void judge_close(judge_case *c);
 
-/** Run a setting over the samples of the reference. */
+/** Runs a setting and compares it with the samples of the reference. */
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 

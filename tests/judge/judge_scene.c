@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The generator: links are placed in a design configuration, joints where they meet, so that it
- * fulfils the constraints; velocities are random ones projected onto them. Lengths are about 1
- * m. */
+/* Generates scenes. It places links first and then joints where links meet, so that the design
+ * configuration fulfils the constraints. Velocities are random and then projected onto the
+ * constraints. Lengths are about 1 m. */
 #include "judge_scene.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ static void local_of(const judge_scene *s, int body, const double world[2], doub
   out[1] = -sin(angle) * d[0] + cos(angle) * d[1];
 }
 
-/* The point at a share of the rod, -0.5 at its begin and 0.5 at its tip. */
+/* Writes the point at `share` of the rod: -0.5 is its start, 0.5 its tip. */
 static void point_on(const judge_scene *s, int body, double share, double out[2])
 {
   const judge_body *b = &s->bodies[body];
@@ -104,7 +104,7 @@ static int add_body(pen *p, const judge_body *b)
   return s->body_count++;
 }
 
-/* A rod from one point to another. */
+/* Adds a rod from one point to another. */
 static int add_rod(pen *p, const double from[2], const double to[2])
 {
   double d[2] = {to[0] - from[0], to[1] - from[1]};
@@ -144,7 +144,7 @@ static double angle_of(const judge_scene *s, int body)
   return body == JUDGE_GROUND ? 0.0 : s->bodies[body].pose[2];
 }
 
-/* A slot in a, or a slider on it, through a point, with the axis at an angle against the ground. */
+/* Adds a slot or a translational joint at a point; its axis on a has `angle` against the ground. */
 static void add_slider(pen *p, judge_kind kind, int a, int b, const double at[2], double angle)
 {
   judge_joint *j = add_joint(p, kind, a, b);
@@ -191,7 +191,7 @@ static void from_polar(const double from[2], double radius, double angle, double
 
 /* ---- springs ---- */
 
-/* Mass, or inertia, of the lighter of two bodies, of which one may be the ground. */
+/* Returns the smaller mass or inertia of two bodies; the ground does not count. */
 static double lighter(const judge_scene *s, int a, int b, bool inertia)
 {
   double least = INFINITY;
@@ -251,7 +251,7 @@ static void add_attached(pen *p, int parent, const double at[2], const double to
   double angle = judge_between(d, 0.0, 2.0 * PI);
   bool particle = judge_chance(d, 0.25);
   double begin[2] = {at[0], at[1]};
-  if (particle) { /* it hangs on a rod, or slides where it is */
+  if (particle) { /* it hangs on a rod or slides in a slot */
     bool slides = kind < 0.4 && !is_particle(p->s, parent);
     int body = add_particle(p, slides ? at : to);
     if (slides) {
@@ -293,7 +293,7 @@ static void grow_tree(pen *p, int count)
     add_attached(p, parent, at, to);
   }
   int loads = judge_below(&p->dice, 4);
-  if (loads == 0 && p->s->body_count > 0) { /* a bob at a tip: with a light rod it comes taut */
+  if (loads == 0 && p->s->body_count > 0) { /* a bob at the tip of the last rod */
     int body = p->s->body_count - 1;
     double at[2];
     point_on(p->s, body, 0.5, at);
@@ -303,7 +303,7 @@ static void grow_tree(pen *p, int count)
   }
 }
 
-/* Where rods of these lengths from two points meet. */
+/* Writes where rods of lengths ra from a and rb from b meet; false if they cannot. */
 static bool meet(const double a[2], double ra, const double b[2], double rb, double out[2])
 {
   double d[2] = {b[0] - a[0], b[1] - a[1]};
@@ -319,7 +319,7 @@ static bool meet(const double a[2], double ra, const double b[2], double rb, dou
   return true;
 }
 
-/* A chain of rods through points, pinned at both ends to the ground where closed. */
+/* Adds a chain of rods through points, pinned to ground at its start, and at its end if closed. */
 static void add_chain(pen *p, double points[][2], int count, bool closed)
 {
   int before = JUDGE_GROUND;
@@ -341,7 +341,7 @@ static bool draw_four_bar(pen *p, bool near)
     link[k] = judge_between(d, 0.3, 1.3);
   }
   link[3] = judge_between(d, 0.4, 1.5);
-  if (near) { /* the longest and the shortest are about as long as the other two together */
+  if (near) { /* change point: longest + shortest link = nearly the sum of the others */
     double off = draw_decades(d, -3.0, -1.3) * (judge_chance(d, 0.5) ? 1.0 : -1.0);
     link[0] = judge_between(d, 0.25, 0.7);
     link[1] = judge_between(d, link[0], 1.3);
@@ -407,7 +407,7 @@ static bool draw_slider_crank(pen *p)
   return true;
 }
 
-/* A tree, two bodies of which a rod without mass or a slot holds together. */
+/* Draws a tree, two bodies of which are also connected by a distance joint or a slot. */
 static bool draw_loop(pen *p)
 {
   grow_tree(p, 2 + judge_below(&p->dice, 3));
@@ -427,8 +427,7 @@ static bool draw_loop(pen *p)
   return true;
 }
 
-/* A light rod between a slot and a bob, which comes taut, or a body of it that swings on a
- * slider. */
+/* Draws a light rod between a slot of ground and a bob. It jerks like a string that comes taut. */
 static void draw_taut(pen *p)
 {
   judge_dice *d = &p->dice;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random planar mechanisms as plain numbers, for bench_doubts: what the generator draws, what baum
- * is given, and what the reference integrates. Nothing here is shared with the other random
- * mechanisms of the tests. Conventions of coordinates, axes and rows are those of planar.h. */
+/* Random planar mechanisms as plain numbers, for bench_doubts. The library and the reference both
+ * get them from here. No code is shared with the other random mechanisms of the tests. Conventions
+ * of coordinates, axes and rows are those of planar.h. */
 #ifndef BAUM_JUDGE_SCENE_H
 #define BAUM_JUDGE_SCENE_H
 
@@ -15,7 +15,7 @@ typedef struct judge_body {
   bool particle;
   double mass;
   double inertia;
-  double length; /* [m] of a rod along its x axis; 0 for a particle */
+  double length; /* [m] of the rod, along its x axis; 0: particle */
   double pose[3];
   int first; /* column */
 } judge_body;
@@ -25,8 +25,8 @@ typedef enum judge_kind {
   JUDGE_SLOT,
   JUDGE_TRANSLATIONAL,
   JUDGE_DISTANCE,
-  JUDGE_DRIVE_ANGLE, /* of the revolute joint `of`, whose bodies and points it has */
-  JUDGE_DRIVE_SLIDE  /* likewise of a pin in a slot */
+  JUDGE_DRIVE_ANGLE, /* drives revolute joint `of`; bodies and points are that joint's */
+  JUDGE_DRIVE_SLIDE  /* likewise for a pin in a slot */
 } judge_kind;
 
 typedef struct judge_joint {
@@ -38,7 +38,7 @@ typedef struct judge_joint {
   double axis[2]; /* unit, in a's axes */
   double kept;    /* length or angle */
   int of;
-  double law[5]; /* value + rate t + swing sin(omega t + phase) */
+  double law[5]; /* s = law[0] + law[1] t + law[2] sin(law[3] t + law[4]) */
 } judge_joint;
 
 typedef struct judge_spring {
@@ -74,13 +74,13 @@ typedef struct judge_scene {
   double end;        /* [s] */
 } judge_scene;
 
-/** Draw the scene of a seed. False where no consistent start is found. */
+/** Draws the scene of a seed. Returns false if no consistent start is found. */
 bool judge_scene_draw(judge_scene *s, uint64_t seed);
 
-/** Prescribed coordinate of a driver: value, rate and acceleration. */
+/** Evaluates the law of a driver: value, rate and acceleration. */
 void judge_law(const judge_joint *joint, double t, double s[3]);
 
-/* Random numbers of the generator: xorshift64*. */
+/* Random number generator xorshift64*. */
 typedef struct judge_dice {
   uint64_t state;
 } judge_dice;

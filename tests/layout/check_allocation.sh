@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_allocation.sh SOURCE
-# Every public function is in one of two tests, and in one only: of those that allocate, each allocation of
-# which fails in turn, or of those that allocate nothing. The functions of elements, which are made from the table
-# in tests/support/every_element_kinds.c, are in both tests through that table.
+# Every public function is tested in exactly one of two files: functions that allocate, whose allocations are made to
+# fail one after the other, or functions that allocate nothing. The functions of elements are in both files, through
+# the table in tests/support/every_element_kinds.c.
 set -eu
 cd "$1"
 with=tests/api/test_calls_losing_memory.c
@@ -20,7 +20,7 @@ listed=$({
   sed -n 's/^ *X(\(baum_[a-z_0-9]*\),.*/\1/p' "$without"
   echo "$by_table"
 } | sort)
-# Declarations go on over several lines.
+# Joins declarations of several lines.
 functions=$(cat include/baum/*.h | awk '
   /^BAUM_(CATALOG_)?API/ { text = ""; inside = 1 }
   inside { text = text " " $0 }

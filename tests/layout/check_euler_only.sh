@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_euler_only.sh PROGRAM
-# A static program that calls only baum_euler() holds and loads nothing of SUNDIALS.
+# A static program that calls only baum_euler() contains and loads nothing of SUNDIALS.
 set -eu
 program=$1
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_headers.sh C_COMPILER INCLUDE
-# Every public header compiles alone, and twice, as C11 and as C++17. CXX names the C++ compiler.
+# Every public header compiles alone and included twice, as C11 and as C++17. CXX is the C++ compiler.
 set -eu
 cc=$1
 include=$2

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_libraries.sh SHARED STATIC
-# The shared library loads SUNDIALS, KLU, COLAMD and what belongs to C; neither library calls anything under the GPL, nor
-# BLAS, LAPACK or Fortran.
+# The shared library loads only SUNDIALS, KLU, COLAMD and the C library. Neither library calls anything under the GPL,
+# or BLAS, LAPACK or Fortran.
 set -eu
 shared=$1
 static=$2

@@ -7,7 +7,7 @@ lizard=$1
 shift
 
 failures=0
-# -w prints what is over a limit and nothing else, and fails when there is any.
+# -w prints only functions that exceed a limit, and fails if there are any.
 "$lizard" -l cpp -w -L 80 -a 8 -C 12 "$@" || failures=1
 long=$(find "$@" -name '*.[ch]' -exec awk 'END { if (NR > 600) print FILENAME ": " NR " lines" }' {} \;)
 if [ -n "$long" ]; then

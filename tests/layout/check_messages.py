@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/messages.md lists every message and warning of the library, as it stands in src.
+"""docs/messages.md lists every message and warning of the library, as the sources in src contain
+it.
 
 usage: check_messages.py --check|--write PROJECT
        check_messages.py --untriggered COVERAGE_JSON PROJECT
 
-The first form compares the page with the sources; --write writes it. It also refuses messages of more than three clauses.
-The second form reads the lines that the tests executed (gcovr --json, stage coverage) and lists the messages that no test
-triggered. A message that shares its line with a condition counts as triggered only if both outcomes of the line occurred.
+The first form compares the page with the sources; --write writes it. It also fails for messages of
+more than three clauses. The second form reads the lines that the tests executed (gcovr --json,
+stage coverage) and lists the messages that no test triggered. A message that shares its line with a
+condition counts as triggered only if both outcomes of the line occurred.
 """
 
 import json
@@ -14,7 +16,7 @@ import re
 import sys
 from pathlib import Path
 
-# Functions that set a message: index of status or code, index of the format.
+# Functions that set a message: the positions of two arguments, status or code and format.
 SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
 MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
@@ -33,7 +35,7 @@ def without_comments(text):
 
 
 def arguments_at(text, opening):
-    """The arguments of the call whose parenthesis opens there, and where it ends."""
+    """The arguments of the call whose parenthesis opens at this position, and its end."""
     depth, start, found, k = 0, opening + 1, [], opening
     while k < len(text):
         quote = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'').match(text, k)
@@ -63,7 +65,8 @@ class Source:
         self.functions = re.findall(r"(?m)^(?:static )?[\w ]+?[ *](\w+)\(([^;{}]*?)\)\n\{\n(.*?)^\}", self.text, flags=re.S)
 
     def literals(self, expression):
-        """The texts that an expression may be: one for each branch of its conditions, or each entry of a table."""
+        """The texts that an expression may have: one for each branch of its conditions, or each
+        entry of a table."""
         for name, value in self.strings.items():
             expression = re.sub(rf"\b{name}\b", lambda _, v=value: v, expression)
         table = re.match(r"(\w+)\[", expression)
@@ -85,7 +88,8 @@ class Source:
         self.messages += [(code, text, first, self.text[:end].count("\n") + 1) for text in texts]
 
     def expanded(self, template, values):
-        """The template with every %s that has texts of several words replaced by each of them."""
+        """The variants of a template: each %s with known texts of several words is replaced by each
+        of them."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
@@ -115,7 +119,8 @@ class Source:
         return self.messages
 
     def wrapper_of(self, start, values):
-        """The function around a call that passes texts of its caller on, and which of its parameters these are."""
+        """The function around a call that passes on texts of its caller, and the parameters that
+        are these texts."""
         for name, parameters, body in self.functions:
             at = self.text.find(body)
             if at <= start < at + len(body) and name not in SINKS:

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_numpy.sh PROJECT CMAKE CTEST GENERATOR
-# Where Python has no NumPy, the build omits the tests that need it and says how to get them.
+# If Python has no NumPy, the build omits the tests that need it and explains how to enable them.
 set -eu
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_symbols.sh SHARED STATIC HEADERS
-# What the libraries define is ours by name and, if exported, declared in a public header. What
-# they call neither prints, opens files nor ends the process, memory comes from base/alloc, and
-# nothing that can change is shared between threads.
+# Symbols of the libraries have our prefix, and exported ones are declared in a public header. The
+# libraries call no function that prints, opens files or ends the process; only base/alloc
+# allocates memory; and threads share no data that can change.
 set -eu
 shared=$1
 static=$2
@@ -23,7 +23,7 @@ global=$(nm -g --defined-only "$static" | awk 'NF >= 3 { print $NF }')
 called=$(nm -g --undefined-only "$static" | awk '
   /:$/ { object = $1; sub(/:$/, "", object); next }
   NF == 2 { print object, $2 }')
-# Counters and checks that compilers add to their own builds.
+# Symbols that compilers add for coverage and sanitizers.
 added='^(__asan|__ubsan|__tsan|__gcov|__llvm|_GLOBAL_)'
 
 [ -n "$exported" ] && [ -n "$global" ] || { echo "nm read nothing"; exit 1; }
@@ -38,9 +38,9 @@ complain "in the static library without the prefix baum_" \
   "$(echo "$global" | grep -Ev "^baum_|$added" || true)"
 
 quiet=' (printf|__printf_chk|fprintf|__fprintf_chk|vprintf|vfprintf|puts|putchar|fputs|fputc|fwrite|perror|fopen|freopen|open|system|exit|_exit|_Exit|quick_exit|abort|signal|sigaction)$'
-# The study's files and reports, and what the processor is called, are all that the library opens.
+# The library opens only the files and reports of studies, and the file with the processor's name.
 complain "prints, opens a file, or ends the process" "$(echo "$called" | grep -E "$quiet" |
-  grep -Ev '^(study_file|report_file)\.c\.o (fopen|fputs|fwrite)$|^report_file\.c\.o open$|^report_environment\.c\.o fopen$' || true)"
+  grep -Ev '^(study_file|file)\.c\.o (fopen|fputs|fwrite)$|^file\.c\.o open$|^report_environment\.c\.o fopen$' || true)"
 complain "allocates outside base/alloc" "$(echo "$called" |
   grep -E ' (malloc|calloc|realloc|free|aligned_alloc|posix_memalign|strdup|strndup)$' |
   grep -v '^alloc\.c\.o ' || true)"

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of the documents hold what the programs print.
+"""Checks that the tables of the documents contain what the programs print.
 
 usage: check_tables.py [--write] PROJECT FORMULATIONS BENCH_FORMULATIONS
 
-Compares docs/measured.md (examples/formulations) and docs/theory/formulations.md (tests/bench/bench_formulations), but for
-times: counts within 5 %, other numbers within a factor of 3, because the last digits of a processor decide about single
-steps; rounding (below 1e-12) is only rounding. --write puts what is printed into the documents, times left as they are.
+Compares docs/measured.md (examples/formulations) and docs/theory/formulations.md
+(tests/bench/bench_formulations), except for times: counts within 5 %, other numbers within a factor
+of 3, because the rounding of a processor decides about single steps. Numbers below 1e-12 are
+rounding errors and not compared. --write copies what is printed into the documents, except for
+times.
 """
 
 import re
@@ -29,7 +31,7 @@ def with_short_exponents(text):
 
 
 def formulations(program, present):
-    """The rows of docs/measured.md, with the times that stand there."""
+    """The rows of docs/measured.md, with the times of the present document."""
     printed = run(program)
     first = next(k for k, line in enumerate(printed) if line.startswith("integrator "))
     rows = printed[first + 1:printed.index("", first)]
@@ -60,7 +62,8 @@ def row(*cells):
 
 
 def tables(project, formulations_program, bench_program):
-    """(document, beginning of the table's first line, lines before its first row, function of the rows there)"""
+    """(document, beginning of the table's first line, lines before its first row, function of the
+    rows there)"""
     ida, fixed = bench(bench_program), bench(bench_program, "generalized_alpha/index3", "rk4/projection")
 
     def cells(found, problem, method, rung, *which):
@@ -94,7 +97,7 @@ def agree(a, b):
 
 
 def same(old, new):
-    """Equal but for numbers, and these agree."""
+    """Whether two cells are equal except for numbers, and these numbers agree."""
     return (NUMBER.sub("#", old).split() == NUMBER.sub("#", new).split()
             and all(map(agree, NUMBER.findall(old), NUMBER.findall(new))))
 

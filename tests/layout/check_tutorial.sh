@@ -1,9 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_tutorial.sh PROJECT PROGRAM...
-# The documents show what is compiled and what it prints: README.md holds examples/first.c as it stands; every ```c
-# block of it and of docs/tutorial.md is a run of whole lines of a file in examples/, every ```text block of what a
-# PROGRAM prints.
+# README.md and docs/tutorial.md show compiled code: README.md contains examples/first.c; every ```c block consists of
+# consecutive lines of a file in examples/, every ```text block of consecutive lines that a PROGRAM prints.
 set -eu
 project=$1
 shift
@@ -17,14 +16,14 @@ fail() {
   failures=$((failures + 1))
 }
 
-# holds FILE BLOCK: whether the lines of BLOCK stand in FILE, one after the other.
+# holds FILE BLOCK: whether FILE contains the lines of BLOCK one after the other.
 holds() {
   awk -v RS='\001' 'NR == FNR { text = "\n" $0; next }
     { found = index(text, "\n" $0) > 0 }
     END { exit !found }' "$1" "$2"
 }
 
-# check DOCUMENT LANGUAGE FOLDER: every block of the language is held by a file of the folder.
+# check DOCUMENT LANGUAGE FOLDER: a file of the folder contains every block of the language.
 check() {
   blocks=$scratch/$(basename "$1").$2
   mkdir "$blocks"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_version.sh VERSION PROJECT
-# The version of the build is that of the header and of the Python package.
+# Build, header and Python package have the same version.
 set -eu
 version=$1
 cd "$2"

@@ -8,7 +8,7 @@ cd "$1"
 columns=100
 failures=0
 
-# banned WORD INSTEAD: whole words only, so that identifiers with underscores are not meant.
+# banned WORD INSTEAD: matches whole words only, so not parts of identifiers with underscores.
 banned() {
   found=$(grep -rnwEI --include='*.[ch]' --include='*.py' --include='*.md' --include='*.gp' -e "$1" \
     README.md docs include src bindings/python/baum examples tests --exclude-dir=corpus) || return 0

@@ -12,7 +12,7 @@
 const model_pendulum MODEL_PENDULUM_A01 = {.gravity = 9.81, .x = -1.0};
 const model_pendulum MODEL_PENDULUM_SUNDIALS = {.gravity = 13.750371636040745, .x = 1.0};
 
-#define QUARTER 1.5707963267948966 /* of a turn */
+#define QUARTER 1.5707963267948966 /* of a revolution */
 
 /* ---- a mechanism and its parts ---- */
 
@@ -55,7 +55,7 @@ void model_destroy(model *out)
   memset(out, 0, sizeof *out);
 }
 
-/* ---- out of the catalogue ---- */
+/* ---- from the catalogue ---- */
 
 static baum_status from_catalog(const char *name, const baum_catalog_setting *settings, int count,
                                 const model_units *units, model *out)
@@ -70,7 +70,8 @@ static baum_status from_catalog(const char *name, const baum_catalog_setting *se
   return status == BAUM_OK ? model_adopt(mechanism, out) : status;
 }
 
-/* The same with derivatives left to differences. */
+/* Replaces the mechanism by one without user derivatives, which are then computed by
+ * differences. */
 static baum_status without_derivatives(baum_status status, model *m)
 {
   baum_mechanism *copy = NULL;

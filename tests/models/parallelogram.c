@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cranks of 1 m and 1 kg from (0, 0), (2, 0) and (1, above), which carry a coupler of 2 m and 2 kg.
+/* Cranks of 1 m and 1 kg with feet at (0, 0), (2, 0) and (1, above), which carry a coupler of 2 m
+ * and 2 kg.
  *
- * Two cranks keep the coupler level; a third one of the same length then moves along by itself, and
- * one of the two rows of its pin says nothing new. A massless rod of 1 m instead, from its tip to
- * the coupler's left end, gives the one row that is needed. Above the others' line the third crank
- * takes away the singular configurations that the two of them have where they are flat.
+ * Two cranks keep the coupler horizontal. A third crank of the same length needs only one of the
+ * two rows of its pin; the other is redundant. Instead of this pin, a massless rod of 1 m from its
+ * tip to the coupler's left end gives the one row that is needed. With `above` > 0 the mechanism
+ * has no singular configurations; two cranks alone have them where they are flat.
  */
 #include "models.h"
 
 #include <math.h>
 
-static const double RATE = 2.0; /* unless another one is given */
+static const double RATE = 2.0; /* [rad/s] default */
 
 static baum_planar_body_def rod(const char *name, double mass, double length)
 {
@@ -64,7 +65,7 @@ static void pin_tip(baum_i_parts *parts, baum_body_id crank, baum_body_id couple
                    (baum_i_spot){coupler, {along, above}});
 }
 
-/* Where the last crank's tip is pinned to the coupler, a second pin. */
+/* Adds a second pin where the last crank's tip is pinned to the coupler. */
 static void double_pin(baum_i_parts *parts, const model_parallelogram_data *data,
                        baum_body_id crank, baum_body_id coupler)
 {

@@ -8,7 +8,7 @@
 
 #include <baum/catalog.h>
 
-/* Row i of the reference, where the catalogue computes it from fewer numbers. */
+/* Returns row i of the reference; computes it in `row` if it comes from the catalogue. */
 static const double *find_row(const reference *with, int i, double *row)
 {
   if (with->q) {

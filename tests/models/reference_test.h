@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What tests against reference trajectories have in common. Include after cmocka.h. */
+/* Shared by tests against reference trajectories. Include after cmocka.h. */
 #ifndef BAUM_TEST_REFERENCE_TEST_H
 #define BAUM_TEST_REFERENCE_TEST_H
 
@@ -9,7 +9,7 @@
 #include "check.h"
 #include "reference.h"
 
-/* Adams, BAUMGARTE with gains by the rule `auto`. */
+/* Adams with BAUMGARTE and gains by the rule `auto`. */
 static inline baum_simulation_options adams_options(void)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -18,7 +18,7 @@ static inline baum_simulation_options adams_options(void)
   return options;
 }
 
-/* IDA with the constraints on positions and velocities among its equations. */
+/* IDA with GGL: constraints on positions and velocities are among its equations. */
 static inline baum_simulation_options ggl_options(void)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -27,7 +27,8 @@ static inline baum_simulation_options ggl_options(void)
   return options;
 }
 
-/* Climb, print, and demand that `wanted` is reached at some tolerance and kept from there on. */
+/* Runs and prints a series of tolerances; fails unless the error reaches `wanted` at some rtol and
+ * keeps it at all tighter ones. */
 static inline void assert_reached(const reference *with, const baum_mechanism *mechanism,
                                   const baum_simulation_options *options, double wanted)
 {
@@ -40,7 +41,7 @@ static inline void assert_reached(const reference *with, const baum_mechanism *m
   printf("error %.0e needs rtol %.0e\n", wanted, needed);
 }
 
-/* RK4 with projection, without any library: an independent way to the same values. */
+/* Checks the same values by RK4 with projection, which does not use SUNDIALS. */
 static inline void assert_reached_by_rk4(const reference *with, const baum_mechanism *mechanism,
                                          double step, double wanted)
 {

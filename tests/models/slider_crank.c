@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and e =
- * 0 they fall on each other at pi / 2, and J loses rank. */
+/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and
+ * without eccentricity, rod and crank coincide at pi / 2, and J loses rank. */
 #include "models.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void give_velocities(baum_i_parts *parts, const double *p, const crank_bo
   }
 }
 
-/* Rod and slider on one level line from the crank's tip, the slider out of place. */
+/* Puts the rod horizontally at the crank's tip, and the slider out of place. */
 static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodies *bodies)
 {
   double angle = p[BAUM_I_SLIDER_CRANK_ANGLE];
@@ -73,7 +73,7 @@ static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodie
   change_body(parts, bodies->id[2], slider, NULL);
 }
 
-/* Returns the last of them, with its centre of mass at the crank's pin; none: ground. */
+/* Returns the last frame, with its centre of mass at the crank's pin; without frames, ground. */
 static baum_body_id add_frames(baum_i_parts *parts, int count)
 {
   baum_body_id last = BAUM_GROUND;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same mechanism in other units, element by element. */
+/* Converts a mechanism to other units, element by element. */
 #include "models.h"
 
 const model_units MODEL_MILLI = {.length = 1e3, .mass = 1e3, .time = 1e3};
@@ -11,7 +11,8 @@ static void scale(double *x, int count, double factor)
   }
 }
 
-/* Each of these tries one kind of element: BAUM_ERR_ARGUMENT when it is another. */
+/* Each of these functions tries one kind of element; if the element is of another kind, the library
+ * returns BAUM_ERR_ARGUMENT. */
 
 static baum_status change_particle(baum_mechanism *m, baum_body_id id, const model_units *u)
 {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the tests of this folder have in common: mechanisms by number, and runs whose constraints
- * are watched from outside. Include after cmocka.h.
- */
+/* Shared by the tests of this folder: mechanisms by number, and runs whose constraints a separate
+ * workspace evaluates. Include after cmocka.h. */
 #ifndef BAUM_TEST_PHYSICS_RUN_H
 #define BAUM_TEST_PHYSICS_RUN_H
 
@@ -11,7 +10,7 @@
 #include "check.h"
 #include "models.h"
 
-enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 }; /* the largest are the slider-cranks */
+enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 }; /* sizes of the slider-cranks, the largest mechanisms */
 
 /* ---- mechanisms ---- */
 
@@ -39,7 +38,7 @@ static inline model build_mechanism(physics_mechanism which)
 
 /* ---- runs ---- */
 
-/* A run, its equations for looking on, and a consistent start. */
+/* A run with a workspace of its own that evaluates the constraints. */
 typedef struct watched_run {
   baum_simulation *run;
   baum_workspace *workspace;
@@ -80,7 +79,7 @@ static inline double largest_of(const double *values, int count)
   return largest;
 }
 
-/* Phi of the present state, row by row. */
+/* Phi at the present state of the run. */
 static inline void watch_phi(const watched_run *watched, double phi[PHYSICS_NC])
 {
   check(baum_workspace_phi(watched->workspace, baum_simulation_time(watched->run),

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A model at a state, its accelerations and what quadruple precision makes of the same M, J, g and
- * gamma. Include after cmocka.h.
- */
+/* A model at a given state, with the accelerations of the library and those of an oracle that
+ * solves with the same M, J, g and gamma in quadruple precision. Include after cmocka.h. */
 #ifndef BAUM_TEST_POSED_H
 #define BAUM_TEST_POSED_H
 
@@ -18,16 +17,16 @@ typedef struct posed {
   baum_workspace *workspace;
   int32_t nv;
   int32_t nc;
-  double *memory; /* of those below */
+  double *memory; /* holds the arrays below */
   double *q;      /* (nv) */
   double *v;      /* (nv) */
-  double *a;      /* (nv) of the library */
-  double *want_a; /* (nv) of the oracle */
+  double *a;      /* (nv) by the library */
+  double *want_a; /* (nv) by the oracle */
   double *lambda; /* (nc) */
   double *want_lambda;
 } posed;
 
-/* Take over a model that was just built, in its design configuration. */
+/* Takes ownership of a new model and sets its design configuration. */
 static inline posed pose_model(baum_status built, model m)
 {
   check(built);

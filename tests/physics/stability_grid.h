@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do mechanisms keep their constraints where baum_stability_at() says so? A mechanism starts with
- * all rows violated, and a pair of gains is observed to be stable when the largest violation of the
- * last quarter of a run is below that of the first. All pairs of a grid over the part of the plane
- * of (alpha h, beta^2 h^2) that holds the predicted region, for every fixed-step integrator; one
- * program per mechanism, so that they run side by side. Include after cmocka.h.
+/* Compares baum_stability_at() with runs of mechanisms. A mechanism starts with all rows violated.
+ * A pair of gains is observed to be stable if the largest violation in the last quarter of the run
+ * is smaller than in the first. The grid covers the part of the plane of (alpha h, beta^2 h^2) that
+ * contains the predicted region, for every fixed-step integrator. Each mechanism has a program of
+ * its own, so that they run in parallel. Include after cmocka.h.
  *
- * The step: the motion itself keeps up a violation of (alpha h / beta^2 h^2) h^2 |gamma|, which
- * must stay far below the start's. With h omega = 1e-5 it is 1e-10 of the length scale, times 20 in
- * the corner of the grid, against 1e-6. Methods of higher order keep up less.
+ * Choice of the step: the motion itself causes a steady violation of (alpha h / beta^2 h^2) h^2
+ * |gamma|, which must be far below the initial violation of 1e-6 of the length scale. With h omega
+ * = 1e-5 the steady violation is 1e-10 of the length scale, or 20 times that in the corner of the
+ * grid. It is smaller for methods of higher order.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H
@@ -18,25 +19,26 @@
 
 enum { CELLS = 44, STEPS = 3000, CALM = 32, OUTLINE = 2000 };
 
-static const double OFF = 1e-6; /* of the length scale, and rad */
-/* Times the start's violation: 1e-3 of the scale, hardly still linear. */
+static const double OFF = 1e-6; /* initial error: relative to the length scale, and in rad */
+/* A violation has grown if it is this many times the initial one, 1e-3 of the scale, where the
+ * equations are no longer linear. */
 static const double GROWN = 1e3;
-/* Of the start's violation. A start with Phi' = 0 gives a mode of a one-step method a share of
- * (1 - z1) / (z2 - z1), 1/100 or more here, so that no mode hides below this from the beginning.
- * The modes that a method of several steps has besides may well hide: such runs never end as
- * decayed. */
+/* A violation has decayed if it is below this fraction of the initial one. With Phi' = 0 at the
+ * start, a mode of a one-step method initially has a fraction (1 - z1) / (z2 - z1) of the
+ * violation, here at least 1/100, so no growing mode is overlooked. A multistep method has further
+ * modes that may be smaller, so its runs never end early as decayed. */
 static const double DECAYED = 1e-3;
 
-/* The grid reaches so much farther than the region. */
+/* Size of the grid relative to the region. */
 static const double BEYOND = 1.1;
 
-/* Steps of 1e-5 over omega: 3.1, 2 and 150 rad/s at start. */
+/* A step of 1e-5 / omega; the initial omega is 3.1, 2 or 150 rad/s. */
 static inline double step_of(physics_mechanism which)
 {
   return which == PENDULUM ? 1e-5 / 3.1 : which == FOUR_BAR ? 1e-5 / 2.0 : 1e-5 / 150.0;
 }
 
-/* Every coordinate moved, no two alike, so that every row is violated. */
+/* Changes every coordinate by a different amount, so that every row is violated. */
 static inline void violate(const watched_run *watched, const baum_mechanism *mechanism)
 {
   double q[PHYSICS_NQ];
@@ -51,7 +53,7 @@ static inline void violate(const watched_run *watched, const baum_mechanism *mec
   check(baum_simulation_set_state(watched->run, 0.0, q, v));
 }
 
-/* A run from the violated start; the consistent one is found once by a run that assembles. */
+/* Starts a run in the violated state; `consistent` is an assembled run, created once. */
 static inline watched_run start(const model *m, const watched_run *consistent,
                                 const baum_integrator *integrator, double step, baum_gains gains)
 {
@@ -78,11 +80,11 @@ static inline watched_run start_consistent(const model *m)
   return watch(m->mechanism, &options);
 }
 
-/* ---- observed ---- */
+/* ---- observed stability ---- */
 
-/* Whether the last quarter's largest violation is below the first's. Runs that have grown or
- * decayed beyond doubt end early: a violation that swings through zero is no doubt after CALM
- * steps. */
+/* Whether the largest violation of the last quarter is below that of the first. Runs end early if
+ * the violation has grown, or if it stays decayed for CALM steps: fewer steps could be a zero
+ * crossing. */
 static inline bool watch_decay(const watched_run *watched, bool one_step)
 {
   double phi[PHYSICS_NC];
@@ -105,11 +107,11 @@ static inline bool watch_decay(const watched_run *watched, bool one_step)
   return quarter[3] < quarter[0];
 }
 
-/* ---- predicted ---- */
+/* ---- predicted stability ---- */
 
 typedef struct window {
   const baum_integrator *integrator;
-  double alpha_h;  /* largest; the grid begins one cell above 0 */
+  double alpha_h;  /* largest value of the grid; the smallest is one cell */
   double beta2_h2; /* likewise */
 } window;
 
@@ -120,7 +122,7 @@ static inline bool predict(const window *w, double alpha_h, double beta2_h2)
   return z.stability == BAUM_STABLE;
 }
 
-/* What the predicted region needs. */
+/* Size of the grid that contains the predicted region. */
 static inline window make_window(const baum_integrator *integrator)
 {
   static double alpha_h[OUTLINE];
@@ -129,7 +131,7 @@ static inline window make_window(const baum_integrator *integrator)
   window w = {integrator, 0.0, 0.0};
   check(baum_stability_outline(integrator, 1.0, OUTLINE, alpha_h, beta2_h2, &count));
   assert_true(count > 0 && count <= OUTLINE);
-  for (int32_t k = 0; k < count; k++) { /* NaN between parts is not the larger one */
+  for (int32_t k = 0; k < count; k++) { /* fmax() ignores the NaN between parts */
     w.alpha_h = fmax(w.alpha_h, BEYOND * alpha_h[k]);
     w.beta2_h2 = fmax(w.beta2_h2, BEYOND * beta2_h2[k]);
   }
@@ -146,8 +148,8 @@ static inline double beta2_at(const window *w, double j)
   return fmax(0.0, w->beta2_h2 * j / CELLS);
 }
 
-/* Whether one of the neighbours of a point, or a point as good as itself, is on the other side: a
- * cell may hold the boundary, and points on it are marginal. */
+/* Whether the prediction differs at a neighbouring grid point or at a distance of 1e-9 cells: then
+ * the boundary passes through the cell, or the point is marginal. */
 static inline bool at_boundary(const window *w, int i, int j)
 {
   static const double reach[] = {1.0, 1e-9};
@@ -161,7 +163,7 @@ static inline bool at_boundary(const window *w, int i, int j)
   return other;
 }
 
-/* ---- both ---- */
+/* ---- comparison ---- */
 
 typedef struct tally {
   int agree;
@@ -212,11 +214,12 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   model_destroy(&m);
   assert_int_equal(t.differ_elsewhere, 0);
   assert_true(t.agree >= 97 * CELLS * CELLS / 100);
-  /* A window that misses the region, or its edge, would agree for nothing. */
+  /* A grid without the region, or inside it, would agree without showing anything. */
   assert_true(t.stable > CELLS * CELLS / 10 && t.stable < CELLS * CELLS * 9 / 10);
 }
 
-/* Fixed-step integrators with gains; without dp5, whose region is found like that of rk8. */
+/* Fixed-step integrators with gains, except dp5, whose region is computed in the same way as that
+ * of rk8. */
 #define EVERY_INTEGRATOR(X)   \
   X(baum_euler)               \
   X(baum_semi_implicit_euler) \
@@ -228,7 +231,7 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   X(baum_ab3)                 \
   X(baum_ab4)
 
-/* One test for each, called after the integrator. */
+/* One test per integrator, with its name. */
 #define DEFINE_GRID(integrator, mechanism)                         \
   static void integrator##_is_stable_where_predicted(void **state) \
   {                                                                \

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations and multipliers against quadruple precision: how much of the accuracy of M, J, g
- * and gamma the solution keeps. The worst of a and of lambda, each relative to its largest element,
- * is printed for every case.
- */
+/* Accuracy of accelerations and multipliers relative to a solution with the same M, J, g and gamma
+ * in quadruple precision. Every case prints the worst errors of a and lambda, each relative to the
+ * largest element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,14 +13,14 @@
 
 static const double PI = 3.14159265358979324;
 
-/* A dozen units of rounding, times condition numbers of some hundred after refinement. */
+/* About ten roundings, times condition numbers of a few hundred after refinement. */
 static const double ORDINARY = 1e-12;
-/* At a distance d from a singular configuration errors of lambda grow like those of J a over d^2. A
- * residual in double precision leaves 1e-16 / d^2; only one that is formed wider lets 1e-4 rad not
- * be felt, and leaves digits at 1e-6 rad. */
+/* At a distance d [rad] from a singular configuration, the error of lambda is that of J a over d^2.
+ * A residual in double precision leaves 1e-16 / d^2. A residual in higher precision gives full
+ * accuracy at 1e-4 rad, and seven digits at 1e-6 rad. */
 static const double NEAR = 1e-12;
 static const double NEAREST = 1e-7;
-/* Masses differ by 1e6: six digits of a few units of rounding may go. */
+/* Masses differ by 1e6, so six digits of a few roundings may be lost. */
 static const double UNEVEN = 1e-10;
 
 /* ---- table ---- */
@@ -45,7 +44,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* lambda_limit may be infinite. */
+/* Prints a case and checks its limits; lambda_limit may be infinite. */
 static void note(table *t, const char *name, errors found, double limit, double lambda_limit)
 {
   bool fine = found.a <= limit && (found.lambda <= lambda_limit || isinf(lambda_limit));
@@ -55,7 +54,7 @@ static void note(table *t, const char *name, errors found, double limit, double 
   t->failures += fine ? 0 : 1;
 }
 
-/* Measure and give up. */
+/* Measures the errors and frees p. */
 static errors measure(posed *p)
 {
   accelerate(p);
@@ -87,7 +86,7 @@ static posed driven_crank(uint64_t *seed, int size)
   return pose_model(status, m);
 }
 
-/* The crank is turned and held, the rest follows. */
+/* Rotates the crank by a random angle; assembly moves the other bodies. */
 static posed andrews(uint64_t *seed, int size)
 {
   (void)size;
@@ -114,7 +113,7 @@ static posed pose_n_four_bar(model_n_four_bar data)
   return pose_model(status, m);
 }
 
-/* Away from flat by at least 0.2 rad. */
+/* At least 0.2 rad from the flat configuration. */
 static posed n_four_bar(uint64_t *seed, int size)
 {
   model_n_four_bar data = model_n_four_bar_a02(size);
@@ -147,7 +146,7 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* What the oracle says of the N-four-bar must be what one equation says of it. */
+/* The oracle gives the acceleration of the equation of motion with one degree of freedom. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;
@@ -157,7 +156,7 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* M, J, g are rounded: a few units times the condition of the windows at 0.2 rad. */
+    /* M, J and g are rounded: a few roundings times the condition number at 0.2 rad. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);
@@ -170,7 +169,7 @@ static void the_oracle_reads_the_same_system_in_both_ways(void **state)
   posed p = chain(&seed, 30);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.a, p.lambda));
-  /* Both are rounded once. */
+  /* Both results are rounded once to double precision. */
   assert_true(quad_error(p.nv, p.a, p.want_a) <= 0x1p-52);
   assert_true(quad_error(p.nc, p.lambda, p.want_lambda) <= 0x1p-52);
   unpose(&p);
@@ -267,7 +266,7 @@ static errors measure_alternating(int loops, double crank, double coupler)
 
 enum { LINKS = 100 };
 
-/* The last link, or every other one, has another mass. */
+/* The last link has `tip` times its mass, every second link the mass `other`. */
 static errors measure_uneven_chain(double tip, double other)
 {
   double mass[LINKS];
@@ -310,7 +309,7 @@ static void a_chain_of_100000_links_keeps_ten_digits_of_a(void **state)
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.want_a, p.want_lambda));
   errors found = {quad_error(p.nv, p.a, p.want_a), quad_error(p.nc, p.lambda, p.want_lambda)};
   unpose(&p);
-  /* Of a alone is asked; the condition grows with the square of the length. */
+  /* Only a is tested, because the condition number grows with the square of the length. */
   note(&t, "chain N = 100000", found, 1e-10, (double)INFINITY);
   assert_int_equal(t.failures, 0);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every kind of joint (support/joint_scenes.c) through every integrator of this build in every
- * formulation that it offers: half a second, in which each scene swings or rolls far. Reactions
- * are tested as well: with action and reaction equal they explain the motion of every body, and
- * do no work. */
+/* Runs every kind of joint (support/joint_scenes.c) with every integrator of this build in every
+ * formulation that it offers, for half a second with large motions. Also tests reactions: they are
+ * equal and opposite, explain the acceleration of every body, and do no work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,7 +28,7 @@ typedef struct outcome {
   double start[SIZE];
   double q[SIZE];
   double max_phi;
-  double energy_change; /* of the largest kinetic energy */
+  double energy_change; /* relative to the largest kinetic energy */
 } outcome;
 
 static baum_simulation_options reference_options(double step)
@@ -41,7 +40,7 @@ static baum_simulation_options reference_options(double step)
   return options;
 }
 
-/* h = 1e-3 or rtol = 1e-7. */
+/* Options with h = 1e-3 s or rtol = 1e-7. */
 static baum_simulation_options method_options(step_mode mode, baum_formulation formulation)
 {
   baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-7);
@@ -98,18 +97,17 @@ typedef struct method {
   baum_formulation formulation;
 } method;
 
-/* What errors, violations and relative errors of the energy may be, by order (0: variable step):
- * each at least three times what the worst scene shows, which is 3e-2 at first order, where half a
- * second of a double pendulum is 500 steps, and falls by about 200 with every order, down to the
- * error of the reference. */
+/* Largest error, violation and relative energy change by order (0: variable step). Each limit is at
+ * least three times the worst measured value. That is 3e-2 at order 1, where a double pendulum
+ * takes 500 steps, and falls by about 200 with every order, down to the error of the reference. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {5e-5, 1.5e-1, 4e-4, 3e-6, 3e-8, 3e-10, 3e-11, 3e-11, 3e-11};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 3e-3; /* IDA's tolerance is of y, of which index 3 keeps less. */
+    return 3e-3; /* IDA's tolerance refers to y, which is less accurate at index 3. */
   }
-  /* The error constants of Adams' explicit methods are 5/12, 3/8 and 251/720, of Runge-Kutta's
-   * about 1/k!, and at the knots of a spline their past is of another polynomial. */
+  /* Adams methods have the error constants 5/12, 3/8 and 251/720, Runge-Kutta methods about 1/k!.
+   * After a knot of a spline, the past of an Adams method belongs to another polynomial. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
@@ -131,7 +129,7 @@ static void try_method(const joint_scene *scene, const outcome *reference, const
   outcome out = run_scene(scene, &options);
   double most = allowed(with);
   expect("the error", difference(&out, reference->q), most, scene, with);
-  /* Projection goes down to rounding. */
+  /* Projection reduces violations to rounding. */
   bool projected = with->formulation == BAUM_FORMULATION_PROJECTION;
   expect("the violation", out.max_phi, projected ? 1e-14 : most, scene, with);
   if (scene->conservative) {
@@ -160,7 +158,7 @@ static outcome find_reference(const joint_scene *scene)
   baum_simulation_options coarse = reference_options(2e-4);
   outcome out = run_scene(scene, &fine);
   outcome other = run_scene(scene, &coarse);
-  assert_true(difference(&out, other.q) <= 1e-11); /* 16 times less in the finer */
+  assert_true(difference(&out, other.q) <= 1e-11); /* the error of the finer run is 1/16 of this */
   assert_true(out.max_phi <= 1e-14);
   assert_true(!scene->conservative || out.energy_change <= 1e-12);
   return out;
@@ -171,7 +169,7 @@ static void every_method_carries_every_joint(void **state)
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
     outcome reference = find_reference(&joint_scenes[k]);
-    /* Both Eulers and three Runge-Kutta methods have three formulations each. */
+    /* Two Euler and three Runge-Kutta methods with three formulations each. */
     assert_true(try_methods(&joint_scenes[k], &reference) >= 15);
   }
 }
@@ -194,7 +192,7 @@ static void scenes_have_their_degrees_of_freedom_and_move_far(void **state)
 
 /* ---- without degrees of freedom ---- */
 
-/* The first joint whose coordinate is not driven by a driver at the end; -1: none. */
+/* Index of the first joint that has a coordinate and is not driven by the last joint, or -1. */
 static int find_free_joint(const baum_mechanism *m)
 {
   for (int k = 0; k < m->joint_count; k++) {
@@ -207,7 +205,7 @@ static int find_free_joint(const baum_mechanism *m)
   return -1;
 }
 
-/* Value and rate of a joint's coordinate at start. */
+/* Reads value and rate of a joint's coordinate at the start. */
 static void read_start(const baum_mechanism *m, int joint, double out[2])
 {
   const baum_channel channel =
@@ -219,8 +217,8 @@ static void read_start(const baum_mechanism *m, int joint, double out[2])
   baum_simulation_destroy(run);
 }
 
-/* A scene of one freedom with a driver that takes it and goes on from its start; NULL where there
- * is no joint for it. */
+/* Adds a driver to a scene with one degree of freedom, with the joint's initial value and rate.
+ * Returns NULL if no joint is suitable. */
 static baum_mechanism *make_driven(const joint_scene *scene)
 {
   baum_mechanism *free_one = joint_scene_make(scene);
@@ -255,7 +253,7 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
   return out;
 }
 
-/* Positions follow from Phi = 0 alone: kinematics and projection differ by rounding. */
+/* Phi = 0 alone determines the positions, so kinematics and projection differ by rounding. */
 static void kinematics_carries_every_joint(void **state)
 {
   (void)state;
@@ -278,12 +276,12 @@ static void kinematics_carries_every_joint(void **state)
     baum_mechanism_destroy(mechanism);
     tried++;
   }
-  assert_true(tried >= 8); /* one for each new joint, and those of old */
+  assert_true(tried >= 8); /* drivers of at least eight kinds of joints */
 }
 
 /* ---- reactions ---- */
 
-/* A mechanism in motion, and what is left of M a - g when reactions are taken off. */
+/* A mechanism in motion, and the residual M a - g, from which the reactions are subtracted. */
 typedef struct balance {
   test_point p;
   baum_workspace *workspace;
@@ -325,7 +323,7 @@ static void close_balance(balance *b)
   test_point_close(&b->p);
 }
 
-/* Force and moment at a place on one body; returns their power. */
+/* Subtracts a force and moment at a point from one body; returns their power. */
 static double apply(balance *b, int index, const double at[3], const double f[3], double sign)
 {
   const baum_i_frame *frame = &b->p.point.frames[index];
@@ -339,7 +337,7 @@ static double apply(balance *b, int index, const double at[3], const double f[3]
   return share[0] * frame->vx + share[1] * frame->vy + share[2] * frame->w;
 }
 
-/* Take a joint's reaction off its bodies; returns its power. */
+/* Subtracts a joint's reaction from its bodies; returns its power. */
 static double take_off(balance *b, int index)
 {
   const baum_mechanism *m = b->p.mechanism;
@@ -371,12 +369,12 @@ static void check_balance(const joint_scene *scene, double t)
   for (int k = 0; k < b.p.mechanism->joint_count; k++) {
     double power = take_off(&b, k);
     if (b.p.mechanism->joints[k]->type->scleronomic) {
-      /* Rounding of lambda, and of v on the constraints. */
+      /* Rounding of lambda and v. */
       ASSERT_NEAR(power, 0.0, 0.0, 1e-12 * push * speed);
     }
   }
   for (int i = 0; i < b.p.nv; i++) {
-    ASSERT_NEAR(b.rest[i], 0.0, 0.0, 1e-12 * (push + 10.0)); /* rounding; weights of 8 to 15 N */
+    ASSERT_NEAR(b.rest[i], 0.0, 0.0, 1e-12 * (push + 10.0)); /* rounding; weights are 8 to 15 N */
   }
   close_balance(&b);
 }

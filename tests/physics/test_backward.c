@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Out and back in time on both slider-cranks, with stabilization, and by IDA with the constraints
- * themselves: the violation is damped in either direction, and the start is found again as well as
- * the method found the far end.
- */
+/* Runs both slider-cranks forward and then backward in time, with stabilization, and with IDA at
+ * higher index. Violations decay in both directions, and the error at the start is comparable with
+ * that at the far end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,26 +17,27 @@
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
-/* Violation of the backward run over that of the forward run. Both are the method's local error,
- * which depends on the direction by a few tenths, and on the steps chosen. */
+/* Limit of the ratio of violations, backward over forward. Both are local errors, which differ by
+ * some tenths with the direction and with the chosen steps. */
 static const double MOST_VIOLATION = 4.0;
-/* Error at the start found again over that at the far end: velocity errors of the forward run
- * act in the backward run, too, in the worst case with one sign and for twice the time, hence (1
- * + 2 + 1) for position errors; luck at the far end explains the rest. */
+/* Limit of the ratio of errors, at the start over at the far end. In units of the
+ * position error at the far end, the error back at the start is at most 4: 1 from the positions and
+ * 2 from the velocities of the forward run, which act for twice the time, and 1 from the backward
+ * run. The rest allows for an accidentally small error at the far end. */
 static const double MOST_ERROR = 20.0;
-/* Rounding of some 1e4 steps, for the driven crank, whose q is a function of time alone. */
+/* Rounding of about 1e4 steps, for the driven crank, whose q is a function of time alone. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s] NaN with a tolerance; the samples of tests/data are on its grid */
+  double step; /* [s] or NaN; the samples of tests/data are multiples of it */
   double rtol;
   baum_formulation formulation;
 } method;
 
 typedef struct journey {
-  double error[2]; /* at the far end, at the start found again */
-  double phi[2];   /* largest forward, backward */
+  double error[2]; /* at the far end, and back at the start */
+  double phi[2];   /* largest violation forward, and backward */
 } journey;
 
 static double scaled_error(const baum_mechanism *mechanism, const double *q, const double *want)
@@ -51,7 +51,7 @@ static double scaled_error(const baum_mechanism *mechanism, const double *q, con
   return error;
 }
 
-/* Move on, and give the largest violation seen. */
+/* Advances and returns the largest violation seen. */
 static double travel(const watched_run *watched, double from, double to)
 {
   double phi[PHYSICS_NC];
@@ -99,7 +99,7 @@ static void assert_returns(physics_mechanism which, const method *with)
          j.phi[0], j.phi[1]);
   (void)fflush(stdout);
   model_destroy(&m);
-  /* Where nothing is free an error may be far below the tolerance by chance, on one of the ways. */
+  /* Without degrees of freedom, one of the two errors may by chance be far below the tolerance. */
   double by_chance = which == DRIVEN_CRANK && !isnan(with->rtol) ? 0.1 * with->rtol : 0.0;
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
   assert_true(j.error[1] <= MOST_ERROR * j.error[0] + by_chance + ROUNDING);

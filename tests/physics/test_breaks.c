@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks: a body on a pin without gravity, turned by a torque that jumps at three times,
- * whose motion is known: polynomials of degree 2 in time, which every method of order 2 follows to
- * rounding if it keeps to one side of a jump.
- */
+/* Declared break times: a body on a pin without gravity is driven by a torque that jumps at three
+ * times. The exact motion is a polynomial of degree 2 between the jumps. Every method of order 2
+ * reproduces it to rounding if no step crosses a jump. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,10 +19,10 @@
 
 enum { BREAKS = 3 };
 
-/* One on the grid of STEP, two off it; the last two nearer to each other than a step. */
+/* The first is a multiple of STEP, the others are not; the last two are less than a step apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
 static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0,
-                                          1.0}; /* [N m], inertia 1 kg m^2 about the pin */
+                                          1.0}; /* [N m]; the inertia about the pin is 1 kg m^2 */
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
@@ -47,7 +46,7 @@ static int torque(double t, const double *q, const double *v, const double *inpu
   return 0;
 }
 
-/* From rest at 0. */
+/* The motion from rest at t = 0. */
 static void exact(double t, double *angle, double *rate)
 {
   double from = 0.0;
@@ -115,9 +114,9 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2)
- * |torque| t in the angle. Steps of their own: ten tolerances of rates up to 6 rad/s.
- * Generalized-alpha begins with accelerations that are not of its order: with h^2 50 times 20. */
+/* Variable step: ten tolerances of angular velocities up to 6 rad/s. Euler methods: (h/2) |torque|
+ * t in the angle. Generalized-alpha: h^2 times 50 N m, times 20, because its first acceleration has
+ * a lower order. Other methods: rounding of about 200 steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -142,7 +141,7 @@ static void motions_are_those_between_the_breaks(void **state)
     for (int i = 0; i < 2; i++) {
       baum_simulation *run = open_run(i == 0 ? declared : hidden, mode);
       baum_status status = baum_simulation_advance_to(run, 2.0);
-      /* Fixed steps over hidden breaks are far off, and that is warned of. */
+      /* With undeclared breaks fixed steps are inaccurate and give a warning. */
       assert_true(status == BAUM_OK || (i == 1 && mode.fixed && status == BAUM_WARNED));
       errors[i] = error_now(run);
       counters[i] = counters_of(run);
@@ -159,7 +158,7 @@ static void motions_are_those_between_the_breaks(void **state)
   baum_mechanism_destroy(hidden);
 }
 
-/* There and back through all breaks, standing at each. */
+/* Forward and backward through all breaks, with a stop at each. */
 static void breaks_are_met_forward_and_backward(void **state)
 {
   (void)state;
@@ -171,7 +170,8 @@ static void breaks_are_met_forward_and_backward(void **state)
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of the
+                                                                             * grid */
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }
     baum_simulation_destroy(run);
@@ -179,7 +179,7 @@ static void breaks_are_met_forward_and_backward(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Outputs, at breaks too, leave the motion as it is. */
+/* Outputs do not change the motion, not even at breaks. */
 static void outputs_change_nothing(void **state)
 {
   (void)state;
@@ -209,8 +209,8 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The energy that the torque brings is the kinetic energy: nothing else works, and no jump is
- * smeared over a step. */
+/* The work of the torque is the kinetic energy: nothing else does work, and no step averages over a
+ * jump. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -227,8 +227,7 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* Angles and rates are off by what is allowed, torques are up to 50 N m and rates up to 6
-     * rad/s. */
+    /* The limits of angle and angular velocity, times up to 50 N m and 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
@@ -237,8 +236,8 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The rate of the driver jumps at the first time, and its acceleration at the second: s, s',
- * s''. */
+/* A law (s, s', s'') whose rate jumps at the first break and whose acceleration jumps at the
+ * second. */
 static int kinked(double t, double s[3], void *user)
 {
   (void)user;
@@ -250,7 +249,7 @@ static int kinked(double t, double s[3], void *user)
   return 0;
 }
 
-static void kinematics_take_either_side(void **state)
+static void kinematics_pass_breaks_in_both_directions(void **state)
 {
   (void)state;
   static const double targets[] = {0.3, 0.499999, 0.5, 0.7, 1.2345, 2.0, 1.2345, 1.234, 0.5, 0.4};
@@ -273,7 +272,7 @@ static void kinematics_take_either_side(void **state)
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
-  o.check_derivatives = false; /* the law has kinks */
+  o.check_derivatives = false; /* the law is not smooth */
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
   const baum_channel channels[2] = {baum_channel_of_joint(BAUM_JOINT_COORDINATE, motor.joint),
@@ -284,7 +283,7 @@ static void kinematics_take_either_side(void **state)
     (void)kinked(targets[i], s, NULL);
     assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
     assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of angles and rates up to 10 */
+    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of angles and velocities up to 10 */
     ASSERT_NEAR(row[1], s[1], 0.0, 1e-12);
     ASSERT_NEAR(row[2], 2.0 * s[2], 0.0, 1e-11);
   }
@@ -292,7 +291,7 @@ static void kinematics_take_either_side(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Breaks that are nearer to each other than a step can be. */
+/* Two breaks that are closer than the shortest step. */
 static void breaks_next_to_each_other_are_one(void **state)
 {
   (void)state;
@@ -346,7 +345,7 @@ int main(void)
     cmocka_unit_test(breaks_are_met_forward_and_backward),
     cmocka_unit_test(outputs_change_nothing),
     cmocka_unit_test(the_account_closes_over_breaks),
-    cmocka_unit_test(kinematics_take_either_side),
+    cmocka_unit_test(kinematics_pass_breaks_in_both_directions),
     cmocka_unit_test(breaks_next_to_each_other_are_one),
     cmocka_unit_test(lists_are_checked_sorted_and_copied),
   };

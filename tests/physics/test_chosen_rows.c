@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The omitted rows change during the motion: two bars locked by two pins make many revolutions,
- * through every integrator, formulation and solver, as if they were welded. */
+/* The omitted rows change during the motion. Two bars locked by two pins make several revolutions
+ * with every integrator, formulation and solver, and move as if they were welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
-static const double END = 2.0;   /* [s] two turns and a half, and ten choices */
+static const double END = 2.0;   /* [s] about three revolutions with several changes of rows */
 static const double RATE = 10.0; /* [rad/s] */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
@@ -46,8 +46,8 @@ static void find_motion(double exact[LOCKED_NV])
   baum_mechanism_destroy(m);
 }
 
-/* Without a warning but that of multipliers that are not unique, and with KLU, whose pivots are
- * rough, of configurations that look singular. */
+/* The only warning is that multipliers are not unique. KLU, whose pivots are no accurate measure,
+ * may also report near-singular intervals. */
 static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -63,7 +63,8 @@ static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulatio
   return run;
 }
 
-/* Methods of low order are warned of at this step, and IDA with index 3 at any. */
+/* Excludes methods of low order, which give a warning at this step, and IDA at index 3, which
+ * always does. */
 static bool is_asked(const baum_simulation_options *o)
 {
   int order = baum_integrator_order(o->integrator);
@@ -71,7 +72,7 @@ static bool is_asked(const baum_simulation_options *o)
          o->formulation != BAUM_FORMULATION_INDEX3;
 }
 
-/* Of methods of order 3 with this step, and of this tolerance over some hundred steps. */
+/* Errors of order 3 at this step, and of this tolerance over some hundred steps. */
 static const double ERROR = 2e-4;
 
 static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
@@ -103,9 +104,8 @@ static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* RATTLE and generalized-alpha, whose matrices keep their pivots from step to step: not those of
- * other rows. */
-static void methods_of_index_3_rotate_too(void **state)
+/* RATTLE and generalized-alpha keep their pivots between steps, but not when rows change. */
+static void index_3_methods_make_several_revolutions(void **state)
 {
   (void)state;
   const baum_integrator *const methods[] = {baum_rattle(), baum_generalized_alpha()};
@@ -117,7 +117,7 @@ static void methods_of_index_3_rotate_too(void **state)
     o.integrator = methods[k];
     o.step = STEP;
     baum_simulation *run = run_to_end(m, &o);
-    assert_true(apart(baum_simulation_q(run), exact) < 1e-2); /* (w h)^2 over 20 rad and more */
+    assert_true(apart(baum_simulation_q(run), exact) < 1e-2); /* (omega h)^2 over 20 rad */
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
@@ -134,7 +134,7 @@ static void *save(baum_simulation *run, size_t *size)
   return buffer;
 }
 
-/* The restored run begins with the rows of the start, and takes those of the saved one. */
+/* The restored run begins with the rows of its start and takes over those of the saved run. */
 static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 {
   (void)state;
@@ -164,7 +164,7 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
     }
     baum_energy_account account;
     check(baum_simulation_energy_account(one, &account, sizeof account));
-    /* of a kinetic energy of 100 J, by the method's error and what choices have put right */
+    /* error of the method and of the corrections when rows change, at a kinetic energy of 100 J */
     assert_true(fabs(account.residual) < 1e-4);
     baum_simulation_destroy(one);
     baum_simulation_destroy(other);
@@ -176,7 +176,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(bars_locked_by_two_pins_rotate_as_if_welded),
-    cmocka_unit_test(methods_of_index_3_rotate_too),
+    cmocka_unit_test(index_3_methods_make_several_revolutions),
     cmocka_unit_test(a_restored_run_has_the_rows_of_the_saved_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account closes: to 100 times the tolerance with steps of the method's choice, and with
- * the method's order in steps of one length; on quiet, driven, damped and violated mechanisms and
- * one with M(q), with every formulation. Residuals are the largest of 8 times, in units of the
- * largest energy or work.
- */
+/* The residual of the energy account is small: below 100 tolerances with variable steps, and of the
+ * method's order with fixed steps. Mechanisms are without loads, driven, damped, initially
+ * violated, and with M(q), each with every formulation. A residual is the largest at 8 times,
+ * relative to the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,10 +56,10 @@ static void print_head(const account_scene *scene, const baum_simulation_options
          baum_formulation_name(options->formulation));
 }
 
-/* ---- steps of one length ---- */
+/* ---- fixed steps ---- */
 
-/* Steps of the coarsest rung, by order: residuals of the finest are above 1e-13, and the largest
- * terms of the next order are gone. */
+/* Number of steps of the coarsest run. The residuals of the finest run are above 1e-13, and the
+ * error terms of the next order are small. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -70,8 +69,8 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* Slopes are above the order where terms of higher order still lead, and below by at most so much
- * where they have the other sign. */
+/* A slope may exceed the order while terms of higher order dominate. It may be lower by at most
+ * this, if they have the opposite sign. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -90,12 +89,12 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   double slope = log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  /* Below this, sums of some thousand works are rounding. */
+  /* Below this limit the sums of some thousand works are rounding. */
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
-/* At index 3 with steps of one length a start off the constraints is left in a jump within the
- * first step, which is no motion; RATTLE takes neither dampers nor M(q). */
+/* At index 3 with a fixed step, a violated start jumps onto the constraints within the first step.
+ * RATTLE supports neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -104,7 +103,7 @@ static bool suits(const account_scene *scene, const baum_simulation_options *opt
          (options->integrator != baum_rattle() || scene->kind <= ACCOUNT_DRIVEN);
 }
 
-static void closes_with_the_order(void **state)
+static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
 {
   (void)state;
   const baum_integrator *const methods[] = {baum_euler(),  baum_semi_implicit_euler(),
@@ -128,10 +127,10 @@ static void closes_with_the_order(void **state)
   }
 }
 
-/* ---- steps of the method's choice ---- */
+/* ---- variable steps ---- */
 
-/* In units of rtol. Index 3 of IDA, whose velocities are outside of its error test, is far above
- * its tolerance in all else too: measured at most 197, and 340 with other last digits. */
+/* Limit of the residual over rtol. IDA at index 3 does not control velocities and exceeds its
+ * tolerance: measured 197, and 340 with other rounding. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
@@ -167,7 +166,7 @@ static void close_all(const baum_integrator *method)
   }
 }
 
-static void pairs_close_to_the_tolerance(void **state)
+static void residuals_of_runge_kutta_pairs_fall_with_the_tolerance(void **state)
 {
   (void)state;
   printf("\nresiduals over rtol, at rtol 1e-4 to 1e-10\n");
@@ -175,7 +174,7 @@ static void pairs_close_to_the_tolerance(void **state)
   close_all(baum_rk8());
 }
 
-static void sundials_closes_to_the_tolerance(void **state)
+static void residuals_of_sundials_fall_with_the_tolerance(void **state)
 {
   (void)state;
   need_sundials();
@@ -187,13 +186,13 @@ static void sundials_closes_to_the_tolerance(void **state)
 
 /* ---- what the residual is ---- */
 
-/* Largest of a motion: q against another one's (where there is one) and the energies of an
- * account. */
+/* Largest values over a motion: the error of q against an exact motion, if given, and energies of
+ * the account. */
 typedef struct motion {
   double q[TIMES][WIDTH];
-  double error;    /* of q, in m and rad: links of 1 m */
-  double residual; /* these of the largest kinetic energy */
-  double works;    /* of violation and projection */
+  double error;    /* error of q, in m or rad; links are 1 m long */
+  double residual; /* residual and works are relative to the largest kinetic energy */
+  double works;    /* of violations and of projection */
 } motion;
 
 static motion follow(const baum_mechanism *m, baum_simulation_options options, const motion *exact)
@@ -223,10 +222,10 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   return out;
 }
 
-/* Where next to nothing does work, the residual is the change of T + V, without any sum of works.
- * It is no larger than the error of the motion: what BDF and IDA leave at tight tolerances is
- * theirs. */
-static void what_is_left_is_the_error_of_the_motion(void **state)
+/* If almost nothing does work, the residual is the change of T + V, without sums of works. It is
+ * comparable with the error of the motion: the residuals of BDF and IDA at tight tolerances are
+ * their errors. */
+static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
 {
   (void)state;
   need_sundials();
@@ -252,7 +251,7 @@ static void what_is_left_is_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* 0.7 to 1.3 times */
+    assert_true(got.residual <= 2.0 * got.error); /* measured: 0.7 to 1.3 times */
   }
   baum_mechanism_destroy(m);
 }
@@ -260,10 +259,10 @@ static void what_is_left_is_the_error_of_the_motion(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(closes_with_the_order),
-    cmocka_unit_test(pairs_close_to_the_tolerance),
-    cmocka_unit_test(sundials_closes_to_the_tolerance),
-    cmocka_unit_test(what_is_left_is_the_error_of_the_motion),
+    cmocka_unit_test(residuals_fall_with_the_order_of_fixed_step_methods),
+    cmocka_unit_test(residuals_of_runge_kutta_pairs_fall_with_the_tolerance),
+    cmocka_unit_test(residuals_of_sundials_fall_with_the_tolerance),
+    cmocka_unit_test(residuals_are_comparable_with_the_error_of_the_motion),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events against motions that are known: the swing of pendulum_events.h, which passes 0 at odd
- * multiples of a quarter period and rests at even ones, for every integrator in each of its ways to
- * step. */
+/* Events of a known motion: the swing of pendulum_events.h passes the lowest point at odd
+ * multiples of a quarter period and is at rest at even ones. Every integrator with fixed and
+ * variable steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -47,7 +47,7 @@ static int32_t add_angle(baum_simulation *run, const swing *s, double value, int
   return index;
 }
 
-/* Angular velocity, zero at rest. */
+/* The angular velocity, which is zero at rest. */
 static int rate(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -77,18 +77,16 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
   return record;
 }
 
-/* What a run of this mode is off by in time at t, of the motion itself. The events are where the
- * method's motion passes zero. */
+/* Error of the motion itself at time t, as a time: events are located on the computed motion. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* Ten tolerances a radian of the swing, about 2.8 rad/s: the error grows with time, as that of
-     * a period does. */
+    /* Ten tolerances per radian at about 2.8 rad/s; the error of the period grows with time. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
-  /* Measured over 12 s at h = 1e-3 against the exact times: Euler 5.4e-2, order 1 in h; the
-   * semi-implicit one 5.3e-4, order 2 at the events of a swing; rk2, RATTLE, generalized-alpha and
-   * ab2 below 1e-4, order 2; all others below 1e-6. Each doubled. */
+  /* Measured over 12 s at h = 1e-3, then doubled: explicit Euler 5.4e-2 (order 1 in h);
+   * semi-implicit Euler 5.3e-4 (order 2 at the events of a swing); rk2, RATTLE, generalized-alpha
+   * and ab2 below 1e-4 (order 2); all others below 1e-6. */
   const char *name = baum_integrator_name(mode.integrator);
   int order = baum_integrator_order(mode.integrator);
   double h = STEP / 1e-3;
@@ -100,7 +98,7 @@ static double motion_error(step_mode mode, double t)
 
 /* ---- a stop ---- */
 
-/* The user turns the velocities round. */
+/* Reverses the velocities, as a user does at a stop. */
 static void bounce(baum_simulation *run)
 {
   double q[3];
@@ -112,8 +110,8 @@ static void bounce(baum_simulation *run)
   assert_int_equal(baum_simulation_set_state(run, baum_simulation_time(run), q, v), BAUM_OK);
 }
 
-/* Ten bounces at the bottom, forward or backward in time. Events in both directions, so that
- * leaving the stop would show. Returns the largest error in time. */
+/* Bounces ten times at the bottom, forward or backward in time. The event has both directions, so
+ * that leaving the stop would be noticed. Returns the largest error in time. */
 static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
@@ -128,7 +126,7 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* Rounding of the time, 4 eps t, by the speed of 2.7 rad/s, and of positions. */
+    /* Rounding of the time, 4 eps t, times the speed of 2.7 rad/s, and rounding of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -152,7 +150,7 @@ static void pendulum_bounces_at_a_stop(void **state)
   }
 }
 
-/* ---- what has happened ---- */
+/* ---- records ---- */
 
 typedef struct expected {
   double quarters;
@@ -160,7 +158,7 @@ typedef struct expected {
   int32_t direction;
 } expected;
 
-/* All that has happened, in order, times in quarters of the period. */
+/* Compares all records in their order; times are in quarters of the period. */
 static void check_records(const baum_simulation *run, const swing *s, step_mode mode,
                           const expected *want, int count)
 {
@@ -178,7 +176,7 @@ static void directions_are_those_of_time(void **state)
   (void)state;
   static const expected forward[] = {{1, 0, -1}, {1, 2, -1}, {2, 3, 1}, {3, 0, 1}, {3, 1, 1},
                                      {5, 0, -1}, {5, 2, -1}, {6, 3, 1}, {7, 0, 1}, {7, 1, 1}};
-  /* The motion before the start is its mirror. */
+  /* The motion before the start mirrors the motion after it. */
   static const expected backward[] = {{-1, 0, 1}, {-1, 1, 1}, {-2, 3, 1}, {-3, 0, -1}, {-3, 2, -1},
                                       {-5, 0, 1}, {-5, 1, 1}, {-6, 3, 1}, {-7, 0, -1}, {-7, 2, -1}};
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -200,7 +198,7 @@ static void directions_are_those_of_time(void **state)
 
 /* ---- several at one time, at an output, at the start ---- */
 
-static void events_at_one_time_are_all_told(void **state)
+static void simultaneous_events_are_all_reported(void **state)
 {
   (void)state;
   static const expected want[] = {{1, 0, -1}, {1, 1, -1}, {1, 2, -1}};
@@ -211,20 +209,20 @@ static void events_at_one_time_are_all_told(void **state)
     baum_simulation *run = open_run(&s, &o);
     (void)add_angle(run, &s, 0.0, 0, false);
     (void)add_angle(run, &s, 0.0, -1, true);
-    (void)add_angle(run, &s, 1e-15, 0, true); /* earlier by a rounding */
+    (void)add_angle(run, &s, 1e-15, 0, true); /* earlier by one rounding */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
     check_records(run, &s, mode, want, 3);
     assert_true(record_of(run, 0).t == baum_simulation_time(run));
     assert_true(record_of(run, 1).t == record_of(run, 0).t);
     assert_true(record_of(run, 2).t == record_of(run, 0).t);
-    /* It stands on the other side and goes on. */
+    /* The run is past the events and continues. */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_OK);
     assert_int_equal(baum_simulation_event_count(run), 3);
     close_all(run, &s);
   }
 }
 
-/* A swing and its mirror image on a pin of its own. */
+/* A swing and its mirror image, each on its own pin. */
 static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 {
   baum_mechanism *m = NULL;
@@ -248,8 +246,8 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
   return m;
 }
 
-/* Their times differ by rounding, and by 5e-13 s where IDA's iteration ends; the tolerance makes
- * them one. */
+/* Both events differ in time by rounding, and by 5e-13 s where IDA's iteration ends. The tolerance
+ * of the event makes them simultaneous. */
 static void two_bodies_at_their_stops_are_one_stop(void **state)
 {
   (void)state;
@@ -278,7 +276,7 @@ static void two_bodies_at_their_stops_are_one_stop(void **state)
   }
 }
 
-/* Where a run without outputs finds its event. */
+/* Time of the event in a run without outputs. */
 static double event_time(step_mode mode)
 {
   swing s = swing_make(1.2);
@@ -291,7 +289,7 @@ static double event_time(step_mode mode)
   return t;
 }
 
-static void event_at_an_output_is_both(void **state)
+static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -310,23 +308,23 @@ static void event_at_an_output_is_both(void **state)
       assert_int_equal(status, terminal ? BAUM_STOP_EVENT : BAUM_OK);
       assert_int_equal(done, terminal ? 1 : 4);
       assert_int_equal(baum_simulation_event_count(run), 1);
-      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0); /* 4 eps t, as the search */
+      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0); /* 4 eps t, the accuracy of the search */
       assert_true(baum_simulation_time(run) == (terminal ? record_of(run, 0).t : times[3]));
-      /* The rest, the output at the event among it. */
+      /* The remaining outputs, including the one at the event. */
       times[1] = baum_simulation_time(run);
       if (terminal) {
         status = baum_simulation_sample(run, times + 1, 3, &angle, 1, rows + 2, &done);
         assert_int_equal(status, BAUM_OK);
         assert_int_equal(done, 3);
       }
-      ASSERT_NEAR(rows[2], 0.0, 0.0, 1e-13); /* as in bounces */
+      ASSERT_NEAR(rows[2], 0.0, 0.0, 1e-13); /* rounding, as in bounce_ten_times() */
       assert_int_equal(baum_simulation_event_count(run), 1);
       close_all(run, &s);
     }
   }
 }
 
-/* Steps that are too long for a method of low order are warned of. */
+/* Methods of low order warn at steps that are too long for them. */
 static bool is_there(baum_status status, step_mode mode)
 {
   return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
@@ -341,7 +339,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
     baum_simulation *run = open_run(&s, &o);
-    /* Times are counted from the bottom; a hair to the side from which it seems to come. */
+    /* Starts at the bottom, 1e-16 on the side from which the motion comes. */
     double v = -2.0 * sqrt(9.81 / 1.25) * sin(0.6);
     double q0[3] = {1e-16, -1.0, 1e-16};
     double v0[3] = {v, 0.0, v};
@@ -354,7 +352,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
   }
 }
 
-/* A run that turns on its event does not find it again by that. */
+/* A run that stops at an event and reverses does not report the event again. */
 static void reversing_at_an_event_finds_it_once(void **state)
 {
   (void)state;
@@ -379,7 +377,7 @@ enum { CASES = 1000, FIXED_CASES = 100 };
 
 static const double RANDOM_RTOL = 1e-6;
 
-/* One call of a kind that chance chooses, towards `end` and not beyond. */
+/* Makes one call of a random kind, which does not go beyond `end`. */
 static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 {
   double t = baum_simulation_time(run);
@@ -400,13 +398,14 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* A swing of random height, watched at 0 and at rest, each terminal or not, by random calls.
- * Returns how many events are not the right ones; `worst` becomes at least the error of a time, of
- * the time. */
+/* Runs a swing of random height with random calls and events at the bottom, terminal or not, and at
+ * rest. Returns the number of wrong events. Raises `worst` to the largest relative error of a time,
+ * if that is larger. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));
-  /* Euler's swings grow; with this step by less than the room between events. */
+  /* The amplitude grows with Euler methods; at this step the change is small against the distance
+   * of events. */
   double h = baum_integrator_order(mode.integrator) == 1 ? 1e-4 : STEP;
   baum_simulation_options o = step_mode_options(mode, h, RANDOM_RTOL);
   baum_simulation *run = open_run(&s, &o);
@@ -423,15 +422,15 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
     baum_event_record r = record_of(run, k);
     wrong += r.event != k % 2;
     *worst = fmax(*worst, fabs(r.t - (k + 1) * s.quarter) / fmax(r.t, 1.0));
-    /* Neighbours are a quarter apart. */
+    /* Consecutive events are a quarter period apart. */
     wrong += !(fabs(r.t - (k + 1) * s.quarter) <= 0.1 * s.quarter);
   }
   close_all(run, &s);
   return wrong;
 }
 
-/* Of the time. With tolerances ten of them: measured at most 8, the more the nearer a swing comes
- * to the top. */
+/* Relative to the time. Variable steps: ten tolerances, measured up to 8, the more the higher the
+ * swing. */
 static double random_error(step_mode mode)
 {
   return mode.fixed ? 0.1 : 10.0 * RANDOM_RTOL;
@@ -461,9 +460,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(pendulum_bounces_at_a_stop),
     cmocka_unit_test(directions_are_those_of_time),
-    cmocka_unit_test(events_at_one_time_are_all_told),
+    cmocka_unit_test(simultaneous_events_are_all_reported),
     cmocka_unit_test(two_bodies_at_their_stops_are_one_stop),
-    cmocka_unit_test(event_at_an_output_is_both),
+    cmocka_unit_test(an_event_at_the_time_of_an_output_is_found_and_sampled),
     cmocka_unit_test(zero_at_the_start_is_left_and_met_again),
     cmocka_unit_test(reversing_at_an_event_finds_it_once),
     cmocka_unit_test(no_event_is_lost_in_random_cases),

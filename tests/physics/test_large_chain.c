@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of 100000 links: what it costs to begin with, and Newton's and Euler's equations of every
- * link. Shorter where instruments make everything slow; memory is then theirs too.
- */
+/* A chain of 100000 links: time and memory of its setup, and Newton's and Euler's equations for
+ * every link. The chain is shorter under instruments such as sanitizers, and then memory is not
+ * tested. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 
 enum { LINKS = 100000 / BAUM_TEST_PATIENCE, PER_LINK = 3 };
 
-/* Half a minute: a step of setting up that takes it is not linear in the number of links. */
+/* [s] A step of the setup that takes longer does not scale linearly with the number of links. */
 static const double HANGING = 30.0 * BAUM_TEST_PATIENCE;
 static const double GRAVITY = 9.81;
 
@@ -28,7 +28,7 @@ static double now(void)
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* The most memory that the process has held so far [MB]. */
+/* Peak memory of the process [MB]. */
 static double most_memory(void)
 {
   struct rusage usage;
@@ -36,7 +36,7 @@ static double most_memory(void)
   return (double)usage.ru_maxrss / 1e3;
 }
 
-/* Prints what has been done since; returns the present time. */
+/* Prints the time of a step and the peak memory; returns the present time. */
 static double lap(const char *what, double since)
 {
   double seconds = now() - since;
@@ -69,7 +69,7 @@ static model build_chain(void)
   return out;
 }
 
-static void it_is_frozen_and_runs_at_once(void **state)
+static void freezing_and_starting_a_run_take_linear_time(void **state)
 {
   (void)state;
   double before = now();
@@ -96,8 +96,8 @@ static void it_is_frozen_and_runs_at_once(void **state)
   baum_simulation_destroy(run);
 }
 
-/* Straight and level; roundings of its joints add up in the last links. */
-static void it_is_projected(void **state)
+/* A straight horizontal chain; rounding of its joints accumulates in the last links. */
+static void a_straight_chain_is_projected(void **state)
 {
   (void)state;
   model m;
@@ -118,7 +118,7 @@ static void it_is_projected(void **state)
   baum_simulation_destroy(run);
 }
 
-static void its_degrees_of_freedom_are_counted(void **state)
+static void degrees_of_freedom_are_counted(void **state)
 {
   (void)state;
   model m = build_chain();
@@ -135,20 +135,20 @@ static void its_degrees_of_freedom_are_counted(void **state)
 
 /* ---- mechanics ---- */
 
-/* From the tip on, the pin at the beginning of each link carries what the rest needs:
- * F_k = sum of m (a_j - g) for j >= k, and J alpha_k = -p x F_k - p x F_(k+1), p half of the link.
- * Pins hold: the acceleration at the end of a link is that at the beginning of the next. */
+/* The pin at the beginning of each link carries the weight and inertia of all following links: F_k
+ * = sum of m (a_j - g) for j >= k, and J alpha_k = -p x F_k - p x F_(k+1), with p half of the link.
+ * Adjacent link ends have the same acceleration. */
 typedef struct worst {
   double force;
-  double moment; /* [N m] left over */
-  double gap;    /* [m/s^2] between two ends */
+  double moment; /* [N m] largest residual */
+  double gap;    /* [m/s^2] largest difference of adjacent link ends */
 } worst;
 
 static worst compare_links(const double *a)
 {
   worst out = {0};
   double force[2] = {0.0, 0.0};
-  double next[2] = {NAN, NAN}; /* acceleration at the beginning of the link after */
+  double next[2] = {NAN, NAN}; /* acceleration at the beginning of the next link */
   for (int k = LINKS - 1; k >= 0; k--) {
     const double *at = a + (size_t)(PER_LINK * k);
     double p[2] = {0.5 * cos(angle_of(k)), 0.5 * sin(angle_of(k))};
@@ -165,7 +165,7 @@ static worst compare_links(const double *a)
     next[0] = at[0] - turned[0];
     next[1] = at[1] - turned[1];
   }
-  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground does not move */
+  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground is at rest */
   return out;
 }
 
@@ -198,9 +198,9 @@ static void every_link_obeys_newton_and_euler(void **state)
   worst off = compare_links(a);
   printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
          off.moment, off.gap);
-  /* Forces are summed from the tip here: 1e5 roundings of 1e-16 of themselves. */
+  /* F_k is a sum of up to 1e5 terms, each with a rounding of 1e-16. */
   assert_true(off.moment <= 1e-11 * off.force);
-  /* The residual of a row is brought down to rounding of accelerations of about g. */
+  /* Refinement reduces the residual of a row to rounding of accelerations of about g. */
   assert_true(off.gap <= 1e-12 * GRAVITY);
   free(a);
   model_destroy(&m);
@@ -209,9 +209,9 @@ static void every_link_obeys_newton_and_euler(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(it_is_frozen_and_runs_at_once),
-    cmocka_unit_test(it_is_projected),
-    cmocka_unit_test(its_degrees_of_freedom_are_counted),
+    cmocka_unit_test(freezing_and_starting_a_run_take_linear_time),
+    cmocka_unit_test(a_straight_chain_is_projected),
+    cmocka_unit_test(degrees_of_freedom_are_counted),
     cmocka_unit_test(every_link_obeys_newton_and_euler),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

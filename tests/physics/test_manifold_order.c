@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observed order of every integrator of fixed step where positions are no vector: errors over a
- * ladder of halved steps, of a slider-crank of turned bodies and of a heavy top. Gains by the rule
- * `auto`, which does not depend on the step here.
- */
+/* Observed order of every fixed-step integrator when positions are not a vector: errors for
+ * repeatedly halved steps, of a slider-crank of turned bodies and of a heavy top. Gains are those
+ * of the rule `auto`, which does not depend on the step here. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,14 +21,14 @@ enum { SIZE = MANIFOLD_SIZE, RUNGS = 3 };
 
 static const double END = 0.5;
 
-/* Of the order. As in test_order.c, where terms of the next order are smaller: half a second is
- * short, and slopes that are too steep by such a term are no fault. */
+/* Limits of the slope relative to the order. As in test_order.c, but half a second is short, so
+ * terms of the next order are larger; a slope that they increase is accepted. */
 static const double TOO_FLAT = 0.25;
-static const double TOO_FLAT_HIGH = 0.6; /* of order 5 and 8, which a wrong term makes 2 or less */
+static const double TOO_FLAT_HIGH = 0.6; /* orders 5 and 8: a wrong term gives 2 or less */
 static const double TOO_STEEP = 0.8;
 
-/* Steps of the coarsest rung, by order: errors of the finest are far above those of the reference,
- * 1e-11. */
+/* Number of steps of the coarsest run, by order. The errors of the finest run are far above that of
+ * the reference, 1e-11. */
 static const int COARSEST[9] = {0, 2000, 200, 100, 100, 32, 0, 0, 5};
 
 static double error_at(const manifold_scene *scene, const double *want,
@@ -73,7 +72,7 @@ static void observe(const manifold_scene *scene, const double *want,
   double slope = log2(error[0] / error[rungs - 1]) / (rungs - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  bool high = order >= 5; /* down to rounding before other terms are gone */
+  bool high = order >= 5; /* reaches rounding before other terms are small */
   double flat = high ? TOO_FLAT_HIGH : TOO_FLAT;
   if (!(slope >= order - flat && (high || slope <= order + TOO_STEEP))) {
     fail_msg("%s by %s, %s: order %.2f", scene->name, baum_integrator_name(integrator),
@@ -88,7 +87,7 @@ static void observe_all(const char *name)
   manifold_scene_solve(scene, END, want);
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
-    bool refused = scene->gyroscopic && mode.integrator == baum_rattle();
+    bool refused = scene->refuses_rattle && mode.integrator == baum_rattle();
     for (int f = BAUM_FORMULATION_DEFAULT + 1; baum_formulation_name((baum_formulation)f); f++) {
       if (mode.fixed && !refused && baum_integrator_offers(mode.integrator, (baum_formulation)f)) {
         observe(scene, want, mode.integrator, (baum_formulation)f);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose positions are no vector (support/manifold_scenes.c) through every integrator of
- * this build in every formulation that it offers: against their twins of ordinary bodies, or
- * against the motion about the fixed point.
- */
+/* Runs mechanisms whose positions are not a vector (support/manifold_scenes.c) with every
+ * integrator of this build in every formulation that it offers. Results are compared with an
+ * equivalent mechanism of ordinary bodies (the twin), or with the known motion about a fixed
+ * point. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ enum { SIZE = MANIFOLD_SIZE };
 
 static const double END = 0.5;
 
-/* Of rows after a projection, whose points are up to 2 m away and have three coordinates. */
+/* Rounding of rows after a projection; points are up to 2 m away and have three coordinates. */
 static const double ROUNDING = 3e-14;
 
 /* An integrator and its settings. */
@@ -34,13 +34,13 @@ typedef struct method {
 
 typedef void try_fn(const manifold_scene *scene, const method *with, const void *context);
 
-/* Every method of this build; returns how many. */
+/* Tries every method of this build; returns their number. */
 static int for_each_method(const manifold_scene *scene, try_fn *try, const void *context)
 {
   int tried = 0;
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
-    bool refused = scene->gyroscopic && mode.integrator == baum_rattle();
+    bool refused = scene->refuses_rattle && mode.integrator == baum_rattle();
     for (int f = BAUM_FORMULATION_DEFAULT + 1; baum_formulation_name((baum_formulation)f); f++) {
       if (!refused && baum_integrator_offers(mode.integrator, (baum_formulation)f)) {
         try(scene, &(method){mode, (baum_formulation)f}, context);
@@ -51,7 +51,7 @@ static int for_each_method(const manifold_scene *scene, try_fn *try, const void 
   return tried;
 }
 
-/* h = 1e-3 or rtol = 1e-7. */
+/* Options with h = 1e-3 s or rtol = 1e-7. */
 static baum_simulation_options options_of(const method *with)
 {
   baum_simulation_options options = step_mode_options(with->mode, 1e-3, 1e-7);
@@ -103,12 +103,12 @@ static void expect(const char *what, double got, double most, const manifold_sce
 
 /* ---- every method ---- */
 
-/* As in test_all_joints.c, with three times as much for the tops, which turn by 3 rad. */
+/* As in test_all_joints.c, but three times as much, because the tops rotate by 3 rad. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 1e-2; /* IDA's tolerance is of y, of which index 3 keeps less. */
+    return 1e-2; /* IDA's tolerance refers to y, which is less accurate at index 3. */
   }
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
@@ -173,15 +173,16 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
   return q;
 }
 
-/* Turned bodies move exactly: methods that only move q take the very steps of their twins. */
+/* Rotations are exact, so methods that only move q take the same steps as their twins. Of
+ * quaternions both Euler methods add rates. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
-  static const char *const MOVING[] = {"euler", "semi_implicit_euler", "rattle",
-                                       "generalized_alpha"};
+  static const char *const MOVING[] = {"rattle", "generalized_alpha", "euler",
+                                       "semi_implicit_euler"};
   int32_t nq;
   double want[SIZE];
-  for (size_t k = 0; k < sizeof MOVING / sizeof *MOVING; k++) {
+  for (int k = 0; k < (scene->units.length == 4 ? 2 : 4); k++) {
     if (strcmp(baum_integrator_name(with->mode.integrator), MOVING[k]) == 0) {
       baum_simulation *run = start(scene, with, &nq);
       advance(run, scene, with, END);
@@ -196,7 +197,7 @@ static void methods_that_move_step_as_their_twins(void **state)
 {
   (void)state;
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
-    if (manifold_scenes[k].translate && manifold_scenes[k].units.length == 2) {
+    if (manifold_scenes[k].translate) {
       (void)for_each_method(&manifold_scenes[k], try_steps, NULL);
     }
   }
@@ -218,7 +219,7 @@ static double estimate_of(const baum_mechanism *mechanism)
   return counters.error_estimate;
 }
 
-/* In radians, like the error itself, and not in numbers of q. */
+/* Errors are in radians, as displacements, not as differences of q. */
 static void errors_are_displacements(void **state)
 {
   (void)state;
@@ -278,7 +279,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   advance(other, scene, with, 0.2);
   expect("a restored run", apart(baum_simulation_q(run), baum_simulation_q(other), nq), 0.0, scene,
          with);
-  /* Put back by its state, too. */
+  /* Setting the state restores it too. */
   double q[SIZE];
   double v[SIZE];
   int32_t nv;
@@ -305,7 +306,7 @@ static void runs_are_saved_and_restored(void **state)
 
 /* ---- events ---- */
 
-/* The first number of q. */
+/* An event function: the first element of q minus *user. */
 static int first_position(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user)
 {
@@ -316,7 +317,7 @@ static int first_position(double t, const double *q, const double *v, const doub
   return 0;
 }
 
-/* When the first number of q passes a value. */
+/* Returns the time when the first element of q passes a value. */
 static double find_event(baum_simulation *run, double *value)
 {
   baum_event_def def = baum_event_def_default();
@@ -376,15 +377,15 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
   return fabs(account.residual);
 }
 
-/* The residual is the error of the method: as large as that of the twin, up to
- * what other components of q make of the steps. */
+/* The residual is the error of the method. It is comparable with that of the twin, because other
+ * components of q only change the steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {
   (void)state;
   static const struct {
     const baum_integrator *(*integrator)(void);
     double step;
-    double most; /* [J] of tops, whose energies are about 10 J */
+    double most; /* [J] limit without a twin; the energies of the tops are about 10 J */
   } WAYS[] = {{baum_rk4, 1e-3, 1e-7}, {baum_rk8, 5e-3, 1e-7}, {baum_dp5, (double)NAN, 1e-5}};
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
     for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {
@@ -426,7 +427,7 @@ static void kinematics_follows_the_driver(void **state)
     scene->solve(0.1 * k, want);
     assert_true(apart(baum_simulation_q(run), want, 12) <= 1e-13);
     assert_true(off_manifold(scene, baum_simulation_q(run)) <= 1e-15);
-    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12); /* of the crank, by differences */
+    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12); /* by differences */
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
@@ -453,7 +454,7 @@ static crossed cross(const baum_mechanism *mechanism, const baum_simulation_opti
   return out;
 }
 
-/* The slider passes the main pin, where its other branch stands still. */
+/* The slider passes the main pin, where a second branch crosses, on which the slider is at rest. */
 static void singular_configurations_are_crossed(void **state)
 {
   (void)state;

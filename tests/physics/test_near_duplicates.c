@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A joint that is there twice, nearly: a slider-crank with a second pin, guide or rod that is off
- * by 1e-14 to 1e-6 in place or in direction. Whichever solver is asked, accelerations are those of
- * quadruple precision from the same M, J, g and gamma, where rows less than 1e-10 apart count as
- * one; or the run is refused, and the message names a joint. Likewise where it moves, with
- * accelerations at the velocities that the rows leave of the given ones.
- */
+/* A slider-crank with a nearly duplicate joint: a second pin, guide or rod that is off by 1e-14 to
+ * 1e-6 in place or direction. With every solver, accelerations are those of quadruple precision
+ * from the same M, J, g and gamma, where rows less than 1e-10 apart are treated as one; or the run
+ * is refused with a message that names a joint. The same with initial velocities, which are first
+ * projected onto the rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,13 +25,12 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE,  /* both of its points elsewhere: rod and crank cannot turn against each other any more
-                */
-  PIN_APART,  /* one of them: contradicts the other pin */
-  FOOT_ASIDE, /* both: the crank cannot turn */
+  PIN_ASIDE,  /* pin with both points moved along the rod: locks rod and crank together */
+  PIN_APART,  /* pin with one point moved: contradicts the crank pin */
+  FOOT_ASIDE, /* pin with both points moved at the foot: locks the crank */
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod from a point beside the crank pin, which holds for a moment */
+  ROD_ASIDE, /* a massless rod along the rod, compatible in this configuration only */
   ROD_LONGER,
   AGAIN_COUNT
 } again;
@@ -41,14 +39,14 @@ static const char *const NAMES[AGAIN_COUNT] = {
   "pin aside", "pin apart", "foot aside", "guide turned", "guide apart", "rod aside", "rod longer"};
 
 typedef struct pose {
-  double turn; /* [rad] of the rod */
+  double turn; /* [rad] angle of the rod */
   double end;  /* [m] x of the slider */
   baum_body_id crank;
   baum_body_id rod;
   baum_body_id slider;
 } pose;
 
-/* With velocities of the x, y and the angle. */
+/* v: velocities of x, y and the angle. */
 static baum_body_id add_body(baum_i_parts *parts, const double centre[2], double angle,
                              double inertia, const double v[3])
 {
@@ -100,7 +98,7 @@ static void turn_guide(baum_i_parts *parts, const pose *p, double off)
   }
 }
 
-/* By `off` along the rod from the crank pin, in axes of the crank. */
+/* The point of the crank at a distance `off` along the rod from the crank pin. */
 static baum_i_spot beside_pin(const pose *p, double off)
 {
   double between = p->turn - ANGLE;
@@ -164,7 +162,7 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Of the accelerations that ill-conditioned rows leave. */
+/* Error of the accelerations relative to the size that the ill-conditioned rows allow. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -191,11 +189,11 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   return most / rows.size;
 }
 
-/* Where it moves, velocities may be open by OPEN of start.c silently, and accelerations by twice as
- * much and more, for they go with the square. */
+/* With motion, velocities may violate rows by OPEN of start.c without a message, and accelerations
+ * by more than twice that, because they depend on the square of velocities. */
 static double allowed(double rate)
 {
-  /* 1e-10 apart count as one row: in a guide turned by so much a moves by as much. */
+  /* Rows 1e-10 apart are treated as one; a guide rotated by this angle changes a by as much. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
@@ -249,13 +247,13 @@ static void judge_all(double rate)
   }
 }
 
-static void joints_that_are_there_twice_nearly_are_right_or_refused_by_name(void **state)
+static void nearly_duplicate_joints_are_right_or_refused_by_name(void **state)
 {
   (void)state;
   judge_all(0.0);
 }
 
-static void they_are_where_the_mechanism_moves(void **state)
+static void nearly_duplicate_joints_in_motion_are_right_or_refused(void **state)
 {
   (void)state;
   judge_all(1e-3);
@@ -263,7 +261,7 @@ static void they_are_where_the_mechanism_moves(void **state)
   judge_all(100.0);
 }
 
-/* ---- a little open ---- */
+/* ---- velocities against a lock ---- */
 
 static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m)
 {
@@ -285,7 +283,7 @@ static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m
   return run;
 }
 
-static void a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_not(void **state)
+static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -293,7 +291,7 @@ static void a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_no
   baum_counters counters;
   baum_warning warning;
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  assert_int_equal(counters.warnings, 2); /* the other: one row of the lock is redundant */
+  assert_int_equal(counters.warnings, 2); /* the second: one row of the lock is redundant */
   check(baum_simulation_warning(run, 0, &warning, sizeof warning));
   assert_int_equal(warning.code, BAUM_WARNING_LOOSE_VELOCITIES);
   assert_true(names_a_joint(warning.text));
@@ -310,8 +308,9 @@ static void a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_no
   baum_mechanism_destroy(m);
 }
 
-/* What projection leaves of velocities where nothing can move, with gravity and without. */
-static void rounding_against_a_lock_is_rest(void **state)
+/* Velocities of rounding size, as projection leaves them, where nothing can move; with gravity and
+ * without. */
+static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
 {
   (void)state;
   for (int with_gravity = 0; with_gravity < 2; with_gravity++) {
@@ -338,10 +337,10 @@ static void rounding_against_a_lock_is_rest(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(joints_that_are_there_twice_nearly_are_right_or_refused_by_name),
-    cmocka_unit_test(they_are_where_the_mechanism_moves),
-    cmocka_unit_test(a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_not),
-    cmocka_unit_test(rounding_against_a_lock_is_rest),
+    cmocka_unit_test(nearly_duplicate_joints_are_right_or_refused_by_name),
+    cmocka_unit_test(nearly_duplicate_joints_in_motion_are_right_or_refused),
+    cmocka_unit_test(a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused),
+    cmocka_unit_test(velocities_of_rounding_against_a_lock_count_as_rest),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observed order of every integrator of fixed step with every formulation: error against tests/data
- * over a ladder of halved steps, on a pendulum, a free slider-crank and a four-bar. Gains by the
- * rule `auto`, which does not depend on the step here.
- */
+/* Observed order of every fixed-step integrator with every formulation: errors against references
+ * for repeatedly halved steps, on a pendulum, a free slider-crank and a four-bar. Gains are those
+ * of the rule `auto`, which does not depend on the step here. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,11 +19,12 @@
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
-/* What is demanded. Between 4 rungs, 8 times in the step, a term of the next order that is 1/4 of
- * the error at the largest step moves the mean slope by less than 0.11. */
+/* Limit of the difference between slope and order. The steps of the 4 runs differ by a factor of 8.
+ * A term of the next order that is 1/4 of the error at the largest step changes the mean slope by
+ * less than 0.11. */
 static const double TOLERANCE = 0.2;
 
-/* Up to the last sample used, the crank turns by 2 rad and the pendulum by 3. */
+/* Until the last sample used, the crank rotates by 2 rad and the pendulum by 3. */
 static const reference REFERENCES[] = {
   [PENDULUM] = {.samples = 3,
                 .width = A01_PENDULUM_WIDTH,
@@ -40,22 +40,22 @@ static const reference REFERENCES[] = {
     {.samples = 5, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Steps of the coarsest rung, by order. Order 4 begins late, because its term of order 5 is larger
- * than that of order 4 with gains and fewer than 128 steps. Errors of the finest are from 1e-3 for
- * order 1 to 1e-12; rounding stays below 1e-13. Adams' methods, whose terms of the next order are
- * larger, begin with 4 times as many. */
+/* Number of steps of the coarsest run, by order. Order 4 needs more, because with gains and fewer
+ * than 128 steps its error term of order 5 dominates. Errors of the finest run are between 1e-3
+ * (order 1) and 1e-12; rounding is below 1e-13. Adams methods have larger terms of the next order
+ * and begin with 4 times as many steps. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
-/* Orders 5 and 8 come down to rounding before terms of the next order are gone, which gains make
- * larger: their ladders end there, and a slope that is too steep by such a term is no fault. */
+/* Orders 5 and 8 reach rounding before terms of the next order are small, in particular with gains.
+ * Their series of runs end there, and a slope that such a term increases is accepted. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;
   int samples;
   int coarsest;
   int rungs;
-  double too_steep; /* slopes seen, but for projection, are up to 0.55 (order 5) and 0.25 (8) above
-                       the order */
+  double too_steep; /* limit above the order; measured without projection: up to 0.55 (order 5) and
+                     * 0.25 (order 8) */
 } high_ladder;
 
 static const high_ladder HIGH[] = {
@@ -80,7 +80,7 @@ static double error_at(const model *m, const reference *with, baum_simulation_op
   return run.error;
 }
 
-/* Mean over the ladder, which it prints. */
+/* Prints the errors of a series of runs; returns the mean slope. */
 static double observe_order(const model *m, const reference *with, baum_simulation_options *options)
 {
   bool multistep = strncmp(baum_integrator_name(options->integrator), "ab", 2) == 0;

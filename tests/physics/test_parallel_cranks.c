@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks out of line rotate freely, like the wheels of a locomotive: one row is
- * redundant in every configuration, but whichever row is omitted, the others have singular
- * configurations. Every integrator with every formulation moves like a pendulum of the same
- * inertia and reports no singular configuration. */
+/* Three parallel cranks that are not in line rotate freely, like the wheels of a locomotive. One
+ * row is redundant in every configuration, but whichever row is omitted, the remaining rows have
+ * singular configurations. With every integrator and formulation the cranks move like a pendulum of
+ * the same inertia, without a singular configuration being reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,8 @@
 enum { NV = 12 };
 
 static const double ANGLE = 0.3;
-static const double RATE = 8.0; /* [rad/s] goes over the top */
-static const double END = 4.0;  /* [s] some five turns */
+static const double RATE = 8.0; /* [rad/s] enough to pass the top */
+static const double END = 4.0;  /* [s] about five revolutions */
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
 
@@ -35,8 +35,8 @@ static model make(bool framed)
 
 /* ---- the pendulum ---- */
 
-/* All cranks turn alike, by the angle x[0] at the rate x[1]; the coupler's centre goes round with 1
- * m. */
+/* All cranks have the angle x[0] and the angular velocity x[1]; the coupler's centre moves on a
+ * circle of 1 m. */
 static void fall(const double x[2], double dx[2])
 {
   double inertia = 3.0 / 3.0 + 2.0;
@@ -45,7 +45,7 @@ static void fall(const double x[2], double dx[2])
   dx[1] = -weight * cos(x[0]) / inertia;
 }
 
-/* By the classical Runge-Kutta method in steps of 1e-4 s, good to 1e-13. */
+/* By the classical Runge-Kutta method with steps of 1e-4 s; accurate to 1e-13. */
 static double swing(double span)
 {
   double x[2] = {ANGLE, RATE};
@@ -68,7 +68,7 @@ static double swing(double span)
   return x[0];
 }
 
-/* ---- round and round ---- */
+/* ---- full revolutions ---- */
 
 static baum_simulation *start(const model *m, step_mode mode, baum_formulation formulation)
 {
@@ -79,10 +79,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
   return run;
 }
 
-/* The first order is good for nothing at this step, nor is the second of semi-implicit Euler where
- * projection has taken it away. Others are off by (w h)^p, the more the more turns, or by rounding.
- * BDF and IDA, which restarts with every choice of rows, are off by 1e4 rtol, the others by 10
- * rtol. */
+/* Methods of order 1 are too inaccurate at this step, and semi-implicit Euler keeps its order 2
+ * only without projection. Errors of other fixed-step methods are (omega h)^p, growing with the
+ * revolutions, or rounding. BDF and IDA restart with every change of rows and have errors of 1e4
+ * rtol, other variable-step methods 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -104,13 +104,13 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
          counters.max_phi);
   assert_true(error <= allowed(mode));
-  assert_true(counters.max_phi <= 1e-2); /* what drifts apart has reached 1 m by now */
+  assert_true(counters.max_phi <= 1e-2); /* a drift would have reached 1 m by now */
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
 
-/* Without stabilization what rows are off by grows with every choice (docs/limits.md). */
+/* Without stabilization the violation grows with every change of rows (docs/limits.md). */
 static void every_stabilized_method_goes_round(void **state)
 {
   (void)state;
@@ -124,7 +124,7 @@ static void every_stabilized_method_goes_round(void **state)
   }
 }
 
-/* ---- what else depends on the choice ---- */
+/* ---- other effects of the choice of rows ---- */
 
 static void goes_on_a_second(const model *m, baum_solver solver)
 {
@@ -152,7 +152,7 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* Its rows are not among those to choose from. */
+/* The rows of a fixed body are not among the rows to choose from. */
 static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;
@@ -161,8 +161,8 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
   model_destroy(&m);
 }
 
-/* A quarter of a turn on, and half a turn behind the start, where the rows of the start are next to
- * dependent. */
+/* Sets states of up to 0.8 s, and continues from each for 0.2 s: there, the rows chosen at the
+ * start of the run may be nearly dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {
   (void)state;
@@ -186,7 +186,7 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
   model_destroy(&here);
 }
 
-/* And is not projected when rows change. */
+/* A given violation is not projected when rows change. */
 static void a_violation_that_was_given_stays(void **state)
 {
   (void)state;
@@ -203,7 +203,7 @@ static void a_violation_that_was_given_stays(void **state)
   memcpy(q, baum_simulation_q(run), sizeof q);
   q[0] += 1e-6;
   check(baum_simulation_set_state(run, 0.0, q, baum_simulation_v(run)));
-  check(baum_simulation_advance_to(run, 0.3)); /* more than half a turn */
+  check(baum_simulation_advance_to(run, 0.3)); /* about a third of a revolution */
   check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(fabs(baum_simulation_q(run)[0] - cos(baum_simulation_q(run)[2]) / 2) > 1e-7);
   assert_true(fabs(baum_simulation_q(run)[2] - swing(0.3)) <= 1e-3);
@@ -222,7 +222,7 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return run;
 }
 
-/* Into a run that still omits the rows of its start. */
+/* Restores into a run that still omits the rows of its start. */
 static void a_restored_run_leaves_out_the_same_rows(void **state)
 {
   (void)state;
@@ -258,8 +258,8 @@ static void the_energy_account_closes(void **state)
   model_destroy(&m);
 }
 
-/* Flat, where two of the cranks alone leave the third one's turn open: all turn by -w / inertia
- * under their weight. */
+/* In a flat configuration two of the cranks alone do not determine the motion of the third. All
+ * have the angular acceleration -weight cos(angle) / inertia. */
 static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
 {
   (void)state;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With PROJECTION every row is kept to rounding at every step and at every time that is asked for:
+/* With PROJECTION every row is fulfilled to rounding at every step and at every output time:
  *
- *   |Phi_i|  <= 1e-13 L_i + rounding,                 L_i = max_j |J_ij| scale_j: the length scale
- *   in the unit of the row |Phi'_i| <= 1e-13 (|J_i| |v| + |nu_i|) + rounding
+ *   |Phi_i|  <= 1e-13 L_i + rounding,   L_i = max_j |J_ij| scale_j
+ *   |Phi'_i| <= 1e-13 (|J_i| |v| + |nu_i|) + rounding
  *
- * Every integrator that offers it, in both ways to step, on mechanisms away from singular
- * configurations. Rounding: of the terms of a row, and of velocities it is relative to the fastest
- * of the mechanism, for all of them are solved for at once.
+ * Tested with every integrator that offers it, with fixed and variable steps, on mechanisms away
+ * from singular configurations. Rounding refers to the terms of a row. For velocities it refers to
+ * the fastest velocity of the mechanism, because all velocities are solved together.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,7 +35,7 @@ typedef struct looked_on {
   int32_t nv;
   int32_t nc;
   double scale[WIDEST];
-  double worst_phi; /* of the bound */
+  double worst_phi; /* largest ratio to the bound */
   double worst_rate;
 } looked_on;
 
@@ -99,7 +99,7 @@ static void step_through(looked_on *at, baum_simulation *run)
   }
 }
 
-/* Times that no step ends at. */
+/* Samples at times where no step ends. */
 static void sample_through(looked_on *at, baum_simulation *run, double span)
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_V)};

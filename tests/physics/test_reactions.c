@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reactions balance the forces whatever rows are redundant and however uneven masses are; who
- * shares forces is named. */
+/* Reactions balance the forces with redundant rows and with uneven masses. Joints that share forces
+ * are named. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
-/* Seeds of mechanisms whose light bodies would keep the rounding of large forces that null vectors
- * take off them. */
+/* In these mechanisms the removal of null vectors could leave rounding of large forces on light
+ * bodies. */
 static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 
 static baum_simulation *run_bracket(const baum_mechanism *m)
@@ -29,7 +29,8 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* m g of the heavy body, and its moment about the joint 0.4 m beside its centre. */
+/* Expects the weight m g of the heavy body and its moment about the joint 0.4 m beside its
+ * centre. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);
@@ -75,7 +76,7 @@ static void only_joints_that_share_forces_are_named(void **state)
     assert_int_equal(warning.code, BAUM_WARNING_REDUNDANT_ROWS);
     assert_non_null(strstr(warning.text, "among \"joint1\", \"joint2\":"));
     check(baum_simulation_unique_multipliers(run, unique));
-    for (int i = 0; i < 8; i++) { /* the moments of the weld and all of the third joint */
+    for (int i = 0; i < 8; i++) { /* the weld's moment, the third joint */
       assert_true(unique[i] == (i >= 4));
     }
     baum_simulation_destroy(run);
@@ -83,7 +84,8 @@ static void only_joints_that_share_forces_are_named(void **state)
   }
 }
 
-/* Least norm in rows scaled by M: joints on the same body share by halves. */
+/* The multipliers have the least norm in rows scaled by M, so joints on the same body take half
+ * each. */
 static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
 {
   (void)state;
@@ -114,15 +116,15 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
     redundant_judge(HARD_SEEDS[k], &tally);
   }
   printf("largest imbalance %.2g\n", tally.worst);
-  for (int k = 0; k < REDUNDANT_STATES; k++) { /* nothing is refused, either */
+  for (int k = 0; k < REDUNDANT_STATES; k++) { /* nothing is refused */
     assert_int_equal(tally.workspace[k][REDUNDANT_MET], MECHANISMS + HARD);
     assert_int_equal(tally.run[k][REDUNDANT_MET], MECHANISMS + HARD);
   }
   assert_int_equal(tally.wrong_unique, 0);
 }
 
-/* A spatial body of 2 kg is welded to a planar one, which the plane bears: the weld bears its
- * weight across the plane, though the planar body has no velocity there. */
+/* A spatial body of 2 kg is welded to a planar body, which its plane supports. The weld carries the
+ * weight across the plane, although the planar body has no velocity in that direction. */
 static void planar_bodies_bear_forces_across_their_plane(void **state)
 {
   (void)state;

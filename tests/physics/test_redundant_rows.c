@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows that say nothing new change nothing: a third parallel crank, a second guide on the same
- * line, against the same bodies without them.
- */
+/* Redundant rows change nothing: a third parallel crank, or a second guide on the same line,
+ * compared with the same bodies without these rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,20 +13,20 @@
 
 enum { POSES = 8 };
 
-/* Two paths to the same numbers, both of an ordinary configuration's accuracy; the redundant rows
- * are fulfilled to rounding only, as the configuration is. */
+/* Two computations of the same numbers, both with the accuracy of an ordinary configuration, which
+ * fulfils redundant rows to rounding only. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs ---- */
 
-/* Pose number k of a mechanism with redundant rows, or of the same without. */
+/* Returns a mechanism in its k-th configuration, with redundant rows or without. */
 typedef posed pair_fn(int k, bool redundant);
 
 static posed cranks(int k, bool redundant)
 {
   model m;
   model_parallelogram which = redundant ? MODEL_THREE_CRANKS : MODEL_THIRD_BY_A_ROD;
-  /* Between 0.3 and 2.4 rad: away from flat, where the cranks may cross. */
+  /* 0.3 to 2.4 rad: not flat, where branches cross. */
   baum_status status = model_parallelogram_build(which, 0.3 + 0.3 * k, &m);
   return pose_model(status, m);
 }
@@ -56,7 +55,7 @@ static const struct {
   pair_fn *pose;
   int more_rows;
   int redundant_rows;
-  double step; /* [s] of runs */
+  double step; /* [s] step of runs */
 } PAIRS[] = {
   {"three parallel cranks", cranks, 1, 1, 1e-3},
   {"slider-crank, two guides", free_slider, 2, 2, 1e-5},
@@ -97,7 +96,7 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* The oracle agrees, with the rows omitted that the workspace omits. */
+/* Agrees with the oracle, which omits the same rows as the workspace. */
 static void accelerations_are_those_of_quadruple_precision(void **state)
 {
   (void)state;
@@ -108,7 +107,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
                                   p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
-    assert_true(error <= 1e-12); /* an ordinary configuration, see test_acceleration_accuracy.c */
+    assert_true(error <= 1e-12); /* ordinary configuration, see test_acceleration_accuracy.c */
     unpose(&p);
   }
 }
@@ -177,7 +176,8 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
   model_destroy(&m);
 }
 
-/* A pin that is there twice shares its force, half and half; all others have theirs as before. */
+/* A duplicated pin and the original each carry half of the force; all other multipliers are
+ * unchanged. */
 static void multipliers_that_are_not_unique_are_marked(void **state)
 {
   (void)state;
@@ -195,16 +195,16 @@ static void multipliers_that_are_not_unique_are_marked(void **state)
     }
     for (int i = 0; i < PLAIN_ROWS; i++) {
       double want = i < FIRST_SHARED ? alone[i] : 0.5 * alone[i];
-      assert_true(fabs(twice[i] - want) <= LIMIT * 100.0); /* forces are some 10 N */
+      assert_true(fabs(twice[i] - want) <= LIMIT * 100.0); /* forces are about 10 N */
     }
   }
 }
 
-/* ---- redundant for ever, or singular for a moment ---- */
+/* ---- redundant everywhere, or singular in one configuration ---- */
 
-/* Rows of a pin that is there twice, 1e-10 off, are redundant; those that depend on others at a
- * flat configuration only are not, 1e-8 rad from there no more than 1 rad from there; and both
- * together. */
+/* Rows of a duplicated pin, 1e-10 off, are redundant. Rows that are dependent in a flat
+ * configuration only are not redundant, neither 1e-8 rad nor 1 rad from it. Some cases have
+ * both. */
 static const struct {
   const char *name;
   model_parallelogram_data data;
@@ -248,7 +248,7 @@ static model tell_apart(int k, const model_units *units)
   return m;
 }
 
-static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
+static void permanent_and_momentary_redundancy_are_distinguished_in_any_unit(void **state)
 {
   (void)state;
   const model_units *const units[] = {NULL, &MODEL_MILLI};
@@ -264,8 +264,8 @@ static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
   }
 }
 
-/* The cranks go on turning as one, th'' = -k cos th, with rows redundant, singular or both at the
- * start. */
+/* The cranks continue to rotate together, th'' = -k cos th, if rows are redundant, singular or both
+ * at the start. */
 static void a_run_may_start_next_to_a_singular_configuration(void **state)
 {
   (void)state;
@@ -285,12 +285,12 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* v^2 / 2 + k sin th = const; the first accelerations at the flat configuration itself are not
-     * unique, which costs 3e-6 */
+    /* v^2 / 2 + k sin th is constant; the first accelerations in the flat configuration itself are
+     * not unique, which changes the energy by 3e-6 */
     double energy = v[2] * v[2] / 2.0 + pull * (sin(q[2]) - sin(data->angle));
     printf("%-34s angle %.9f, energy off by %.1e\n", TELL_APART[k].name, q[2], energy - 2.0);
     assert_true(fabs(energy - 2.0) <= 1e-5);
-    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* no crank on another branch */
+    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* no crank is on another branch */
     assert_int_equal(counters.branch_warnings, 0);
     assert_true((counters.warnings > 0) ==
                 (TELL_APART[k].redundant > 0 || TELL_APART[k].near_singular));
@@ -306,7 +306,7 @@ int main(void)
     cmocka_unit_test(accelerations_are_those_of_quadruple_precision),
     cmocka_unit_test(motions_are_those_without_redundant_rows),
     cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
-    cmocka_unit_test(permanent_and_momentary_are_told_apart_in_any_unit),
+    cmocka_unit_test(permanent_and_momentary_redundancy_are_distinguished_in_any_unit),
     cmocka_unit_test(a_run_may_start_next_to_a_singular_configuration),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

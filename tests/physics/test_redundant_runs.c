@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A parallelogram with three cranks and one pin twice, three rows too many, through every
- * integrator, formulation and solver: the motion is that of the same mechanism without them; the
- * joints whose multipliers are not unique are named.
- */
+/* A parallelogram with three cranks and a duplicated pin, which has three redundant rows, with
+ * every integrator, formulation and solver. The motion is that of the mechanism without these rows,
+ * and a warning names the joints whose multipliers are not unique. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +17,7 @@ enum { NV = 12 };
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-7;
-static const double END = 0.3; /* [s] away from flat */
+static const double END = 0.3; /* [s] before the configuration is flat */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
                                       BAUM_SOLVER_QR};
@@ -64,7 +63,7 @@ static void expect(bool fine, const method *with, const char *what, double value
   }
 }
 
-/* Whether one of the run's warnings has both words in it. */
+/* Whether one of the run's warnings contains both words. */
 static bool warns(const baum_simulation *run, int64_t count, const char *word, const char *other)
 {
   bool found = false;
@@ -94,8 +93,8 @@ typedef struct comparison {
   model with;
   model without;
   double exact[NV]; /* q at END */
-  double alone[NV]; /* q without redundant rows, of the first solver */
-  double own;       /* error of that */
+  double alone[NV]; /* q without redundant rows, with the first solver */
+  double own;       /* error of `alone` */
   int count;
 } comparison;
 
@@ -118,9 +117,8 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Two choices of rows drift differently, or fail differently within IDA's iteration: by
- * fractions of the method's error. A method with a step of its own has that error where its
- * tolerance is. */
+/* Different choices of rows differ in drift or in the result of IDA's iteration by a fraction of
+ * the method's error. With a variable step this error is about the tolerance. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -168,8 +166,8 @@ static void redundant_rows_change_no_motion(void **state)
 
 /* ---- omitted rows are monitored ---- */
 
-/* A link driven twice at its pin to the ground, by rate t and by rate t + acceleration t^2 / 2, and
- * another one that hangs on it. */
+/* A link with two drivers at its pin to the ground, with the rates 2 and 2 + acceleration t, and a
+ * second link that hangs on it. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -201,7 +199,7 @@ static baum_mechanism *driven_twice(double acceleration)
 
 static const double ANGLE = 1.0; /* [rad] between the motors at END */
 
-/* That shows in the counters, and is warned of. */
+/* If the motors contradict each other, the counters and a warning report it. */
 static void part(const method *with, void *context)
 {
   const baum_mechanism *const *mechanisms = context;
@@ -215,8 +213,7 @@ static void part(const method *with, void *context)
     bool warned =
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "motors that part are told of", k);
-    /* off by the method's own violation, 1e-2 at first order; the last of its own steps may go
-     * beyond END */
+    /* the method's own violation is up to 1e-2 at order 1; a variable step may end beyond END */
     expect(k == 1 ? counters.max_phi >= ANGLE - 2e-2 : counters.max_phi <= 2e-2, with,
            "largest violation", counters.max_phi);
     baum_simulation_destroy(run);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scheduled inputs: a body on a pin without gravity, turned by a torque that is an input and jumps
- * at three times. Its motion is known: polynomials of degree 2 in time, which every method of order
- * 2 follows to rounding if it keeps to one side of a jump.
- */
+/* Scheduled inputs: a body on a pin without gravity is driven by a torque that is an input and
+ * jumps at three times. The exact motion is a polynomial of degree 2 between the jumps. Every
+ * method of order 2 reproduces it to rounding if no step crosses a jump. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,18 +17,18 @@
 
 enum { JUMPS = 3 };
 
-/* One on the grid of STEP, two off it; the last two nearer to each other than a step. */
+/* The first is a multiple of STEP, the others are not; the last two are less than a step apart. */
 static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
-static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0}; /* [N m]; inertia 1 kg m^2 */
+static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0}; /* [N m]; the inertia is 1 kg m^2 */
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
 typedef struct disc {
   baum_mechanism *mechanism;
   baum_joint_id pin;
-  baum_joint_id motor; /* none: it is free */
+  baum_joint_id motor; /* none if the disc is free */
   baum_input_id torque;
-  baum_input_id other; /* on the other side, 0 at first */
+  baum_input_id other; /* a torque in the opposite direction, 0 at first */
 } disc;
 
 static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double direction,
@@ -91,7 +90,7 @@ static void close_all(baum_simulation *run, disc *d)
   baum_mechanism_destroy(d->mechanism);
 }
 
-/* ---- what is known ---- */
+/* ---- the exact motion ---- */
 
 static double torque_at(double t)
 {
@@ -102,7 +101,8 @@ static double torque_at(double t)
   return TORQUE[k];
 }
 
-/* Angle, rate and work of the torque, from rest at 0; before 0 the torque is the first. */
+/* Angle, angular velocity and work of the torque, from rest at t = 0; before 0 the torque has its
+ * first value. */
 static void exact(double t, double *angle, double *rate, double *work)
 {
   double from = 0.0;
@@ -128,9 +128,9 @@ static double error_now(const baum_simulation *run)
   return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
 }
 
-/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2)
- * |torque| t in the angle. Steps of their own: ten tolerances of rates up to 6 rad/s.
- * Generalized-alpha begins with accelerations that are not of its order: with h^2 50 times 20. */
+/* Variable step: ten tolerances of angular velocities up to 6 rad/s. Euler methods: (h/2) |torque|
+ * t in the angle. Generalized-alpha: h^2 times 50 N m, times 20, because its first acceleration has
+ * a lower order. Other methods: rounding of about 200 steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -148,7 +148,7 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* ---- free ---- */
+/* ---- the free disc ---- */
 
 static void motions_are_those_between_the_jumps(void **state)
 {
@@ -164,7 +164,7 @@ static void motions_are_those_between_the_jumps(void **state)
     baum_counters counters = counters_of(run);
     assert_true(error_now(run) <= allowed(mode));
     assert_int_equal(counters.restarts - before >= JUMPS, step_mode_remembers(mode));
-    if (!mode.fixed) { /* nothing else restarts there, or is told by a step that fails */
+    if (!mode.fixed) { /* no other cause of restarts */
       assert_int_equal(counters.restarts - before, JUMPS);
     }
     assert_true(baum_simulation_input(run, d.torque) == TORQUE[JUMPS]);
@@ -172,7 +172,8 @@ static void motions_are_those_between_the_jumps(void **state)
   }
 }
 
-/* There and back through all jumps, standing at each: a jump has the value of after. */
+/* Forward and backward through all jumps, with a stop at each. At a jump the input has its value
+ * after the jump. */
 static void jumps_are_met_forward_and_backward(void **state)
 {
   (void)state;
@@ -185,7 +186,8 @@ static void jumps_are_met_forward_and_backward(void **state)
     schedule(run, &d);
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of the
+                                                                             * grid */
       assert_true(error_now(run) <= 2.0 * allowed(mode));
       double t = baum_simulation_time(run);
       assert_true(baum_simulation_input(run, d.torque) == torque_at(t));
@@ -194,7 +196,7 @@ static void jumps_are_met_forward_and_backward(void **state)
   }
 }
 
-/* Whole steps, inputs at their times: none passes a jump. */
+/* Takes single steps: each ends at the next jump or before it. */
 static void steps_stop_at_jumps(void **state)
 {
   (void)state;
@@ -210,7 +212,7 @@ static void steps_stop_at_jumps(void **state)
       double to = baum_simulation_time(run);
       if (next < JUMPS && to > TIMES[next] - 1e-12) {
         assert_true(from < TIMES[next]);
-        ASSERT_NEAR(to, TIMES[next], 0.0, 1e-13); /* 16 roundings of the time before, at most */
+        ASSERT_NEAR(to, TIMES[next], 0.0, 1e-13); /* at most 16 roundings of the time */
         next++;
       }
     }
@@ -220,9 +222,9 @@ static void steps_stop_at_jumps(void **state)
   }
 }
 
-/* Two inputs that jump together and nearer to each other than a break is wide: back at the start
- * both are as they were. */
-static void jumps_together_are_all_undone(void **state)
+/* Two inputs that jump within the width of one break. Back before the jump both have their first
+ * values. */
+static void inputs_that_jump_together_are_all_reset_before_the_jump(void **state)
 {
   (void)state;
   const double near[2] = {1.2345, 1.2345 * (1.0 + 1e-15)};
@@ -246,7 +248,8 @@ static void jumps_together_are_all_undone(void **state)
   }
 }
 
-/* An adaptive run is ahead of what it reports when a schedule is given, changed and ended. */
+/* A variable-step run has integrated beyond its reported time when the schedule is given, changed
+ * or ended. */
 static void a_schedule_may_be_given_late(void **state)
 {
   (void)state;
@@ -264,8 +267,8 @@ static void a_schedule_may_be_given_late(void **state)
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, later, none, 1), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 1.6), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate + 0.2 * TORQUE[JUMPS], 0.0, allowed(mode));
-    /* What the schedule was before is no more: back in time it has the value that it had at the
-     * call. */
+    /* The new schedule replaces the old one: before its first jump the input has the value that it
+     * had at the call. */
     assert_int_equal(step_mode_advance(mode, run, 1.0), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate - 0.3 * TORQUE[JUMPS], 0.0, 2.0 * allowed(mode));
     close_all(run, &d);
@@ -290,7 +293,7 @@ static void the_account_closes_over_jumps(void **state)
     exact(2.0, &angle, &rate, &work);
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
-    /* The error of angles and rates, by torques up to 50 N m and rates up to 6 rad/s. */
+    /* The limits of angle and angular velocity, times up to 50 N m and 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
     ASSERT_NEAR(account.loads, work, 0.0, most);
@@ -298,10 +301,10 @@ static void the_account_closes_over_jumps(void **state)
   }
 }
 
-/* ---- driven ---- */
+/* ---- the driven disc ---- */
 
-/* The motor holds against the torque, which does not move it. */
-static void kinematics_have_the_effort_of_the_time(void **state)
+/* The motor balances the torque, so the motion does not depend on it. */
+static void kinematics_give_the_effort_for_the_input_at_that_time(void **state)
 {
   (void)state;
   static const double targets[] = {0.499999, 0.5, 1.2345, 1.236, 1.2361, 2.0, 1.2345, 1.2, 0.4};
@@ -319,14 +322,14 @@ static void kinematics_have_the_effort_of_the_time(void **state)
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
     ASSERT_NEAR(row[0], -torque_at(t), 0.0, 1e-12); /* rounding of 50 N m */
-    ASSERT_NEAR(row[1], 2.0 * t, 0.0, 1e-13);       /* and of angles */
+    ASSERT_NEAR(row[1], 2.0 * t, 0.0, 1e-13);       /* rounding of angles */
   }
   close_all(run, &d);
 }
 
-/* ---- to other states and runs ---- */
+/* ---- other states and runs ---- */
 
-static void inputs_are_those_of_the_time_gone_to(void **state)
+static void inputs_have_the_values_of_the_time_reached(void **state)
 {
   (void)state;
   const double q[3] = {0.0, 0.0, 0.0};
@@ -363,7 +366,7 @@ static void another_method_takes_the_schedule_over(void **state)
   }
 }
 
-/* A run tries another schedule and goes back: what it had is there again. */
+/* A run tries another schedule; restoring brings the first one back. */
 static void restoring_brings_the_schedule_back(void **state)
 {
   (void)state;
@@ -393,7 +396,7 @@ static void restoring_brings_the_schedule_back(void **state)
   }
 }
 
-/* ---- where it ends ---- */
+/* ---- the end of a schedule ---- */
 
 static void setting_an_input_ends_its_schedule(void **state)
 {
@@ -404,19 +407,19 @@ static void setting_an_input_ends_its_schedule(void **state)
   assert_int_equal(baum_simulation_schedule_input(run, d.other, TIMES, TORQUE, 1), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
   int64_t restarts = counters_of(run).restarts;
-  /* Likewise with the value that it has; no step restarts. */
+  /* Setting an input ends its schedule, even if its value does not change; no step restarts. */
   assert_int_equal(baum_simulation_set_input(run, d.torque, TORQUE[0]), BAUM_OK);
   assert_int_equal(baum_simulation_schedule_input(run, d.other, NULL, NULL, 0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
   assert_int_equal(counters_of(run).restarts, restarts);
   assert_true(baum_simulation_input(run, d.torque) == TORQUE[0]);
   assert_true(baum_simulation_input(run, d.other) == 0.0);
-  ASSERT_NEAR(baum_simulation_v(run)[2], 2.0 * TORQUE[0], 0.0, 1e-11); /* exact but for rounding */
+  ASSERT_NEAR(baum_simulation_v(run)[2], 2.0 * TORQUE[0], 0.0, 1e-11); /* rounding */
   close_all(run, &d);
 }
 
-/* Values that stay the same are no jumps. */
-static void values_that_stay_cost_nothing(void **state)
+/* A scheduled value equal to the one before is not a jump. */
+static void equal_successive_values_are_no_jump(void **state)
 {
   (void)state;
   static const double times[4] = {0.25, 0.5, 0.75, 1.0};
@@ -436,15 +439,15 @@ int main(void)
     cmocka_unit_test(motions_are_those_between_the_jumps),
     cmocka_unit_test(jumps_are_met_forward_and_backward),
     cmocka_unit_test(steps_stop_at_jumps),
-    cmocka_unit_test(jumps_together_are_all_undone),
+    cmocka_unit_test(inputs_that_jump_together_are_all_reset_before_the_jump),
     cmocka_unit_test(a_schedule_may_be_given_late),
     cmocka_unit_test(the_account_closes_over_jumps),
-    cmocka_unit_test(kinematics_have_the_effort_of_the_time),
-    cmocka_unit_test(inputs_are_those_of_the_time_gone_to),
+    cmocka_unit_test(kinematics_give_the_effort_for_the_input_at_that_time),
+    cmocka_unit_test(inputs_have_the_values_of_the_time_reached),
     cmocka_unit_test(another_method_takes_the_schedule_over),
     cmocka_unit_test(restoring_brings_the_schedule_back),
     cmocka_unit_test(setting_an_input_ends_its_schedule),
-    cmocka_unit_test(values_that_stay_cost_nothing),
+    cmocka_unit_test(equal_successive_values_are_no_jump),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

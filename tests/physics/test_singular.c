@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs through singular configurations tell what has become of them, and runs away from such
- * configurations say nothing. A part of what bench_singular counts: two starts of each mechanism.
- */
+/* Runs through singular configurations report what happened; runs away from such configurations
+ * report nothing. This is a small version of bench_singular with two starts of each mechanism. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +12,8 @@
 
 #include "singular_scenes.h"
 
-/* Branches that are left end up radians away; errors of the loosest tolerance here stay below
- * it. */
+/* [rad] The other branch differs by radians; the errors of the loosest tolerance here are below
+ * this. */
 static const double WRONG = 0.1;
 
 static const struct {
@@ -64,12 +63,12 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
     singular_close(&scene);
   }
   printf("%d right, %d of them with a branch warning; %d wrong\n", right, alarmed, wrong);
-  assert_true(right > 0 && wrong > 0); /* else nothing has been shown */
+  assert_true(right > 0 && wrong > 0); /* otherwise the test has shown nothing */
   assert_true(20 * alarmed <= right);
 }
 
-/* The setting that docs/theory/singular.md recommends. Its errors there are at most 1e-8; the bound
- * is what is promised. */
+/* The setting that docs/theory/singular.md recommends. Measured errors are at most 1e-8; this bound
+ * is the documented one. */
 static void recommended_setting_is_accurate(void **state)
 {
   (void)state;
@@ -86,9 +85,9 @@ static void recommended_setting_is_accurate(void **state)
   }
 }
 
-/* The first flat configuration of the second start is 5e-7 rad from the end of a step: an
- * acceleration as the equations have it there, of no digit, made the run wrong by 1.1 rad. In the
- * ninth of 20 windows projection did not converge. Others are off by 4e-6. */
+/* In the first case a flat configuration is 5e-7 rad from the end of a step, where the acceleration
+ * from the equations has no correct digit. In the second case an ordinary projection does not
+ * converge at such a configuration. Other runs have errors of 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
@@ -112,7 +111,7 @@ static void fixed_steps_may_end_in_a_singular_configuration(void **state)
   }
 }
 
-/* An interval as it is at the first flat configuration of a four-bar: time, joint, branch. */
+/* Time, joint and branch of the interval at the first flat configuration of a four-bar. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
   (void)state;
@@ -134,9 +133,10 @@ static void intervals_have_times_joints_and_branches(void **state)
   assert_int_equal(baum_simulation_near_singular(run, 0, &entry, sizeof entry), BAUM_OK);
   assert_int_equal(entry.struct_size, sizeof entry);
   assert_true(entry.begin < entry.t && entry.t < entry.end);
-  /* Flat where the crank has turned by a right angle, by the equation of the angle (mpmath, 25
-   * digits). The time is known to a millionth of two steps, 1e-8 s, and the pivot to its square;
-   * the method's error here is 3e-9. */
+  /* The mechanism is flat when the crank has rotated by a right angle. The reference time is from
+   * the equation of motion for the angle (mpmath, 25 digits). The search finds the time
+   * to a millionth of two steps, 1e-8 s; the method itself errs by 3e-9 s. The pivot grows as the
+   * square of the distance, so it is found to about 1e-12. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -151,7 +151,7 @@ static void intervals_have_times_joints_and_branches(void **state)
 
 /* ---- away from singular configurations ---- */
 
-/* The configuration at 10 s; false where the run has stopped or doubts the motion. */
+/* Gives the angle at 10 s; returns false if the run has stopped or doubts the motion. */
 static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
                    double rtol, double *angle)
 {
@@ -170,12 +170,12 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
   return status >= BAUM_OK && c.doubts == 0;
 }
 
-/* A small kick at a singular configuration leaves a violation that takes the next ones out of
- * reach: the motion turns before them, to the other branch. */
-static void drifting_runs_that_leave_their_branch_doubt_the_motion(void **state)
+/* A small error at a singular configuration leaves a violation, because of which the mechanism
+ * cannot reach the next one: it turns back on the other branch. */
+static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
-  static const double ANGLE = -30.343944970943127; /* [rad] closed form, A Coruna A02 */
+  static const double ANGLE = -30.343944970943127; /* [rad] closed-form solution of A Coruna A02 */
   model_n_four_bar data = model_n_four_bar_a02(1);
   model m;
   int trusted = 0;
@@ -192,7 +192,7 @@ static void drifting_runs_that_leave_their_branch_doubt_the_motion(void **state)
       }
     }
   }
-  assert_true(trusted >= 26); /* at least with projection */
+  assert_true(trusted >= 26); /* all runs with projection */
   model_destroy(&m);
 }
 
@@ -211,7 +211,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
     options.rtol = 1e-6;
   }
   assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
-  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* its error may be told */
+  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* may warn of its error */
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   assert_int_equal(c.near_singular_intervals, 0);
   assert_int_equal(c.branch_warnings, 0);
@@ -220,7 +220,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
   model_destroy(m);
 }
 
-/* 1 kg at the end of a rod of 1 m, which is turned by nearly nothing. */
+/* 1 kg at the end of a rod of 1 m, with nearly no moment of inertia. */
 static baum_status build_light_rotation(model *out)
 {
   *out = (model){0};
@@ -240,7 +240,7 @@ static baum_status build_light_rotation(model *out)
   return status == BAUM_OK ? baum_mechanism_freeze(out->mechanism) : status;
 }
 
-/* A light rod that comes taut between a slot through the origin and a bob of 1 kg. */
+/* A light rod, guided by a slot at the origin, that comes taut under a bob of 1 kg. */
 static baum_mechanism *build_taut_rod(double mass, double direction)
 {
   baum_mechanism *m = NULL;
@@ -290,8 +290,8 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
   return c;
 }
 
-/* Pivots fall to the ratio of masses where the slot holds the bob by the light rod; J keeps its
- * rank. No step may go over that, as one does over a singular configuration. */
+/* Pivots fall to the mass ratio when the slot holds the bob by the light rod, but J keeps its rank.
+ * A step must not pass over this configuration as it does over a singular one. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;
@@ -306,7 +306,8 @@ static void a_light_rod_that_comes_taut_is_not_singular(void **state)
   }
 }
 
-/* Nor does a violation that grows while it passes make it singular. */
+/* The same rod without stabilization: the violation grows during the run, and must not be taken for
+ * a singular configuration either. */
 static void a_light_rod_that_drifts_is_not_singular(void **state)
 {
   (void)state;
@@ -353,7 +354,7 @@ int main(void)
     cmocka_unit_test(recommended_setting_is_accurate),
     cmocka_unit_test(fixed_steps_may_end_in_a_singular_configuration),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
-    cmocka_unit_test(drifting_runs_that_leave_their_branch_doubt_the_motion),
+    cmocka_unit_test(drifting_runs_that_leave_their_branch_warn),
     cmocka_unit_test(mechanisms_away_from_singular_configurations_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),
     cmocka_unit_test(a_light_rod_that_drifts_is_not_singular),

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs that start in a singular configuration, or all but in one: methods that choose their steps
- * go on with a warning, or end with a message; either soon.
- */
+/* Runs that start in a singular configuration or very near to one. Variable-step methods continue
+ * with a warning or end with a message, both after few steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,12 +12,12 @@
 
 #include "models.h"
 
-/* A few steps lead out of a configuration, and 10 tries next to it that lead nowhere are the last:
- * 34 at most have been seen. How many it takes depends on rounding. A run that creeps takes a
- * hundred thousand and more. */
+/* Limit of accepted and rejected steps. A run leaves the configuration in a few steps, or ends
+ * after 10 unsuccessful tries; the largest number measured was 34, which depends on rounding. A run
+ * without progress would take more than a hundred thousand. */
 enum { MOST_TRIES = 1000 };
 
-static const double END = 0.3; /* [s] most of a radian at 3 rad/s */
+static const double END = 0.3; /* [s] nearly a radian at 3 rad/s */
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
@@ -32,7 +31,7 @@ static baum_simulation *create(const model *m, const baum_integrator *integrator
   return run;
 }
 
-/* To `end`, with a warning or a message in a few tries. */
+/* Advances to `end`; checks that the run ends there or with a message after few steps. */
 static baum_status run_to(baum_simulation *run, double end)
 {
   baum_counters c;
@@ -47,7 +46,7 @@ static baum_status run_to(baum_simulation *run, double end)
 
 /* ---- four-bars ---- */
 
-/* want: [rad] the cranks at END; NaN: a message is as good. */
+/* want: [rad] angle of the cranks at END, or NaN if a message is accepted instead. */
 static void run_all(int loops, double angle, double rate, double want)
 {
   model m;
@@ -60,8 +59,8 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* The cranks of another branch are radians off; dp5 at the loosest tolerance is off by
-       * 2e-5. */
+      /* On another branch the cranks differ by radians; dp5 at the loosest tolerance has an error
+       * of 2e-5. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
     baum_simulation_destroy(run);
@@ -69,11 +68,11 @@ static void run_all(int loops, double angle, double rate, double want)
   model_destroy(&m);
 }
 
-/* [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th with N windows, from 0 and 3 rad/s, by the
- * classical method with steps of 1e-5 s. */
+/* Solutions of [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th with N windows, from th = 0 and
+ * 3 rad/s, by the classical Runge-Kutta method with steps of 1e-5 s. */
 static const struct {
   int loops;
-  double want; /* [rad] at END */
+  double want; /* [rad] angle at END */
 } LEVEL[] = {{1, 0.38584123}, {2, 0.40053536}, {5, 0.41102074}, {20, 0.41684209}};
 
 static void a_run_goes_on_as_its_velocity_says(void **state)
@@ -94,8 +93,9 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* ---- slider-crank of equal links ---- */
 
-/* At pi/2 + off and 150 rad/s, the rod rotating in the opposite direction. The angle of the rod
- * must be given: what follows from the sine of the crank's has lost half of its digits here. */
+/* Sets the crank angle pi/2 + off at 150 rad/s, with the rod rotating in the opposite direction.
+ * The angle of the rod is given, because computed from the sine of the crank angle it would lose
+ * half of its digits here. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;
@@ -122,13 +122,13 @@ static void leave_fold(const model *m, const baum_integrator *integrator, double
   fold(run, off);
   baum_status status = run_to(run, 0.01);
   if (status >= BAUM_OK) {
-    /* On the other branch the rod would follow the crank, by 3 rad. */
+    /* On the other branch the rod would rotate with the crank: a difference of 3 rad. */
     assert_true(fabs(baum_simulation_q(run)[2] + baum_simulation_q(run)[5]) <= 1e-3);
   }
   baum_simulation_destroy(run);
 }
 
-static void next_to_its_fold_a_slider_crank_does_not_creep(void **state)
+static void a_run_from_next_to_a_folded_slider_crank_takes_no_tiny_steps(void **state)
 {
   (void)state;
   const model_slider_crank data = {.centric = true, .rod = 0.153, .angle = 0.3, .moving = true};
@@ -152,7 +152,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_run_goes_on_as_its_velocity_says),
     cmocka_unit_test(at_rest_a_run_goes_on_with_a_warning_or_ends),
-    cmocka_unit_test(next_to_its_fold_a_slider_crank_does_not_creep),
+    cmocka_unit_test(a_run_from_next_to_a_folded_slider_crank_takes_no_tiny_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The angle of a spatial joint counts revolutions in a run, also when it is saved, and a driver
- * prescribes it over many of them. */
+/* The angle of a spatial joint counts revolutions in a run and in a saved run, and a driver
+ * prescribes it over many revolutions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 static const double RATE = 40.0;
 
-/* A rotor about a skew axis. */
+/* Makes a rotor with a skew axis, with or without a driver. */
 static baum_mechanism *make(bool driven, baum_joint_id *bearing)
 {
   baum_mechanism *m = NULL;
@@ -52,13 +52,32 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
   baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
-  if (integrator == baum_rk4()) {
-    o.step = 0.01;
+  if (integrator == baum_rk4() || integrator == baum_generalized_alpha()) {
+    o.step = integrator == baum_rk4() ? 0.01 : 0.002;
   } else if (integrator != baum_kinematics()) {
     o.rtol = 1e-7;
   }
   check(baum_simulation_create(m, &o, &run));
   return run;
+}
+
+/* The rotor winds up a spring of this stiffness by 20 rad, with or without a damper. */
+static const double STIFFNESS = 4.0;
+
+static baum_mechanism *make_wound(double damping, baum_joint_id *bearing)
+{
+  baum_mechanism *free_rotor = make(false, bearing);
+  baum_mechanism *m = NULL;
+  baum_joint_spring_def spring = baum_joint_spring_def_default();
+  check(baum_mechanism_copy(free_rotor, &m));
+  baum_mechanism_destroy(free_rotor);
+  spring.joint = *bearing;
+  spring.coordinate = BAUM_COORDINATE_ANGLE;
+  spring.stiffness = STIFFNESS;
+  spring.damping = damping;
+  check(baum_mechanism_add_joint_spring(m, &spring, NULL));
+  check(baum_mechanism_freeze(m));
+  return m;
 }
 
 static double angle_of(baum_simulation *run, baum_joint_id joint)
@@ -126,12 +145,159 @@ static void a_driver_prescribes_many_revolutions(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* The exact angle at t. The rotor's moment of inertia is 1 kg m^2. */
+static double wound_angle(double t, double damping)
+{
+  double decay = 0.5 * damping;
+  double frequency = sqrt(STIFFNESS - decay * decay);
+  return RATE / frequency * exp(-decay * t) * sin(frequency * t);
+}
+
+static void springs_wind_up_over_revolutions(void **state)
+{
+  (void)state;
+  const baum_integrator *methods[] = {
+    baum_rk4(),
+    baum_rk8(),
+    baum_generalized_alpha(),
+#if BAUM_HAVE_SUNDIALS
+    baum_cvode_bdf(),
+    baum_ida(),
+#endif
+  };
+  for (size_t k = 0; k < 2 * sizeof methods / sizeof *methods; k++) {
+    baum_joint_id bearing;
+    double damping = k % 2 == 0 ? 0.0 : 0.5;
+    baum_mechanism *m = make_wound(damping, &bearing);
+    baum_simulation *run = start(m, methods[k / 2]);
+    double largest = 0.0;
+    for (int i = 1; i <= 20; i++) {
+      double want = wound_angle(0.25 * i, damping);
+      check(baum_simulation_advance_to(run, 0.25 * i));
+      assert_true(fabs(angle_of(run, bearing) - want) < 1e-2);
+      largest = fmax(largest, fabs(want));
+    }
+    assert_true(largest > 10.0);
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
+/* Potential energy and the work of the damper include the revolutions of the angle, also where the
+ * companion run and the energy account evaluate the spring. */
+static void energies_are_those_of_the_wound_spring(void **state)
+{
+  (void)state;
+  baum_joint_id bearing;
+  baum_mechanism *m = make_wound(0.5, &bearing);
+  baum_simulation *run = NULL;
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_counters counters;
+  baum_energy_account account;
+  double energy[2];
+  o.integrator = baum_rk4();
+  o.step = 0.01;
+  o.energy_account = true;
+  o.error_check = true;
+  check(baum_simulation_create(m, &o, &run));
+  check(baum_simulation_advance_to(run, 0.8));
+  double angle = angle_of(run, bearing);
+  assert_true(angle > 10.0);
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
+  check(baum_simulation_get(run, &channel, 1, energy));
+  assert_true(fabs(energy[1] - 0.5 * STIFFNESS * angle * angle) < 1e-9 * energy[1]);
+  check(baum_simulation_advance_to(run, 5.0));
+  check(baum_simulation_energy_account(run, &account, sizeof account));
+  assert_true(account.dampers < -0.9 * 0.5 * RATE * RATE);
+  assert_true(fabs(account.residual) < 1e-5 * 0.5 * RATE * RATE); /* error of the run */
+  check(baum_simulation_counters(run, &counters, sizeof counters));
+  assert_true(counters.error_estimate < 1e-3);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* After the user sets a state, the angle has the number of revolutions that brings it nearest to
+ * its last value. A refused state changes nothing. */
+static void a_state_that_is_set_stays_wound(void **state)
+{
+  (void)state;
+  baum_joint_id bearing;
+  baum_mechanism *m = make_wound(0.0, &bearing);
+  baum_simulation *runs[2] = {start(m, baum_rk4()), start(m, baum_rk4())};
+  double q[7];
+  double v[6];
+  for (int k = 0; k < 2; k++) {
+    check(baum_simulation_advance_to(runs[k], 0.5));
+  }
+  memcpy(q, baum_simulation_q(runs[0]), sizeof q);
+  memcpy(v, baum_simulation_v(runs[0]), sizeof v);
+  check(baum_simulation_set_state(runs[0], 7.5, q, v));
+  v[0] = (double)INFINITY;
+  assert_int_equal(baum_simulation_set_state(runs[1], 7.5, q, v), BAUM_ERR_ARGUMENT);
+  check(baum_simulation_advance_to(runs[0], 8.0));
+  check(baum_simulation_advance_to(runs[1], 1.0));
+  assert_true(fabs(angle_of(runs[0], bearing) - wound_angle(1.0, 0.0)) < 1e-2);
+  assert_true(fabs(angle_of(runs[1], bearing) - wound_angle(1.0, 0.0)) < 1e-2);
+  baum_simulation_destroy(runs[0]);
+  baum_simulation_destroy(runs[1]);
+  baum_mechanism_destroy(m);
+}
+
+enum { SAMPLES = 40 };
+
+/* Returns a study's error of the angle, with a given reference of `samples` samples over 5 s. */
+static double error_of_angle(int samples)
+{
+  baum_joint_id bearing;
+  baum_mechanism *m = make_wound(0.0, &bearing);
+  baum_simulation *run = start(m, baum_rk8());
+  baum_study *study = NULL;
+  baum_study_entry entry;
+  baum_simulation_options o = baum_simulation_options_default();
+  double times[SAMPLES];
+  double q[7 * SAMPLES];
+  double v[6 * SAMPLES];
+  for (int k = 0; k < samples; k++) {
+    times[k] = 5.0 * (k + 1) / samples;
+    check(baum_simulation_advance_to(run, times[k]));
+    memcpy(q + (ptrdiff_t)7 * k, baum_simulation_q(run), 7 * sizeof *q);
+    memcpy(v + (ptrdiff_t)6 * k, baum_simulation_v(run), 6 * sizeof *v);
+  }
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, bearing);
+  o.integrator = baum_rk4();
+  o.step = 0.01;
+  check(baum_study_create(m, 0.0, 5.0, &study));
+  check(baum_study_set_error(study, &channel, 1, 1.0));
+  check(baum_study_set_reference(study, times, samples, q, v, NULL, 6.0));
+  check(baum_study_add(study, &o));
+  check(baum_study_run(study));
+  check(baum_study_entry_at(study, 0, &entry, sizeof entry));
+  baum_study_destroy(study);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+  return entry.error;
+}
+
+/* The study counts revolutions from sample to sample. With 3 samples their number is uncertain, and
+ * the error is NaN. */
+static void revolutions_of_a_given_reference_are_counted(void **state)
+{
+  (void)state;
+  double error = error_of_angle(SAMPLES);
+  assert_true(error > 0.0 && error < 0.02);
+  assert_true(isnan(error_of_angle(3)));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(angles_count_revolutions),
     cmocka_unit_test(a_restored_run_goes_on_counting),
     cmocka_unit_test(a_driver_prescribes_many_revolutions),
+    cmocka_unit_test(springs_wind_up_over_revolutions),
+    cmocka_unit_test(energies_are_those_of_the_wound_spring),
+    cmocka_unit_test(a_state_that_is_set_stays_wound),
+    cmocka_unit_test(revolutions_of_a_given_reference_are_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Predicted against simulated stability of the four-bar. */
+/* Predicted and simulated stability of the four-bar. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two rods of 1 m and 1 kg: one is pinned to the ground, the other hangs at its tip by a bushing, a
- * spring of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. In the bushing motion dies
- * at some 1e3 to 1e4 1/s, and is gone after milliseconds; the rods swing at 3 to 7 1/s. What is
- * stiff for Adams must not be for BDF, at the same tolerance.
- */
+/* Two rods of 1 m and 1 kg: the first is pinned to the ground, the second is attached to its tip by
+ * a bushing, a spring of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. Motion in the
+ * bushing decays at 1e3 to 1e4 1/s, within milliseconds; the rods swing at 3 to 7 rad/s. This is
+ * stiff for Adams and must not be for BDF at the same tolerance. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +18,7 @@ enum { COORDINATES = 6 };
 static const double STIFFNESS = 1e6; /* [N/m] */
 static const double DAMPING = 1e3;   /* [N s/m] */
 static const double ARM = 0.1;       /* [m] length of the springs */
-static const double ANGLE = -1.0;    /* [rad] of both rods, from the x axis */
+static const double ANGLE = -1.0;    /* [rad] angle of both rods from the x axis */
 static const double END = 5.0;       /* [s] */
 
 static baum_body_id add_rod(baum_mechanism *mechanism, double from)
@@ -35,7 +34,7 @@ static baum_body_id add_rod(baum_mechanism *mechanism, double from)
   return id;
 }
 
-/* Along the rods, and across. */
+/* Adds a spring along the rods and one across them. */
 static void add_bushing(baum_mechanism *mechanism, baum_body_id upper, baum_body_id lower)
 {
   for (int k = 0; k < 2; k++) {
@@ -91,7 +90,7 @@ static stiff_run run_to_the_end(const baum_mechanism *mechanism, const baum_inte
   return out;
 }
 
-/* In metres and radians. */
+/* Largest difference of positions, in metres and radians. */
 static double error_of(const stiff_run *run, const stiff_run *want)
 {
   double error = 0.0;
@@ -116,8 +115,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
   (void)state;
   need_sundials();
   baum_mechanism *mechanism = make_rods();
-  /* An explicit method of another kind, whose steps the bushing bounds so that its error is far
-   * below all others. */
+  /* The reference is an explicit method. The bushing limits its steps, so its error is far below
+   * all others. */
   stiff_run want = run_to_the_end(mechanism, baum_rk8(), BAUM_FORMULATION_PROJECTION, 1e-9);
   printf("\n%-12s %-13s %8s %8s %12s %10s\n", "bushing", "", "rtol", "steps", "evaluations",
          "error");
@@ -128,8 +127,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
     stiff_run bdf = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-4, &want);
     assert_true(20 * bdf.counters.steps <= adams.counters.steps);
     stiff_run finer = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-7, &want);
-    /* Three decades of order 4 to 5 give some 250; a Jacobian that is wrong shows in steps, not
-     * here. */
+    /* Three decades of rtol at order 4 to 5 give a ratio of about 250. A wrong Jacobian would show
+     * in the number of steps, not here. */
     assert_true(error_of(&finer, &want) <= error_of(&bdf, &want) / 10.0);
   }
   baum_mechanism_destroy(mechanism);

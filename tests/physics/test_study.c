@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a study says is true: its reference, its errors, its recommendations. */
+/* What a study reports is correct: its reference, its errors, its recommendations. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,8 @@ enum { WIDEST = 300, SAMPLES = 20, MOST = 512 };
 
 /* ---- references ---- */
 
-/* Samples that the study and the catalogue have in common; n is 0 at first. */
+/* Samples of the study's reference at times for which the catalogue has one too; n is 0 at
+ * first. */
 typedef struct samples {
   int n;
   double t[SAMPLES];
@@ -39,7 +40,8 @@ static void take_common(const baum_study *study, const baum_catalog_choice *choi
   assert_true(out->n > 0);
 }
 
-/* A study of an entry, with a reference and an entry that is not looked at. */
+/* A study of a catalogue entry with its own reference; it needs a study entry, whose results are
+ * not used. */
 static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_entry *entry)
 {
   baum_study *study = NULL;
@@ -57,7 +59,7 @@ static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_
   return study;
 }
 
-/* What a study says of its own reference against what the catalogue knows. */
+/* Compares the study's own reference, and its estimated error, with the catalogue. */
 static void check_entry(const baum_catalog_entry *entry)
 {
   const baum_catalog_choice choice = {.name = entry->name};
@@ -80,7 +82,8 @@ static void check_entry(const baum_catalog_entry *entry)
                 -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
                 r.trusted ? "" : ", untrusted");
   if (r.trusted) {
-    /* The largest of three differences may be short of the error by a small factor. */
+    /* The estimated error is the largest of three differences and may be smaller than the true
+     * error by a small factor. */
     assert_true(error.q <= 4.0 * fmax(r.uncertainty, error.q_floor));
   }
   if (entry->smooth && entry->digits_q >= 10.5) {
@@ -102,7 +105,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
   }
 }
 
-/* Ground over a crossing of a flat configuration: branches cross there. */
+/* The motion passes a flat configuration, where branches cross. */
 static void a_motion_past_a_singular_configuration_has_no_trusted_reference(void **state)
 {
   (void)state;
@@ -144,7 +147,7 @@ static void a_driven_mechanism_is_compared_with_its_kinematics(void **state)
   assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
   assert_non_null(strstr(r.text, "kinematics"));
   assert_true(r.digits > 10.0);
-  assert_true(study_entry(study, 0).at_floor); /* it solves to rounding */
+  assert_true(study_entry(study, 0).at_floor); /* kinematics is accurate to rounding */
   baum_study_destroy(study);
   model_destroy(&m);
 }
@@ -162,7 +165,7 @@ static int circle_solution(double t, double *q, double *v, double *lambda, void 
   return 0;
 }
 
-/* A particle on a circle without gravity: 1 rad/s for ever. */
+/* A particle on a circle without gravity, with constant 1 rad/s. */
 static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
 {
   (void)state;
@@ -186,13 +189,11 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_int_equal(baum_study_run(study), BAUM_OK);
   baum_study_method method;
   assert_int_equal(baum_study_method_at(study, 0, &method, sizeof method), BAUM_OK);
-  assert_true(fabs(method.slope - 4.0) <
-              0.3); /* its order; the coarsest steps are not quite there */
+  assert_true(fabs(method.slope - 4.0) < 0.3); /* the order; large steps deviate */
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
   baum_study_entry entry = study_entry(study, 5);
-  assert_true(entry.at_floor &&
-              entry.error == 1e-12);      /* nothing is graded below the twelve digits */
-  assert_true(isnan(entry.error_lambda)); /* the solution does not know */
+  assert_true(entry.at_floor && entry.error == 1e-12); /* the solution has twelve digits */
+  assert_true(isnan(entry.error_lambda));              /* the solution has no multipliers */
   baum_study_destroy(study);
   model_destroy(&m);
 }
@@ -216,8 +217,8 @@ static void two_threads_give_the_entries_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* An entry is on the front if no entry on it is as good in both; and the front goes from cheap to
- * exact. */
+/* An entry is on the front unless an entry on the front is at least as good in cost and error. The
+ * front is ordered from cheap to accurate. */
 static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
   for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
@@ -257,7 +258,7 @@ static void the_front_has_all_entries_that_none_beats_and_no_other(void **state)
   baum_study_destroy(study);
   model_destroy(&m);
 }
-/* Of a run with these options, over a span, against RK8 at 1e-13. */
+/* Error of a run with these options over a span, against rk8 at rtol 1e-13. */
 static double error_over(const model *m, const baum_simulation_options *best, double span)
 {
   baum_study *study = NULL;
@@ -314,7 +315,7 @@ static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(v
   int32_t exact = baum_study_method_count(study) - 1; /* of RK8 */
   assert_int_equal(
     baum_study_compare(study, exact, method, entries[1].error, BAUM_STUDY_WORK, &ratio), BAUM_OK);
-  assert_true(ratio > 0.0 && ratio < 1.0); /* order 8 is cheaper than order 4 at 1e-5 and less */
+  assert_true(ratio > 0.0 && ratio < 1.0); /* at 1e-5 order 8 is cheaper than order 4 */
   assert_int_equal(baum_study_cost_at(study, method, 1e-30, BAUM_STUDY_WORK, &cost),
                    BAUM_ERR_ARGUMENT);
   assert_non_null(strstr(baum_message(), "has been measured with errors from"));
@@ -325,7 +326,7 @@ static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(v
   model_destroy(&m);
 }
 
-static void a_budget_buys_the_most_exact_entry_that_it_pays_for(void **state)
+static void a_budget_gives_the_most_accurate_entry_within_it(void **state)
 {
   (void)state;
   model m;
@@ -347,7 +348,7 @@ static void a_budget_buys_the_most_exact_entry_that_it_pays_for(void **state)
   assert_int_equal(
     baum_study_recommend_budget(study, 0.5 * quickest.cpu, &best, sizeof best, why, sizeof why),
     BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "the quickest takes"));
+  assert_non_null(strstr(baum_message(), "the fastest takes"));
   baum_study_destroy(study);
   model_destroy(&m);
 }
@@ -363,7 +364,7 @@ int main(void)
     cmocka_unit_test(the_front_has_all_entries_that_none_beats_and_no_other),
     cmocka_unit_test(recommendations_hold_over_twice_the_span),
     cmocka_unit_test(cost_at_an_error_lies_between_that_of_entries_and_compares_methods),
-    cmocka_unit_test(a_budget_buys_the_most_exact_entry_that_it_pays_for),
+    cmocka_unit_test(a_budget_gives_the_most_accurate_entry_within_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress settings as a study: every entry meets its tolerance, or says why not. */
+/* The stress grid as a study: every entry meets its tolerance, or has a warning or a message. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@ static baum_study *stress_of(const baum_mechanism *mechanism, const baum_integra
   return study;
 }
 
-/* What an entry without a warning promises: errors of all steps add up, each up to ten tolerances,
- * and so does rounding; a fixed step promises no more than the motion itself. */
+/* Largest error of an entry without a warning: ten tolerances per step, and rounding; 0.1 with a
+ * fixed step. */
 static double promise(const baum_study_entry *entry)
 {
   const double rounding = 1e-12;
@@ -67,11 +67,11 @@ static void no_entry_is_silently_wrong(void **state)
     baum_study_destroy(study);
   }
   assert_true(seen[BAUM_STUDY_DONE] > 0);
-  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* rk4 with gains beyond its region */
+  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* rk4 with gains outside of its stable region */
   assert_true(seen[BAUM_STUDY_TIMED_OUT] > 0);
 }
 
-static void what_cannot_be_added_adds_nothing(void **state)
+static void refused_additions_add_no_entries(void **state)
 {
   const model *m = *state;
   baum_study *study = NULL;
@@ -101,7 +101,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(no_entry_is_silently_wrong),
-    cmocka_unit_test(what_cannot_be_added_adds_nothing),
+    cmocka_unit_test(refused_additions_add_no_entries),
   };
   return cmocka_run_group_tests(tests, build_pendulum, destroy_pendulum);
 }

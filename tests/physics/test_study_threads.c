@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies with many threads on one mechanism, several of them at once: entries are those of one
- * thread, to the last bit. To be run under the thread sanitizer as well.
+/* Studies with many threads on one mechanism, and several such studies at once. Their entries are
+ * those of one thread, to the last bit. Also run under the thread sanitizer.
  *
- * cmocka's checks are for the main thread: the others only report.
+ * Only the main thread may use cmocka's checks; the other threads return their results.
  */
 #include <math.h>
 #include <pthread.h>
@@ -22,10 +22,10 @@
 
 enum { THREADS = 8, STUDIES = 3 };
 
-/* What progress sees, one call at a time. */
+/* Counts the calls of a progress function, which must not overlap. */
 typedef struct seen {
   atomic_int inside;
-  atomic_int together; /* calls that met another */
+  atomic_int together; /* calls that began during another call */
   int calls;
   int cancel_at; /* 0: never */
 } seen;
@@ -42,7 +42,7 @@ static int look(const baum_study *study, int32_t done, int32_t total, void *user
   return s->calls == s->cancel_at;
 }
 
-/* Some of every method that takes the mechanism. */
+/* A study with two entries for every integrator and kind of step. */
 static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 {
   baum_study *study = NULL;
@@ -83,7 +83,7 @@ static void entries_of_many_threads_are_those_of_one(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* ---- several at once ---- */
+/* ---- several studies at once ---- */
 
 typedef struct job {
   baum_study *study;
@@ -129,7 +129,7 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
 
 /* ---- cancelling ---- */
 
-/* From here, again and again, while its threads work; then it is run to its end. */
+/* Another thread cancels the study repeatedly while it runs; then the study is completed. */
 static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 {
   (void)state;
@@ -147,7 +147,7 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
   }
   assert_int_equal(pthread_join(thread, NULL), 0);
   check(j.status);
-  for (int k = 1; k <= 3; k++) { /* by itself, at some entry */
+  for (int k = 1; k <= 3; k++) { /* cancelled by progress, at an entry */
     j.seen.calls = 0;
     j.seen.cancel_at = 3 * k;
     check(baum_study_run(j.study));

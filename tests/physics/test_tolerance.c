@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Does a tighter tolerance buy a smaller error? Variable-step integrators on the index-1 equations
- * against tests/data, rtol from 1e-4 to 1e-10.
- */
+/* A tighter tolerance gives a smaller error: variable-step integrators on the index-1 equations
+ * against references, with rtol from 1e-4 to 1e-10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,19 +18,18 @@
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
 
-/* Least fall of the error per decade, the geometric mean of all mechanisms. An error like rtol
- * falls tenfold. */
+/* Least reduction of the error per decade of rtol, as the geometric mean of all mechanisms. An
+ * error proportional to rtol falls tenfold. */
 static const double LEAST_FALL = 7.0;
-/* At order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5, has 6.8 if it is
- * always there: measured 7.0 (CVODE) and 7.2 to 7.3 (IDA) here, and 6.5 and 6.4 in the mean of 40
- * start configurations or ends of each mechanism. Order 3 would have 5.6, and an error that stops
- * falling less. */
+/* At order p the error is proportional to rtol^(p / (p + 1)). BDF at its highest order 5 has 6.8.
+ * Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA); in the mean over 40 starts or ends of each mechanism
+ * 6.5 and 6.4. Order 3 would have 5.6. */
 static const double LEAST_FALL_OF_BDF = 6.0;
-/* Of a single mechanism, where a lucky run at one end weighs more. */
+/* For a single mechanism, where an accidentally small error has more influence. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
-/* Up to the ninth sample: 1 to 2 turns of the crank, 2 swings. Later the errors at 1e-4 come near
- * to 1 rad and can grow no further, which says nothing of the method. */
+/* Uses nine samples: 1 to 2 revolutions of the crank, 2 swings. Later the errors at rtol 1e-4 reach
+ * 1 rad and no longer grow. */
 static const reference REFERENCES[REFERENCE_COUNT] = {
   [PENDULUM] = {.samples = 9,
                 .width = A01_PENDULUM_WIDTH,
@@ -52,8 +50,8 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
     {.samples = 9, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* By which factor the error falls per decade: slope of a line through the logarithms, which single
- * lucky runs turn less than the ends would. */
+/* Reduction of the error per decade: the slope of a line fitted to the logarithms, which single
+ * small errors influence less than a slope between the ends. */
 static double fit_fall(const double error[TOLERANCES])
 {
   double sum = 0.0;
@@ -107,7 +105,7 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
   int fits = 0;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
-    /* No degree of freedom: projected to rounding with any tolerance. */
+    /* Without degrees of freedom, projection gives errors of rounding at any tolerance. */
     if (which == DRIVEN_CRANK && formulation == BAUM_FORMULATION_PROJECTION) {
       continue;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* tolerance_q and tolerance_v: each governs the error alone if the other is loose, and both
- * together act like another rtol, for every method that chooses its steps. */
+/* tolerance_q and tolerance_v: each controls the error alone if the other is loose. Both together
+ * act like another rtol, for every variable-step method. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include "physics_run.h"
 #include "reference.h"
 
-/* The first two seconds, a swing. */
+/* The first two seconds of the motion, a swing. */
 static const reference SWING = {.name = "pendulum",
                                 .samples = 4,
                                 .width = A01_PENDULUM_WIDTH,
@@ -23,9 +23,9 @@ static const reference SWING = {.name = "pendulum",
 static const double RTOL = 1e-5;
 static const double SMALL = 1e-3;
 static const double OUT_OF_THE_WAY = 1e6;
-/* A thousandth of the tolerance: with order p the error falls by (1e3)^(p/(p+1)), 100 to 500 at the
- * orders 2 to 8 that methods are at here; the rest is for luck at both ends, which a single swing
- * has. Measured 22 to 7e3. */
+/* Least reduction of the error for a factor of 1e-3. At order p the error falls by (1e3)^(p/(p+1)),
+ * 100 to 500 at orders 2 to 8. Measured: 22 to 7e3, because the error of a single swing may be
+ * small by chance. */
 static const double LEAST_FALL = 10.0;
 
 typedef struct factors {
@@ -52,7 +52,7 @@ static reference_run run_with(const baum_integrator *integrator, baum_formulatio
   return out;
 }
 
-static void they_are_explained(void **state)
+static void the_explanation_of_a_run_names_the_factors(void **state)
 {
   (void)state;
   model m = build_mechanism(PENDULUM);
@@ -82,7 +82,7 @@ static void compare(const char *what, const baum_integrator *integrator,
 
 static void try_factors(const baum_integrator *integrator, baum_formulation formulation)
 {
-  /* At index 3 velocities are not tested. */
+  /* At index 3 the error test omits velocities. */
   bool tests_velocities = formulation != BAUM_FORMULATION_INDEX3;
   compare("tolerance_q", integrator, formulation, (factors){1.0, OUT_OF_THE_WAY},
           (factors){SMALL, OUT_OF_THE_WAY});
@@ -90,7 +90,7 @@ static void try_factors(const baum_integrator *integrator, baum_formulation form
     compare("tolerance_v", integrator, formulation, (factors){OUT_OF_THE_WAY, 1.0},
             (factors){OUT_OF_THE_WAY, SMALL});
   }
-  /* But for the first step of some, which goes by rtol alone, these are the same runs. */
+  /* The runs are equal, except for some methods' first step, which depends on rtol only. */
   reference_run both = run_with(integrator, formulation, RTOL, (factors){SMALL, SMALL});
   reference_run rtol = run_with(integrator, formulation, RTOL * SMALL, (factors){1.0, 1.0});
   printf("%-14s %-14s %-12s error %.1e and %.1e, steps %5lld and %5lld\n", "both, or rtol",
@@ -101,7 +101,7 @@ static void try_factors(const baum_integrator *integrator, baum_formulation form
   assert_true(more <= 0.1 * (double)rtol.counters.steps + 4.0);
 }
 
-static void each_factor_governs_what_it_names(void **state)
+static void each_tolerance_controls_the_error_alone(void **state)
 {
   (void)state;
   int tried = 0;
@@ -122,8 +122,8 @@ static void each_factor_governs_what_it_names(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(they_are_explained),
-    cmocka_unit_test(each_factor_governs_what_it_names),
+    cmocka_unit_test(the_explanation_of_a_run_names_the_factors),
+    cmocka_unit_test(each_tolerance_controls_the_error_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A thousand variants of one mechanism, made by copy, set and freeze in several threads at once. To
- * be run under the thread sanitizer as well.
+/* Makes a thousand variants of one mechanism by copy, set and freeze in several threads at once.
+ * Also run under the thread sanitizer.
  *
- * The crank is driven, so that accelerations do not depend on the slider's mass m, and multipliers
+ * The crank is driven, so accelerations do not depend on the slider's mass m, and the multipliers
  * are lambda_0 + m lambda_1.
  *
- * cmocka's checks are for the main thread: the others only report.
+ * Only the main thread may use cmocka's checks; the other threads return their results.
  */
 #include <math.h>
 #include <pthread.h>
@@ -28,13 +28,13 @@ static double mass_of(int k)
   return 0.05 + 1e-3 * k;
 }
 
-/* Every `threads`-th variant from `first` on. */
+/* The variants first, first + threads, first + 2 threads, ... */
 typedef struct share {
   const variant_plan *plan;
   int first;
   int threads;
   variant_result *results; /* (VARIANTS) */
-  baum_status status;      /* the first failure */
+  baum_status status;      /* first failure of the thread */
 } share;
 
 static void *make_share(void *argument)
@@ -46,7 +46,7 @@ static void *make_share(void *argument)
   return NULL;
 }
 
-/* Wall time [s]. */
+/* Makes all variants; returns the wall time [s]. */
 static double make_in_threads(const variant_plan *plan, int threads, variant_result *results)
 {
   share shares[MOST_THREADS];
@@ -66,7 +66,7 @@ static double make_in_threads(const variant_plan *plan, int threads, variant_res
   return (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
 }
 
-/* One plan and its variants in one thread. */
+/* A plan and its variants, made in one thread. */
 typedef struct fixture {
   variant_plan plan;
   variant_result *serial;
@@ -102,7 +102,7 @@ static double largest(const double *x, int count)
   return out;
 }
 
-/* 1e-12: two solutions in an ordinary configuration. */
+/* 1e-12: rounding of two solutions in an ordinary configuration. */
 static void each_variant_has_its_own_mass(void **state)
 {
   const fixture *f = *state;
@@ -111,7 +111,7 @@ static void each_variant_has_its_own_mass(void **state)
   double a_size = largest(first->a, COLUMNS);
   double lambda_size = largest(last->lambda, ROWS);
   assert_true(a_size > 0.0);
-  /* Ten times the mass is seen. */
+  /* The largest mass is 20 times the smallest. */
   assert_true(lambda_size > 2.0 * largest(first->lambda, ROWS));
   for (int k = 0; k < VARIANTS; k++) {
     double part = (mass_of(k) - mass_of(0)) / (mass_of(VARIANTS - 1) - mass_of(0));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A C compiler for tests that need one, and where the project is."""
+"""A C compiler for tests that need one, and the folder of the project."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ CC = next(
 
 
 class Folder(tempfile.TemporaryDirectory):
-    """A folder for the life of a test, in which C can be compiled."""
+    """A folder in which a test can compile C; it exists as long as the test runs."""
 
     def _compile(self, source, name, *flags):
         path, output = Path(self.name) / "source.c", Path(self.name) / name

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What type checkers make of the interface: read by mypy and pyright in stage types, never run.
+"""Uses of the interface that mypy and pyright check in stage types. This file is never run.
 
-An ignored error is one that must be found, because --strict refuses comments without need.
+Each "ignore" comment marks an error that the type checkers must find, because --strict refuses
+needless comments.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mirror of the C interface is what the headers say and what a C compiler makes of them."""
+"""The Python copy of the C interface agrees with the headers, and with a C compiler's view of
+them."""
 
 import ctypes
 import importlib.util

@@ -15,7 +15,7 @@ SUNDIALS = baum.has("sundials")
 
 
 def evaluate(phi, rows=1):
-    """Phi of a particle at (3, 4) with that function."""
+    """Phi of a particle at (3, 4) with the given function."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", position=(3, 4))
     m.constraint("c", [bob], rows=rows, phi=phi)
@@ -222,7 +222,8 @@ class Costs(unittest.TestCase):
 
 class Exceptions(unittest.TestCase):
     def failing(self, error, after):
-        """A pendulum whose function raises at later times than that, once it is armed."""
+        """A pendulum whose function raises an exception at times later than this, once it is
+        armed."""
         calls, armed = [], []
 
         def phi(t, q):
@@ -270,7 +271,7 @@ class Exceptions(unittest.TestCase):
 
     def test_the_run_keeps_its_last_good_step(self):
         s, _ = self.run_until_it_fails(KeyError("mine"), step=1e-2)
-        # Differences in time look a little ahead, so it may fail a step early.
+        # Finite differences in time evaluate a little later, so the run may fail one step earlier.
         self.assertTrue(0.085 < s.time < 0.105, s.time)
         self.assertAlmostEqual(np.hypot(*s.q), 1, 6)
 

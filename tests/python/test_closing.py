@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs, workspaces and studies end with their `with` block; what they returned remains."""
+"""Runs, workspaces and studies are closed at the end of their `with` block; results remain
+valid."""
 
 import tempfile
 import threading

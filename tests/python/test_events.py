@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Events, schedules of inputs and going back, as Python has them; the rest is tested in C."""
+"""Events, schedules of inputs, and saved states in Python; the rest is tested in C."""
 
 import math
 import unittest
@@ -11,7 +11,7 @@ from mechanisms import pendulum
 
 
 def wheel(inertia=1.0):
-    """A body on a pin without gravity, turned by the input "torque"."""
+    """A body on a pin without gravity; the input "torque" drives it."""
     m = baum.Mechanism(gravity=(0, 0))
     body = m.planar_body("wheel", mass=1, inertia=inertia, position=(0, 0))
     m.revolute("pin", m.ground, body, point=(0, 0))
@@ -20,7 +20,7 @@ def wheel(inertia=1.0):
 
 
 def turning(rate=2.0):
-    """It turns at a constant rate."""
+    """The wheel rotates at a constant angular velocity."""
     return wheel().copy(wheel=dict(angular_velocity=rate))
 
 
@@ -45,8 +45,8 @@ class Events(unittest.TestCase):
             self.assertEqual(s.advance_to(9), baum.Status.STOP_EVENT)
             times.append(s.time)
             s.set_state(s.time, s.q, -s.v)
-        # The swing from the horizontal takes a quarter of K(1/sqrt 2) sqrt(l/g) to the bottom, and half of the
-        # period back to it.
+        # From the horizontal to the bottom takes a quarter of the period, K(1/sqrt 2) sqrt(l/g); back to
+        # the bottom takes half of the period.
         quarter = 1.8540746773013719 / math.sqrt(9.81)
         np.testing.assert_allclose(times, [quarter, 3 * quarter, 5 * quarter], rtol=1e-7)
         self.assertEqual([event.direction for event in s.events], [-1, -1, -1])
@@ -137,7 +137,8 @@ class Schedules(unittest.TestCase):
 
 class GoingBack(unittest.TestCase):
     def test_a_controller_tries_and_goes_back(self):
-        """The torque that brings the wheel nearest to a rate after ten steps of a tenth of a second."""
+        """The torque that brings the wheel nearest to an angular velocity after ten steps of 0.1
+        s."""
         s = wheel(inertia=0.5).simulation("rk4", step=0.1)
         found = {}
         saved = s.save()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What acts on a run from outside: inputs, and drivers with a law given by the run."""
+"""Actions on a run from outside: inputs, and drivers whose law is set during the run."""
 
 import ctypes
 import gc
@@ -15,7 +15,7 @@ from mechanisms import slider_crank
 
 
 def disk(initial=0.0, **load):
-    """A free disk of 0.5 kg m^2 that an input turns, without gravity."""
+    """A free disk of 0.5 kg m^2 without gravity; an input is its torque."""
     m = baum.Mechanism(gravity=(0, 0))
     body = m.planar_body("disk", mass=2, inertia=0.5, velocity=(0, 0), angular_velocity=0)
     torque = m.input("torque", initial)
@@ -70,7 +70,7 @@ class Adding(unittest.TestCase):
             (ValueError, 'there is already an input "torque"', lambda: m.planar_body("torque")),
             (TypeError, "an input or its name", lambda: m.load("l", "disk", input="disk")),
             (TypeError, "has no value; there are: name, init", lambda: m["torque"].set(value=1)),
-            (TypeError, "names stay", lambda: m.copy(torque=dict(name="x"))),
+            (TypeError, "names cannot change", lambda: m.copy(torque=dict(name="x"))),
         ):
             with self.assertRaisesRegex(error, words):
                 call()
@@ -129,7 +129,7 @@ class Runs(unittest.TestCase):
 
 
 def several(**functions):
-    """Two coordinates and three inputs, of which functions take the third and the first."""
+    """Two coordinates and three inputs; the functions take the third and the first input."""
     m = baum.Mechanism()
     for k, name in enumerate("abc"):
         m.input(name, 10.0**k)
@@ -175,7 +175,7 @@ class ForceFunctions(unittest.TestCase):
         np.testing.assert_array_equal(force(baum.Workspace(plain)), [7, 7])
         np.testing.assert_array_equal(force(baum.Workspace(other)), [10, 10])
         np.testing.assert_array_equal(force(baum.Workspace(m)), [1, 0])
-        with self.assertRaisesRegex(TypeError, 'body "x": inputs are given together with the func'):
+        with self.assertRaisesRegex(TypeError, 'body "x": inputs are given without the func'):
             m.copy(x=dict(inputs=["b"]))
 
     def test_a_copy_may_have_more_inputs(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joints beside pin, slider, rod and weld: that every argument arrives."""
+"""Joints other than pin, slider, rod and weld: every argument reaches the library."""
 
 import math
 import unittest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Springs with and without a law of the user, and drivers along splines."""
+"""Springs with and without a user law, and drivers along splines."""
 
 import ctypes
 import math

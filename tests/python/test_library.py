@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finding the library, and refusing one that does not fit."""
+"""Finding the library, and refusing a library of another version."""
 
 import ctypes
 import os
@@ -18,7 +18,8 @@ const char *baum_version(void) {{ return "{version}"; }}
 
 
 def import_with(library):
-    """Import baum in a new interpreter with BAUM_LIBRARY set; the last line of what it says."""
+    """Import baum in a new interpreter with BAUM_LIBRARY set, and return the last line of its
+    output."""
     environment = {**os.environ, "BAUM_LIBRARY": library}
     done = subprocess.run(
         [sys.executable, "-c", "import baum"], env=environment, capture_output=True, text=True

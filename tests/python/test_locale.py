@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the locale writes numbers with a comma the library's texts keep their point."""
+"""Texts of the library have a decimal point even if the locale uses a comma."""
 
 import os
 import shutil

@@ -123,16 +123,16 @@ class Building(unittest.TestCase):
 
 
 class Recorder(Adding, AddingInSpace):
-    """Takes what the methods that add would hand on."""
+    """Records the arguments that the methods that add elements pass on."""
 
     def _add(self, made, kind, given):
         return kind, {FIELDS.get(name, name) for name in given.keys() - {"self"}}
 
 
 class Arguments(unittest.TestCase):
-    """Every field of every definition has its argument."""
+    """Every field of every definition has an argument."""
 
-    # Two points that coincide have no distance, and no line between them.
+    # These elements need two different points, so they have no argument for a common one.
     EXCEPTED = {
         "planar_distance": {"point"},
         "planar_spring": {"point"},
@@ -141,7 +141,7 @@ class Arguments(unittest.TestCase):
     }
 
     def added(self):
-        """Names of the fields that can be given, by kind."""
+        """Names of the fields that a user can set, by kind."""
         for name, method in [*vars(Adding).items(), *vars(AddingInSpace).items()]:
             if name.startswith("_") or name == "input":
                 continue
@@ -238,7 +238,7 @@ class BadInput(unittest.TestCase):
             body=dict(weight=1),
         )
         self.says(TypeError, "unexpected keyword", self.m.planar_body, "x", weight=1)
-        self.says(TypeError, "names stay", self.m.copy, body=dict(name="x"))
+        self.says(TypeError, "names cannot change", self.m.copy, body=dict(name="x"))
 
     def test_a_joint_is_no_body(self):
         pin = self.m.revolute("pin", "ground", "body", point=(0, 0))
@@ -320,7 +320,8 @@ class Drafts(unittest.TestCase):
 
 
 class MovedCopies(unittest.TestCase):
-    """A copy with another position or angle of a body is the same mechanism elsewhere."""
+    """A copy with another position or angle of a body is the same mechanism in another
+    configuration."""
 
     def everything(self):
         m = baum.Mechanism()

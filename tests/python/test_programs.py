@@ -76,7 +76,7 @@ class Examples(unittest.TestCase):
 
 
 class Styles(unittest.TestCase):
-    """The ways of working that the interface was drawn for."""
+    """The typical uses that the interface was designed for."""
 
     def test_several_gains_on_one_mechanism(self):
         m = slider_crank(omega=150)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is shown of a study while it runs, where, and which grid runs by default."""
+"""What a study shows while it runs, where it shows this, and which grid runs by default."""
 
 import io
 import sys
@@ -23,7 +23,7 @@ def short_study(**options):
 
 class Grids(unittest.TestCase):
     def settings(self, **options):
-        """Number of settings of a study that is stopped after the first."""
+        """Number of settings of a study that is stopped after its first entry."""
         study = short_study(progress=lambda done, total: True, **options)
         with self.assertWarnsRegex(baum.Warning, "cancelled"):
             study.run()

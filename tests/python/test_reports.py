@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of a study are read back: they hold its entries, whatever names users give."""
+"""Reports of a study, read back: they contain its entries, whatever names users give."""
 
 import csv
 import html.parser
@@ -21,7 +21,8 @@ VOID = {"meta", "input", "br", "img", "link"}
 
 
 def make_study():
-    """Entries that are done, one of which warns of a joint by name, and one that is refused."""
+    """A study with entries that are done, one of them with a warning that names a joint, and one
+    refused entry."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint(JOINT, [bob], rows=1, phi=lambda t, q: q @ q - 1)
@@ -34,7 +35,7 @@ def make_study():
 
 
 class Page(html.parser.HTMLParser):
-    """Elements, whether they are nested as they should be, and the texts of cells."""
+    """Collects elements, checks that they are nested correctly, and collects the texts of cells."""
 
     def __init__(self):
         super().__init__()
@@ -73,7 +74,7 @@ class Reports(unittest.TestCase):
         self.assertIn(JOINT, self.study.entries[2].message)
 
     def check_entry(self, entry, cells, number):
-        """Every number that both have is the same to the last bit."""
+        """Every number that both contain is the same to the last bit."""
         compared = 0
         for name in entry._fields:
             value = getattr(entry, name)
@@ -171,7 +172,7 @@ class Reports(unittest.TestCase):
     def test_the_reference_is_the_motion(self):
         times, q, v, lambda_ = self.study.reference_samples()
         run = pendulum().simulate(times, "rk8", rtol=1e-10)
-        # errors over 1 s are some hundred times the rtol at most
+        # Errors over 1 s are at most about a hundred times rtol.
         self.assertLess(abs(run.q - q).max(), 1e-8)
         self.assertLess(abs(run.v - v).max(), 1e-7)
         self.assertEqual(lambda_.shape, (len(times), 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run came to, on its way to other processes and into tables."""
+"""The results of a run: pickled for other processes, and as tables."""
 
 import copy
 import pickle
@@ -159,7 +159,7 @@ class Plots(unittest.TestCase):
         )
 
     def axes(self, *channels, **options):
-        """What plot() draws, as (label of the y axis, names of the curves)."""
+        """The axes that plot() draws, as (label of the y axis, names of the curves)."""
         try:
             import matplotlib
         except ImportError:
@@ -206,7 +206,7 @@ class Plots(unittest.TestCase):
 
 
 class Notebooks(unittest.TestCase):
-    """What notebooks ask objects for."""
+    """The displays that notebooks request from objects."""
 
     def test_tables_are_small_and_escaped(self):
         m = baum.Mechanism()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Signatures show the defaults of the library, types list its words, and everything public is
-described."""
+"""Signatures show the defaults of the library, types list its words, and everything public has a
+docstring."""
 
 import ast
 import ctypes
@@ -18,7 +18,7 @@ import baum.typing
 from baum import _abi, _lib
 from baum.adding import Adding
 from baum.adding_space import AddingInSpace
-from baum.definitions import ARGUMENTS, HIDDEN, KINDS
+from baum.definitions import ARGUMENTS, COORDINATES, HIDDEN, KINDS
 from baum.integrators import FORMULATIONS
 from baum.simulation import CONVERT, SOLVERS, STARTS
 from baum.studies import COSTS
@@ -46,12 +46,15 @@ def methods():
 
 class Defaults(unittest.TestCase):
     def compare(self, function, struct, words=()):
-        """Every default that is shown is that of the library, and every plain one is shown."""
+        """Every default in a signature is that of the library, and every plain default is in a
+        signature."""
         of_library = _lib.default(struct)
         defaults = shown(function)
         for name, kind in struct._fields_:
             value, argument = getattr(of_library, name), ARGUMENTS.get(name, name)
-            if argument in words:
+            if argument.startswith("coordinate"):
+                value = list(COORDINATES)[value]
+            elif argument in words:
                 value = {v: k for k, v in words[argument].items()}[value]
             elif isinstance(value, ctypes.Array):
                 value = tuple(value)
@@ -141,7 +144,7 @@ class Types(unittest.TestCase):
 
 
 class Described(unittest.TestCase):
-    """Whatever a user can call has a docstring, and all of it has types."""
+    """Everything that a user can call has a docstring and complete types."""
 
     def public(self):
         from baum import catalog

@@ -91,11 +91,11 @@ class Samples(unittest.TestCase):
     def test_accelerations_and_efforts_belong_to_the_other_channels(self):
         r = self.run_
         np.testing.assert_allclose(r["slider.acceleration"], r["a"][:, 6:9])
-        # Of one point on two bodies, up to 5e3 m/s^2, of which 1e-12 is rounding.
+        # One point belongs to both bodies. Its acceleration reaches 5e3 m/s^2 with a rounding of 1e-12 of that.
         np.testing.assert_allclose(
             r["rod.acceleration(0.153, 0.0)"][:, :2], r["slider.acceleration"][:, :2], atol=1e-8
         )
-        # The row of a driver is its coordinate less its law, so that its torque is -lambda.
+        # The row of a driver is its coordinate minus the value of its law, so its torque is -lambda.
         np.testing.assert_allclose(r["motor.effort"], -r["motor.multipliers"])
 
     def test_what_was_not_recorded_is_named(self):
@@ -109,6 +109,8 @@ class Samples(unittest.TestCase):
         for name in ("B.phy", "x.phi", "nothing"):
             with self.assertRaises(KeyError):
                 self.m.simulate([0.001], "rk4", step=1e-4, record=[name])
+        with self.assertRaisesRegex(KeyError, "'B' has .*phi, phi_rate, reaction"):
+            self.m.channel("B.phy")
         with self.assertRaises(TypeError):
             self.m.simulate([0.001], "rk4", step=1e-4, record=[3])
         for names in (["B.coordinate", "motor.coordinate"], ["A.effort"]):

@@ -18,7 +18,7 @@ TILTED /= np.linalg.norm(TILTED)
 
 
 class Rotation:
-    """As that of SciPy: w is last."""
+    """A rotation like that of SciPy, with w last."""
 
     def __init__(self, p):
         self.p = p
@@ -28,7 +28,8 @@ class Rotation:
 
 
 def add_every_joint(m, a, b, p):
-    """One of each between two bodies and a particle, by points and axes in both ways."""
+    """One joint of each kind between two bodies and a particle, placed by points and axes in both
+    ways."""
     point = (0.3, 0.1, -0.2)
     m.spherical("spherical", a, b, point=point)
     m.spatial_revolute("revolute", a, b, point=point, axis=(1, 2, 0))
@@ -56,7 +57,7 @@ def everything():
 
 
 class Given(unittest.TestCase):
-    """What users give, and what the library gets."""
+    """Values that users give, and values that the library receives."""
 
     def body(self, **fields):
         return baum.Mechanism().spatial_body("body", **fields).definition
@@ -90,9 +91,10 @@ class Given(unittest.TestCase):
             ('body "body": inertia: 6 numbers', dict(inertia=(1, 2))),
             ("inertia: the matrix is not symmetric", dict(inertia=np.eye(3) + np.eye(3, k=1))),
             ("inertia: 9 numbers are wanted, not 4", dict(inertia=np.eye(2))),
-            ("orientation: the matrix is no rotation", dict(orientation=mirror)),
-            ("orientation: the matrix is no rotation", dict(orientation=2 * np.eye(3))),
-            ("orientation: 4 numbers are wanted, not 3", dict(orientation=(1, 0, 0))),
+            ("inertia: .* are wanted, not 1 numbers", dict(inertia=2.0)),
+            ("not a rotation: its columns are left-handed", dict(orientation=mirror)),
+            ("not a rotation: .* deviate by 3,", dict(orientation=2 * np.eye(3))),
+            ("orientation: a quaternion w, .* not 3 numbers", dict(orientation=(1, 0, 0))),
             ("orientation: an array of one dimension", dict(orientation=Rotation(np.eye(4)))),
             ("position: 3 numbers are wanted, not 2", dict(position=(0, 0))),
         ):
@@ -117,6 +119,18 @@ class Given(unittest.TestCase):
             baum.Mechanism(up="w")
 
 
+    def test_gains_do_not_depend_on_the_direction_of_gravity(self):
+        def gains(up, along):
+            m = baum.Mechanism(up=up)
+            m.spatial_body("bob", inertia=(0.1, 0.1, 0.1), position=along)
+            m.spherical("S", "ground", "bob", point=(0, 0, 0))
+            m.freeze()
+            s = m.simulation("rk4", formulation="baumgarte", step=1e-3)
+            return s.counters.alpha, s.counters.beta
+
+        np.testing.assert_allclose(gains("z", (1, 0, 0)), gains("y", (0, 0, 1)), rtol=1e-9)
+
+
 class Solids(unittest.TestCase):
     def test_of_known_shapes(self):
         np.testing.assert_allclose(inertia.box(12, 1, 2, 3), np.diag([13, 10, 5]))
@@ -125,6 +139,14 @@ class Solids(unittest.TestCase):
         np.testing.assert_allclose(inertia.rod(12, 2, axis="y"), np.diag([4, 0, 4]))
         with self.assertRaisesRegex(ValueError, "axis: "):
             inertia.rod(1, 1, axis="w")
+        for solid, values in (
+            (inertia.box, (1, -1, 1, 1)),
+            (inertia.sphere, (-1, 1)),
+            (inertia.cylinder, (1, 1, 0)),
+            (inertia.rod, (np.nan, 1)),
+        ):
+            with self.subTest(solid), self.assertRaisesRegex(ValueError, "finite number > 0"):
+                solid(*values)
 
     def test_two_halves_make_a_whole(self):
         half = inertia.box(3, 1, 2, 3)
@@ -143,7 +165,7 @@ class Solids(unittest.TestCase):
 
 
 class FreeBody(unittest.TestCase):
-    """A body without forces, about its middle axis, which is unstable."""
+    """A body without forces that rotates about its middle axis, which is unstable."""
 
     @classmethod
     def setUpClass(cls):
@@ -280,7 +302,7 @@ class Joints(unittest.TestCase):
         np.testing.assert_allclose(run["weld.reaction"], [[0, 0, 19.62, 0, -9.81, 0]], atol=1e-14)
 
     def test_which_rows_have_a_length(self):
-        """A row in metres changes where bodies are moved without turning, a pure number does not."""
+        """A translation of bodies changes rows in metres, but not rows that are pure numbers."""
         m = everything().freeze()
         w = baum.Workspace(m)
         q = w.move(0.1 * np.sin(np.arange(15)), w.design()[0])
@@ -293,7 +315,7 @@ class Joints(unittest.TestCase):
                 self.assertGreater(abs(before - after), 1e-3)
 
     def test_angles_count_revolutions_in_long_steps(self):
-        """Steps of half a revolution and more: between their ends, too."""
+        """Steps of half a revolution and more, also at times inside the steps."""
         m = baum.Mechanism(gravity=(0, 0, 0))
         m.spatial_body("wheel", angular_velocity=(0, 0, 1))
         m.spatial_revolute("hinge", m.ground, "wheel", point=(0, 0, 0))
@@ -364,8 +386,55 @@ class Forces(unittest.TestCase):
         np.testing.assert_allclose(g, (0, 0, 0, 0, 4, 5), atol=1e-15)
 
 
+class Coordinates(unittest.TestCase):
+    """Drivers, couplings, springs, channels and events of coordinates by name."""
+
+    def nut(self):
+        m = baum.Mechanism(up="z")
+        nut = m.spatial_body("nut", mass=2, inertia=(1, 1, 1))
+        return m, m.cylindrical("sleeve", m.ground, nut, point=(0, 0, 0))
+
+    def test_a_screw(self):
+        m, sleeve = self.nut()
+        m.coupling("thread", sleeve, sleeve, coordinate_a="angle", ratio=0.5)
+        keys = ["sleeve.angle", "sleeve.displacement", "sleeve.coordinate"]
+        run = m.freeze().simulate([0, 1, 3], "rk8", rtol=1e-10, record=keys)
+        fall = -0.5 * 2 * 9.81 / (2 + 1 / 0.5**2) * run.t**2
+        np.testing.assert_allclose(run["sleeve.displacement"][:, 0], fall, atol=1e-8)
+        np.testing.assert_allclose(run["sleeve.angle"][:, 0], 2 * fall, atol=1e-8)
+        self.assertGreater(abs(2 * fall[-1]), 4 * np.pi)
+        np.testing.assert_array_equal(run["sleeve.coordinate"], run["sleeve.displacement"])
+        columns = run.columns
+        self.assertEqual(columns["sleeve.angle[0]"], "rad")
+        self.assertEqual(columns["sleeve.angle[1]"], "rad/s")
+        self.assertEqual(columns["sleeve.displacement[0]"], "m")
+
+    def test_a_motor_a_spring_and_an_event(self):
+        m, sleeve = self.nut()
+        m.driver("motor", sleeve, coordinate="angle", rate=2.0)
+        m.joint_spring("coil", sleeve, coordinate="displacement", stiffness=100)
+        self.assertEqual(m["motor"].definition["coordinate"], "angle")
+        self.assertEqual(m["coil"].definition["coordinate"], "displacement")
+        run = m.freeze().simulation("rk8", rtol=1e-9)
+        run.event(sleeve, 3.0, coordinate="angle")
+        run.advance_to(5)
+        self.assertAlmostEqual(run.time, 1.5)
+        height = -2 * 9.81 / 100 * (1 - np.cos(50**0.5 * 1.5))
+        self.assertAlmostEqual(run.get("sleeve.displacement")[0], height, places=6)
+
+    def test_names(self):
+        m, sleeve = self.nut()
+        with self.assertRaisesRegex(ValueError, "no coordinate 'turn'; there are: first, disp"):
+            m.driver("motor", sleeve, coordinate="turn")
+        with self.assertRaisesRegex(baum.Error, 'is "x", but .* has "displacement", "angle"'):
+            m.driver("motor", sleeve, coordinate="x")
+        with self.assertRaisesRegex(baum.Error, 'coordinate is "angle_b", but'):
+            m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record="sleeve.angle_b")
+
+
 class MovedCopies(unittest.TestCase):
-    """A copy with other positions and orientations is the same mechanism elsewhere."""
+    """A copy with other positions and orientations is the same mechanism in another
+    configuration."""
 
     def compare(self, m, moved):
         there, here = baum.Workspace(m), baum.Workspace(moved)
@@ -380,13 +449,25 @@ class MovedCopies(unittest.TestCase):
         m = everything().freeze()
         self.compare(m, m.copy(a=dict(position=(5, -3, 1)), p=dict(position=(0, 0, 0))))
 
+    def test_springs_and_couplings_of_coordinates(self):
+        m = everything()
+        for name in "cylindrical", "planar", "universal", "prismatic":
+            joint = m[name]
+            for coordinate in joint.kind.coordinates:
+                m.joint_spring(None, joint, coordinate=coordinate, stiffness=2.0)
+        m.coupling("thread", "cylindrical", "planar", coordinate_b="y", ratio=0.7)
+        m.freeze()
+        self.compare(m, m.copy(a=dict(position=(5, -3, 1)), p=dict(position=(0, 0, 0))))
+        with self.assertRaisesRegex(ValueError, "keeps the relative orientation"):
+            m.copy(a=dict(orientation=(1, 0, 0, 0)))
+
     def test_another_orientation_of_both(self):
         m = everything().freeze()
         r = matrix(np.array([0.6, 0, 0, 0.8]))
         a, b = (r @ matrix(np.array(m[name].definition["orientation"])) for name in "ab")
         moved = m.copy(a=dict(orientation=a), b=dict(orientation=b, position=(1, 1, 1)))
         np.testing.assert_allclose(moved["b"].definition["orientation"], quaternion(b, ""))
-        # The axes of a joint across its own may differ: compare what the rows forbid.
+        # The axes perpendicular to a joint's axis may differ, so compare the spaces of the rows.
         there, here = (baum.Workspace(one) for one in (m, moved))
         q, _ = there.design()
         q = there.move(0.1 * np.sin(np.arange(15)), q)

@@ -29,7 +29,7 @@ class Pool(unittest.TestCase):
     VARIANTS = 1000
 
     def timed(self, title, make):
-        """What make() gives, and on the way what a variant costs."""
+        """The result of make() and the cost of a variant."""
         begun = time.perf_counter()
         made = make()
         each = (time.perf_counter() - begun) / self.VARIANTS
@@ -187,7 +187,7 @@ class Tasks(unittest.TestCase):
         self.assertEqual(made, [1])
 
 
-# A program started in the background of a shell inherits that SIGINT is ignored.
+# A shell starts background programs with SIGINT ignored, so the program sets a handler.
 INTERRUPTED = """
 import signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -208,7 +208,8 @@ except KeyboardInterrupt:
 @unittest.skipUnless(hasattr(signal, "SIGINT") and os.name == "posix", "no signals")
 class Interrupted(unittest.TestCase):
     def interrupt(self, setup, call, after="s.time > 0", times=1):
-        """What a program says that is sent SIGINT when it has said that it is ready."""
+        """The output of a program that receives SIGINT as soon as it has printed that it is
+        ready."""
         program = INTERRUPTED.format(here=HERE, setup=setup, call=call, after=after)
         child = subprocess.Popen(
             [sys.executable, "-c", program],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No text that reaches Python names anything of C."""
+"""No text that reaches Python contains a C name."""
 
 import re
 import unittest
@@ -19,7 +19,7 @@ class Table(unittest.TestCase):
             ("must be one such as baum_euler()", 'must be one such as "euler"'),
             ("such as baum_rk4 or baum_cvode_adams", 'such as "rk4" or "cvode_adams"'),
             ("was not written by baum_simulation_save()", "was not written by save()"),
-            ("baum_stability_best() has the point", "baum.stability_best() has the point"),
+            ("baum_stability_best() returns the point", "baum.stability_best() returns the point"),
             ("make gains with baum_gains_fixed()", "make gains with baum.fixed()"),
             ("baum_catalog_times() gives those", "baum.catalog.times() gives those"),
             ('constraint "c": row_count is 0', 'constraint "c": rows is 0'),
@@ -55,7 +55,7 @@ class Table(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
-    """Errors that name something of C before they are translated."""
+    """Errors whose messages contain C names before they are translated."""
 
     def refused(self, call, *arguments, **fields):
         with self.assertRaises(baum.Error) as caught:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Evaluation at a point: shapes and that the pieces fit together."""
+"""Evaluation at a state: shapes, and consistency of the results."""
 
 import unittest
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is no number, no truth, no name or no whole is refused with a message; nothing is guessed. What a
-run had recorded survives whatever ends it."""
+"""Values that are not a number, truth value, name or integer are refused with a message; nothing is
+guessed. Samples that a run has recorded survive any exception."""
 
 import copy
 import pickle
@@ -78,7 +78,7 @@ class Values(unittest.TestCase):
 
 
 class Instead(unittest.TestCase):
-    """Messages say what to do in Python, and speak of nothing else."""
+    """Messages name only remedies that exist in Python."""
 
     def says(self, kind, message, call, *arguments, **fields):
         with self.assertRaisesRegex(kind, message) as caught:
@@ -125,7 +125,7 @@ class Instead(unittest.TestCase):
 
 
 class One(unittest.TestCase):
-    """One body or channel needs no list."""
+    """A single body or channel needs no list."""
 
     def test_one_body(self):
         for given in ("bob", ["bob"]):
@@ -144,7 +144,7 @@ class One(unittest.TestCase):
 
 
 class Kept(unittest.TestCase):
-    """What was recorded before an exception of a function."""
+    """Samples recorded before a function raised an exception."""
 
     def test_recorded_samples_come_with_the_exception(self):
         for kind, status in (ValueError, "ERR_CALLBACK"), (KeyboardInterrupt, "STOP_CANCELLED"):

@@ -3,8 +3,9 @@
  *
  *   sin(angle / 2) = k sn(w t + K),   k^2 = 1/2,   w^2 = g / L,   x = -sin angle,   y = -cos angle
  *
- * with the angle from where it hangs and sn by the arithmetic-geometric mean (M. Abramowitz, I. A.
- * Stegun, Handbook of Mathematical Functions, 1964, 16.4), in long double.
+ * with the angle measured from the lowest point, and sn computed in long double by the
+ * arithmetic-geometric mean (M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 1964,
+ * 16.4).
  */
 #include <math.h>
 #include <setjmp.h>
@@ -51,14 +52,14 @@ static void the_closed_form_is_that_of_the_table(void **state)
     double q[2];
     closed_form(A01_PENDULUM_T[k], q);
     for (int i = 0; i < 2; i++) {
-      /* The table has 17 digits, and 9.81 is a decimal number here and a double in the run. */
+      /* The table has 17 digits; g is exactly 9.81 here and the double next to it in the run. */
       ASSERT_NEAR(q[i], A01_PENDULUM_Q[k][i], 0.0, 1e-14);
     }
   }
 }
 
-/* Prints how the error grows; returns the last. A period that is off by a constant share makes an
- * error like t, one that drifts, as energy does, one like t^2. */
+/* Prints how the error grows; returns the last error. A constant relative error of the period makes
+ * the error grow like t, a drift of the energy like t^2. */
 static double follow(const model *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -88,7 +89,7 @@ static void a_pendulum_is_followed_through_2000_s(void **state)
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   o.integrator = baum_rk8();
   o.rtol = 1e-13;
-  /* Wanted of the library; a hundred times the error, so that other processors' rounding fits. */
+  /* A hundred times the measured error, so that the rounding of other processors is covered. */
   assert_true(follow(&m, &o) <= 1e-6);
   model_destroy(&m);
 }

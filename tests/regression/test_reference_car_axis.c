@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis: four user coordinates, two rows that depend on time, with and without their
- * derivatives, against tests/data (18 digits).
- */
+/* The car axis: four user coordinates and two rows that depend on time, with and without their
+ * derivatives, compared with the catalogue's samples (18 digits). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +48,8 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_car_axis(true, &m), BAUM_OK);
-  /* Springs of 1 N/m on 5e-4 kg: 45 rad/s, (45 h)^4 = 4e-10 over the error constant of 5!. */
+  /* Springs of 1 N/m on 5e-4 kg oscillate at 45 rad/s. The error is about (45 h)^4 = 4e-10, divided
+   * by 5!. */
   assert_reached_by_rk4(&AXIS, m.mechanism, 1e-4, 1e-10);
   model_destroy(&m);
 }
@@ -72,11 +72,11 @@ static void multipliers_are_the_negative_of_the_test_set(void **state)
     baum_simulation_sample(run, CAR_AXIS_T, CAR_AXIS_SAMPLES, channels, 2, rows, NULL), BAUM_OK);
   for (int i = 0; i < CAR_AXIS_SAMPLES; i++) {
     for (int k = 0; k < 4; k++) {
-      /* Positions are off by less than 1e-10 (above); times 45 1/s. */
+      /* The error of the positions is below 1e-10 (see above), multiplied by 45 1/s. */
       ASSERT_NEAR(rows[i * ROW + k], CAR_AXIS_V[i][k], 0.0, 4.5e-9);
     }
     for (int k = 0; k < 2; k++) {
-      /* Springs of 1 N/m times that error. */
+      /* The same error of the positions, multiplied by the stiffness of 1 N/m. */
       ASSERT_NEAR(rows[i * ROW + 4 + k], -CAR_AXIS_LAMBDA[i][k], 0.0, 1e-10);
     }
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chain of three rods against tests/data (17 digits). */
+/* A chain of three rods compared with the catalogue's reference (17 digits). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_chain_3(&m), BAUM_OK);
-  /* Rates up to 40 rad/s for a moment: (40 h)^4 = 6e-10 there. */
+  /* The angular velocities briefly reach 40 rad/s: (40 h)^4 = 6e-10. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-9);
   model_destroy(&m);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crank-rocker four-bar under gravity against tests/data (15 digits). */
+/* A crank-rocker four-bar under gravity compared with the catalogue's reference (15 digits). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +39,7 @@ static void ida_with_ggl_reaches_the_reference_within_1e_6(void **state)
   model_destroy(&m);
 }
 
-/* What is off at the start grows ten thousandfold in these 5 s. */
+/* In these 5 s an initial error grows by a factor of ten thousand. */
 static void adams_is_within_1e_9_at_its_tightest(void **state)
 {
   (void)state;
@@ -60,7 +60,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_four_bar(&m), BAUM_OK);
-  /* Rates up to 9 rad/s: (9 h)^4 = 1.5e-12, times 5 s at that rate. */
+  /* The angular velocities reach 9 rad/s: (9 h)^4 = 1.5e-12, multiplied by 9 rad/s and 5 s. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-10);
   model_destroy(&m);
 }

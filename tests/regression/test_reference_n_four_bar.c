@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IFToMM/A Coruna A02 with 40 windows, 243 coordinates and 242 rows, from upright up to its first
- * flat position, where J loses 40 rows, against tests/data.
- */
+/* Problem A02 of IFToMM and A Coruna with 40 windows: 243 coordinates and 242 rows. It moves from
+ * upright to its first flat position, where J loses 40 rows. Compared with tests/data. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +18,8 @@ static double larger(double a, double b)
   return isnan(b) || b > a ? b : a;
 }
 
-/* Angle of the first crank, and by how much any coordinate is not what that angle says. */
+/* Angle of the first crank, and the largest difference of any coordinate from its value at that
+ * angle. */
 static void angle_and_departure(const double *q, double *out)
 {
   double c = cos(q[2]);
@@ -39,8 +39,9 @@ static void angle_and_departure(const double *q, double *out)
   }
 }
 
-/* The last sample is 5e-6 rad away from flat. On the flat position itself no digits can be
- * promised: whether a step ends there is chance, and there J has lost rank to rounding. */
+/* The last sample is 5e-6 rad before the flat position. No accuracy can be expected on the flat
+ * position itself: whether a step ends there is accidental, and J has lost rank there up to
+ * rounding. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -49,7 +50,7 @@ static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .lengths = "rr",
                                   .columns = angle_and_departure};
 
-/* Largest angle between cranks at a hundred times. */
+/* Largest angle between two cranks at a hundred times. */
 static double apart_after(const model *m, int loops, double rtol, double end)
 {
   baum_simulation_options options = ggl_options();
@@ -81,10 +82,9 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
   model_destroy(&m);
 }
 
-/* Ten seconds lead through the flat position several times, where other branches cross and cranks
- * may part, by radians: they do with INDEX2 and BAUMGARTE. On the branch they move alike, and
- * errors with them; measured at most
- * 5e-8. */
+/* In ten seconds the mechanism passes the flat position several times. Other branches cross there,
+ * on which the cranks differ by radians, as happens with INDEX2 and BAUMGARTE. On the branch the
+ * cranks move alike, and so do their errors: measured at most 5e-8 rad. */
 static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
 {
   (void)state;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All trajectories of tests/data that stay away from singular configurations by both Runge-Kutta
- * pairs with projection, rtol from
- * 1e-4 to 1e-12: none needs a library.
- */
+/* Reference motions that avoid singular configurations, with both Runge-Kutta pairs and projection,
+ * rtol from 1e-4 to 1e-12. These integrators do not need SUNDIALS. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,8 +63,8 @@ static baum_status build_chain(model *m)
     .q = NAME##_Q[0], .lengths = (units)                                              \
   }
 
-/* What both pairs reach. Pendulum and chain swing on for long, and errors of 1e-12 in each step add
- * up or grow. */
+/* A problem and the errors allowed for both pairs. The pendulum and the chain have long motions, in
+ * which errors of 1e-12 in each step add up or grow. */
 typedef struct problem {
   reference with;
   baum_status (*build)(model *m);

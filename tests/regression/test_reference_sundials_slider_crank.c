@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies, against tests/data (20 digits). */
+/* The slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies, compared with the catalogue's
+ * reference (20 digits). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +34,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_sundials_slider_crank(&m), BAUM_OK);
-  /* Rates about 1 rad/s: h^4 = 2e-10 over the error constant of 5!. */
+  /* The angular velocities are about 1 rad/s: h^4 = 2e-10, divided by 5!. */
   assert_reached_by_rk4(&SIX, m.mechanism, 1.0 / 256, 1e-10);
   model_destroy(&m);
 }

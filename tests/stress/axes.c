@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One function per axis; each takes an ordinary cell and turns one of its numbers. */
+/* The axes of the grid. Most vary one number of an ordinary cell by powers of ten, and are rows of
+ * a table; the others are functions. Names of axes in space begin with "space". */
 #include "axes.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,16 +68,25 @@ static void add(cell_list *list, cell c)
   list->cells[list->count++] = c;
 }
 
+static bool is_in_space(const char *axis)
+{
+  return strncmp(axis, "space", 5) == 0;
+}
+
+/* In space: a planar scene in a tilted plane, or a spatial entry of the catalogue. */
 static cell ordinary(const char *axis, scene_kind kind)
 {
-  return (cell){.axis = axis,
-                .scene = scene_of(kind),
-                .periods = 1.0,
-                .step = 1.0 / 200,
-                .rtol = 1e-7,
-                .gain = (double)NAN,
-                .begin = BAUM_START_ASSEMBLE,
-                .most = 20000};
+  const bool space = is_in_space(axis);
+  cell c = {.axis = axis,
+            .scene = scene_of(kind),
+            .periods = 1.0,
+            .step = 1.0 / 200,
+            .rtol = 1e-7,
+            .gain = (double)NAN,
+            .begin = BAUM_START_ASSEMBLE,
+            .most = space ? 5000 : 20000};
+  c.scene.tilted = space && kind <= SCENE_CHAIN;
+  return c;
 }
 
 static void with_ways(cell_list *list, cell c, double value, const way *const *ways)
@@ -89,106 +100,93 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
   }
 }
 
-/* ---- axes ---- */
+/* ---- axes that vary one number ---- */
 
-static void sweep_step(cell_list *list)
+#define KIND(NAME)    (1U << SCENE_##NAME)
+#define NUMBER(FIELD) offsetof(cell, FIELD)
+
+typedef struct decades {
+  const char *name; /* of the axis, to choose it */
+  const char *axis; /* as printed */
+  size_t number;    /* offset of the varied number, a double of the cell */
+  unsigned kinds;   /* of scenes */
+  int from, to, by; /* exponents of ten */
+  const way *const *ways;
+  bool zero;    /* begin with 0 */
+  int64_t most; /* steps; 0: the ordinary number */
+} decades;
+
+static const decades DECADES[] = {
+  {"step", "step", NUMBER(step), KIND(BOB) | KIND(CRANK) | KIND(FOUR_BAR) | KIND(WINDOWS), -1, -9,
+   -1, FIXED_WAYS, false, 2000},
+  {"gain", "gain", NUMBER(gain), KIND(PENDULUM) | KIND(CRANK), -6, 12, 1, GAIN_WAYS, true, 0},
+  {"tolerance", "tolerance", NUMBER(rtol), KIND(BOB) | KIND(CRANK) | KIND(FOUR_BAR), -2, -14, -1,
+   VARIABLE_WAYS, false, 0},
+  {"mass_ratio", "mass ratio", NUMBER(scene.ratio),
+   KIND(PENDULUM) | KIND(CRANK) | KIND(FOUR_BAR) | KIND(WINDOWS), -12, 12, 3, WAYS, false, 0},
+  {"stiffness", "stiffness", NUMBER(scene.stiffness), KIND(PENDULUM) | KIND(CRANK), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"stiffness", "damping", NUMBER(scene.damping), KIND(PENDULUM) | KIND(CRANK), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"units", "length", NUMBER(scene.units.length), KIND(BOB) | KIND(CRANK), -9, 9, 3, WAYS, false,
+   0},
+  {"units", "mass", NUMBER(scene.units.mass), KIND(BOB) | KIND(CRANK), -9, 9, 3, WAYS, false, 0},
+  {"units", "time", NUMBER(scene.units.time), KIND(BOB) | KIND(CRANK), -9, 9, 3, WAYS, false, 0},
+  {"speed", "speed", NUMBER(scene.rate), KIND(BOB) | KIND(CRANK) | KIND(FOUR_BAR), 0, 6, 1, WAYS,
+   true, 0},
+  {"space_step", "space: step", NUMBER(step),
+   KIND(CRANK) | KIND(FOUR_BAR) | KIND(SPATIAL_CRANK) | KIND(BRICARD) | KIND(TOP), -1, -7, -1,
+   FIXED_WAYS, false, 1000},
+  {"space_tolerance", "space: tolerance", NUMBER(rtol),
+   KIND(FOUR_BAR) | KIND(SPATIAL_CRANK) | KIND(BRICARD) | KIND(TOP), -2, -14, -2, VARIABLE_WAYS,
+   false, 0},
+  {"space_gain", "space: gain", NUMBER(gain), KIND(CRANK) | KIND(SPATIAL_CRANK), -6, 12, 3,
+   GAIN_WAYS, true, 0},
+  {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio),
+   KIND(CRANK) | KIND(WINDOWS) | KIND(SPATIAL_CRANK) | KIND(RSSR), -12, 12, 3, WAYS, false, 0},
+  /* the ratio of a rod's moments of inertia, at most 2 */
+  {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio), KIND(BRICARD), -12, 0, 3, WAYS,
+   false, 0},
+  {"space_stiffness", "space: stiffness", NUMBER(scene.stiffness), KIND(SPATIAL_CRANK), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"space_stiffness", "space: damping", NUMBER(scene.damping), KIND(SPATIAL_CRANK), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"space_units", "space: length", NUMBER(scene.units.length),
+   KIND(CRANK) | KIND(SPATIAL_CRANK) | KIND(TOP), -6, 6, 3, WAYS, false, 0},
+  {"space_units", "space: mass", NUMBER(scene.units.mass),
+   KIND(CRANK) | KIND(SPATIAL_CRANK) | KIND(TOP), -6, 6, 3, WAYS, false, 0},
+  {"space_units", "space: time", NUMBER(scene.units.time),
+   KIND(CRANK) | KIND(SPATIAL_CRANK) | KIND(TOP), -6, 6, 3, WAYS, false, 0},
+  {"space_speed", "space: speed", NUMBER(scene.rate), KIND(FOUR_BAR) | KIND(SPATIAL_CRANK), 0, 6, 1,
+   WAYS, false, 0},
+  {"space_speed", "space: speed", NUMBER(scene.rate), KIND(RSSR), 0, 6, 1, DRIVEN_WAYS, false, 0},
+  /* a slower top does not precess steadily */
+  {"space_speed", "space: speed", NUMBER(scene.rate), KIND(TOP), 2, 6, 1, WAYS, false, 0},
+};
+
+static void vary(cell_list *list, const decades *d, cell c, double value)
 {
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_CRANK, SCENE_FOUR_BAR, SCENE_WINDOWS};
-  for (int k = 0; k < 4; k++) {
-    cell c = ordinary("step", KINDS[k]);
-    c.most = 2000;
-    for (int decade = 1; decade <= 9; decade++) {
-      c.step = pow(10.0, -decade);
-      with_ways(list, c, c.step, FIXED_WAYS);
+  memcpy((char *)&c + d->number, &value, sizeof value);
+  c.most = d->most ? d->most : c.most;
+  with_ways(list, c, value, d->ways);
+}
+
+static void sweep_decades(cell_list *list, const decades *d)
+{
+  for (unsigned kind = 0; kind < SCENE_KINDS; kind++) {
+    if (d->kinds >> kind & 1U) {
+      const cell c = ordinary(d->axis, (scene_kind)kind);
+      if (d->zero) {
+        vary(list, d, c, 0.0);
+      }
+      for (int decade = d->from; d->by * (d->to - decade) >= 0; decade += d->by) {
+        vary(list, d, c, pow(10.0, decade));
+      }
     }
   }
 }
 
-static void sweep_gains(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_PENDULUM, SCENE_CRANK};
-  for (int k = 0; k < 2; k++) {
-    cell c = ordinary("gain", KINDS[k]);
-    c.gain = 0.0;
-    with_ways(list, c, c.gain, GAIN_WAYS);
-    for (int decade = -6; decade <= 12; decade++) {
-      c.gain = pow(10.0, decade);
-      with_ways(list, c, c.gain, GAIN_WAYS);
-    }
-  }
-}
-
-static void sweep_tolerance(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_CRANK, SCENE_FOUR_BAR};
-  for (int k = 0; k < 3; k++) {
-    cell c = ordinary("tolerance", KINDS[k]);
-    for (int decade = 2; decade <= 14; decade++) {
-      c.rtol = pow(10.0, -decade);
-      with_ways(list, c, c.rtol, VARIABLE_WAYS);
-    }
-  }
-}
-
-static void sweep_mass(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_PENDULUM, SCENE_CRANK, SCENE_WINDOWS, SCENE_FOUR_BAR};
-  for (int k = 0; k < 4; k++) {
-    cell c = ordinary("mass ratio", KINDS[k]);
-    for (int decade = -12; decade <= 12; decade += 3) {
-      c.scene.ratio = pow(10.0, decade);
-      with_ways(list, c, c.scene.ratio, WAYS);
-    }
-  }
-}
-
-static void sweep_stiffness(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_PENDULUM, SCENE_CRANK};
-  for (int k = 0; k < 2; k++) {
-    for (int decade = 0; decade <= 12; decade += 2) {
-      cell c = ordinary("stiffness", KINDS[k]);
-      c.scene.stiffness = pow(10.0, decade);
-      with_ways(list, c, c.scene.stiffness, STIFF_WAYS);
-      c = ordinary("damping", KINDS[k]);
-      c.scene.damping = pow(10.0, decade);
-      with_ways(list, c, c.scene.damping, STIFF_WAYS);
-    }
-  }
-}
-
-static void sweep_units(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_CRANK};
-  for (int k = 0; k < 2; k++) {
-    for (int decade = -9; decade <= 9; decade += 3) {
-      double unit = pow(10.0, decade);
-      cell c = ordinary("length", KINDS[k]);
-      c.scene.units.length = unit;
-      with_ways(list, c, unit, WAYS);
-      c = ordinary("mass", KINDS[k]);
-      c.scene.units.mass = unit;
-      with_ways(list, c, unit, WAYS);
-      c = ordinary("time", KINDS[k]);
-      c.scene.units.time = unit;
-      with_ways(list, c, unit, WAYS);
-    }
-  }
-}
-
-static void sweep_speed(cell_list *list)
-{
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_CRANK, SCENE_FOUR_BAR};
-  for (int k = 0; k < 3; k++) {
-    cell c = ordinary("speed", KINDS[k]);
-    c.scene.rate = 0.0;
-    with_ways(list, c, 0.0, WAYS);
-    for (int decade = 0; decade <= 6; decade++) {
-      c.scene.rate = pow(10.0, decade);
-      with_ways(list, c, c.scene.rate, WAYS);
-    }
-  }
-}
+/* ---- other axes ---- */
 
 static void sweep_start_time(cell_list *list)
 {
@@ -206,27 +204,38 @@ static void sweep_start_time(cell_list *list)
   }
 }
 
-static void sweep_violation(cell_list *list)
+static void sweep_violation(cell_list *list, const char *axis, const char *exact, scene_kind kind)
 {
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_CRANK, SCENE_FOUR_BAR};
   static const double SIZES[] = {1e-14, 1e-10, 1e-6, 1e-3, 1e-2, 0.1, 0.3};
-  for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 7; i++) {
-      cell c = ordinary("violation", KINDS[k]);
-      c.scene.violation = SIZES[i];
-      with_ways(list, c, SIZES[i], WAYS);
-      c.axis = "violation, exact";
-      c.begin = BAUM_START_EXACT;
-      with_ways(list, c, SIZES[i], WAYS);
-    }
+  for (int i = 0; i < 7; i++) {
+    cell c = ordinary(axis, kind);
+    c.scene.violation = SIZES[i];
+    with_ways(list, c, SIZES[i], WAYS);
+    c.axis = exact;
+    c.begin = BAUM_START_EXACT;
+    with_ways(list, c, SIZES[i], WAYS);
   }
 }
 
-/* Towards the flat configuration and through it, or away from it. */
-static void sweep_singular(cell_list *list)
+static void sweep_planar_violation(cell_list *list)
 {
-  for (int decade = 0; decade <= 16; decade++) {
-    cell c = ordinary("singular configuration", SCENE_WINDOWS);
+  sweep_violation(list, "violation", "violation, exact", SCENE_BOB);
+  sweep_violation(list, "violation", "violation, exact", SCENE_CRANK);
+  sweep_violation(list, "violation", "violation, exact", SCENE_FOUR_BAR);
+}
+
+static void sweep_space_violation(cell_list *list)
+{
+  sweep_violation(list, "space: violation", "space: violation, exact", SCENE_CRANK);
+  sweep_violation(list, "space: violation", "space: violation, exact", SCENE_FOUR_BAR);
+}
+
+/* Four-bars start at `gap` before a singular configuration and move through it. For the
+ * slider-crank, `gap` is the difference of rod and crank. */
+static void sweep_singular(cell_list *list, const char *axis, const char *rod, int by)
+{
+  for (int decade = 0; decade <= 16; decade += by) {
+    cell c = ordinary(axis, SCENE_WINDOWS);
     c.scene.gap = decade == 16 ? 0.0 : pow(10.0, -decade);
     c.scene.angle = c.scene.gap;
     c.scene.rate = -2.0;
@@ -234,13 +243,22 @@ static void sweep_singular(cell_list *list)
     with_ways(list, c, c.scene.gap, WAYS);
     c.scene.count = 4;
     with_ways(list, c, c.scene.gap, WAYS);
-    c.axis = "singular rod";
-    c.scene = scene_of(SCENE_CRANK);
+    c = ordinary(rod, SCENE_CRANK);
     c.scene.gap = decade == 16 ? 0.0 : pow(10.0, -decade);
     c.scene.rod = 1.0 + c.scene.gap;
     c.scene.rate = 6.0;
     with_ways(list, c, c.scene.gap, WAYS);
   }
+}
+
+static void sweep_planar_singular(cell_list *list)
+{
+  sweep_singular(list, "singular configuration", "singular rod", 1);
+}
+
+static void sweep_space_singular(cell_list *list)
+{
+  sweep_singular(list, "space: singular configuration", "space: singular rod", 2);
 }
 
 static void sweep_bodies(cell_list *list)
@@ -251,7 +269,7 @@ static void sweep_bodies(cell_list *list)
       cell c = ordinary("bodies", KINDS[k]);
       int bodies = (int)pow(10.0, decade);
       c.scene.count = KINDS[k] == SCENE_CHAIN ? bodies : bodies / 2 + (bodies == 1);
-      /* A chain of n links has rates n times that of its turning. */
+      /* The fastest rate of a chain of n links is n times its angular velocity. */
       c.periods = KINDS[k] == SCENE_CHAIN ? 0.2 / bodies : decade < 4 ? 0.2 : 20.0 / bodies;
       c.step = fmin(c.step, c.periods / 4);
       with_ways(list, c, bodies, WAYS);
@@ -259,42 +277,64 @@ static void sweep_bodies(cell_list *list)
   }
 }
 
-static void sweep_redundancy(cell_list *list)
+/* In space only every second disagreement, and not the most redundant joints. */
+static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
 {
-  static const scene_kind KINDS[] = {SCENE_BOB, SCENE_PENDULUM, SCENE_CRANK};
   static const int SPARES[] = {0, 1, 5, 20};
   static const double OFF[] = {0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6};
-  for (int k = 0; k < 3; k++) {
-    for (int n = 0; n < 4; n++) {
-      for (int i = 0; i < (n == 0 ? 1 : 6); i++) {
-        cell c = ordinary("redundancy", KINDS[k]);
-        c.scene.spare = SPARES[n];
-        c.scene.off = OFF[i];
-        c.share = 10.0 * SPARES[n] * OFF[i]; /* the mechanism itself is not known better */
-        with_ways(list, c, OFF[i], WAYS);
-      }
+  const bool space = is_in_space(axis);
+  for (int n = 0; n < (space ? 3 : 4); n++) {
+    for (int i = 0; i < (n == 0 ? 1 : 6); i += space && i > 0 ? 2 : 1) {
+      cell c = ordinary(axis, kind);
+      c.scene.spare = SPARES[n];
+      c.scene.off = OFF[i];
+      c.share = 10.0 * SPARES[n] * OFF[i]; /* redundant joints contradict by this */
+      with_ways(list, c, OFF[i], WAYS);
     }
   }
 }
 
-typedef struct axis {
+static void sweep_planar_redundancy(cell_list *list)
+{
+  sweep_redundancy(list, "redundancy", SCENE_BOB);
+  sweep_redundancy(list, "redundancy", SCENE_PENDULUM);
+  sweep_redundancy(list, "redundancy", SCENE_CRANK);
+}
+
+static void sweep_space_redundancy(cell_list *list)
+{
+  sweep_redundancy(list, "space: redundancy", SCENE_PENDULUM);
+  sweep_redundancy(list, "space: redundancy", SCENE_CRANK);
+}
+
+static const struct {
   const char *name;
   void (*sweep)(cell_list *list);
-} axis;
+} OTHERS[] = {
+  {"start_time", sweep_start_time},         {"violation", sweep_planar_violation},
+  {"singular", sweep_planar_singular},      {"bodies", sweep_bodies},
+  {"redundancy", sweep_planar_redundancy},  {"space_violation", sweep_space_violation},
+  {"space_singular", sweep_space_singular}, {"space_redundancy", sweep_space_redundancy},
+};
 
-static const axis AXES[] = {{"step", sweep_step},           {"gain", sweep_gains},
-                            {"tolerance", sweep_tolerance}, {"mass_ratio", sweep_mass},
-                            {"stiffness", sweep_stiffness}, {"units", sweep_units},
-                            {"speed", sweep_speed},         {"start_time", sweep_start_time},
-                            {"violation", sweep_violation}, {"singular", sweep_singular},
-                            {"bodies", sweep_bodies},       {"redundancy", sweep_redundancy}};
+/* ---- all ---- */
 
-cell_list axes_cells(const char *axis_)
+static bool begins(const char *name, const char *with)
+{
+  return !with || strncmp(with, name, strlen(with)) == 0;
+}
+
+cell_list axes_cells(const char *axis)
 {
   cell_list list = {0};
-  for (size_t k = 0; k < sizeof AXES / sizeof AXES[0]; k++) {
-    if (!axis_ || strcmp(axis_, AXES[k].name) == 0) {
-      AXES[k].sweep(&list);
+  for (size_t k = 0; k < sizeof DECADES / sizeof DECADES[0]; k++) {
+    if (begins(DECADES[k].name, axis)) {
+      sweep_decades(&list, &DECADES[k]);
+    }
+  }
+  for (size_t k = 0; k < sizeof OTHERS / sizeof OTHERS[0]; k++) {
+    if (begins(OTHERS[k].name, axis)) {
+      OTHERS[k].sweep(&list);
     }
   }
   return list;

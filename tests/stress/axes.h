@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stress grid: which cells there are. */
+/* Lists the cells of the stress grid. */
 #ifndef BAUM_TEST_AXES_H
 #define BAUM_TEST_AXES_H
 
@@ -11,7 +11,7 @@ typedef struct cell_list {
   int room;
 } cell_list;
 
-/* All cells; of `axis` alone if it is not NULL. */
+/* Returns all cells, or only those of axes whose names begin with `axis` unless NULL. */
 cell_list axes_cells(const char *axis);
 void axes_free(cell_list *list);
 

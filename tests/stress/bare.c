@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same stress grid without this library: the pendulum and the slider-crank as one would write
- * them for CVODE and IDA in an afternoon. Dense matrices, gains of 5 1/s out of the textbook, atol
- * = rtol, the start as it is drawn; nothing is scaled, assembled or watched.
+/* The stress grid without this library: pendulum and slider-crank as an engineer would program them
+ * for CVODE and IDA in an afternoon. Matrices are dense, gains are 5 1/s as in textbooks, atol =
+ * rtol, and runs start in the design configuration. Nothing is scaled, assembled or checked.
  *
  *   bare [--list]
  *
- * The counts stand beside those of the library on the same cells, with the same oracle and the same
- * promise.
+ * Prints the counts of outcomes next to those of the library for the same cells, with the same
+ * oracle and the same permitted errors.
  */
 #include <cvode/cvode.h>
 #include <ida/ida.h>
@@ -29,7 +29,7 @@ static const double GAIN = 5.0; /* [1/s] alpha = beta */
 typedef enum bare_way { ADAMS, BDF, INDEX1, INDEX3, BARE_WAYS } bare_way;
 static const char *const BARE_NAMES[BARE_WAYS] = {"CVODE Adams", "CVODE BDF", "IDA index 1",
                                                   "IDA index 3"};
-/* What the library offers in their place; both forms of IDA stand beside one. */
+/* The integrators of the library to compare with; both forms of IDA have the same one. */
 static const char *const BESIDE[BARE_WAYS] = {"adams", "bdf", "ida ggl", "ida ggl"};
 
 /* ---- the equations, by hand ---- */
@@ -73,7 +73,7 @@ typedef struct rows {
   double j[ROWS][Q];
 } rows;
 
-/* Adds sign (r + A(angle) (x, 0)) of body b to two rows. */
+/* Adds sign times the point (x, 0) of body b, which is r + A(angle) (x, 0), to two rows. */
 static void add_point(rows *r, int row, const double *q, const double *v, int b, double x,
                       double sign)
 {
@@ -146,7 +146,7 @@ static void load(const hand *h, const double *q, const double *v, double *force)
   }
 }
 
-/* Gauss with the largest pivot of a column; false for a pivot of zero. */
+/* Gaussian elimination with partial pivoting; false if a pivot is zero. */
 static bool eliminate(int n, double a[KKT][KKT + 1])
 {
   for (int k = 0; k < n; k++) {
@@ -178,7 +178,8 @@ static bool eliminate(int n, double a[KKT][KKT + 1])
   return true;
 }
 
-/* Accelerations and multipliers with gains; false where the matrix is singular. */
+/* Solves for accelerations and multipliers, with Baumgarte's gains; false if the matrix is
+ * singular. */
 static bool accelerate(const hand *h, const double *q, const double *v, double *x)
 {
   static double a[KKT][KKT + 1];
@@ -265,15 +266,15 @@ static int dae(double t, N_Vector y_, N_Vector dy_, N_Vector residual, void *use
   return 0;
 }
 
-/* As it is drawn. */
-static void draw(const scene *s, double *q, double *v)
+/* Sets the design configuration. */
+static void set_design(const scene *s, double *q, double *v)
 {
   const double nudge = 1e-7;
   int width = scene_width(s);
   int last = scene_bodies(s) - 1;
   for (int k = 0; k <= last; k++) {
-    long double at[3];
-    long double next[3];
+    long double at[SCENE_NUMBERS];
+    long double next[SCENE_NUMBERS];
     scene_pose(s, k, s->angle, at);
     scene_pose(s, k, s->angle + (long double)nudge, next);
     for (int i = 0; i < width; i++) {
@@ -299,7 +300,7 @@ static bool start_cvode(problem *p, const cell *c, double t)
   return fine && CVodeSetLinearSolver(p->memory, p->solver, p->matrix) == 0;
 }
 
-/* Accelerations and multipliers of the start are solved for, as any guide says. */
+/* Starts with consistent accelerations and multipliers, as user guides recommend. */
 static bool start_ida(problem *p, const cell *c, double t)
 {
   int n = p->h.n;
@@ -327,7 +328,7 @@ static bool start_ida(problem *p, const cell *c, double t)
   return fine;
 }
 
-/* Returns whether it says that it got there; steps are counted. */
+/* Integrates to `end` and counts steps. Returns whether the integrator reports success. */
 static bool advance(problem *p, const cell *c, double t, double end, int64_t *steps)
 {
   bool ida = p->which >= INDEX3 || p->which == INDEX1;
@@ -387,7 +388,7 @@ static grade grade_bare(const cell *c, bare_way which, double scale)
   problem p = open_problem(s, which);
   double *y = N_VGetArrayPointer(p.y);
   double t = s->start * s->units.time;
-  draw(s, y, y + p.h.n);
+  set_design(s, y, y + p.h.n);
   time.scale = scale;
   if (advance(&p, c, t, t + time.span * s->units.time, &out.steps)) {
     cell_measure(c, s, y, &time, &out);
@@ -400,7 +401,7 @@ static grade grade_bare(const cell *c, bare_way which, double scale)
 static bool suits(const cell *c, bare_way which)
 {
   const scene *s = &c->scene;
-  return (s->kind == SCENE_BOB || s->kind == SCENE_CRANK) && !s->driven &&
+  return (s->kind == SCENE_BOB || s->kind == SCENE_CRANK) && !s->driven && !s->tilted &&
          strcmp(c->way->name, BESIDE[which]) == 0 && isnan(c->gain) && s->spare <= 5 &&
          c->begin == BAUM_START_ASSEMBLE;
 }
@@ -442,8 +443,8 @@ static void compare(const cell_list *list, bare_way which, bool tell)
     cells++;
     if (tell) {
       printf("  %s = %g, %s: %s %.1e of %.1e, %lld steps; %s %.1e\n", c->axis, c->value,
-             scene_name(c->scene.kind), outcome_name(a.outcome), a.error, a.promise,
-             (long long)a.steps, outcome_name(b.outcome), b.error);
+             scene_name(&c->scene), outcome_name(a.outcome), a.error, a.promise, (long long)a.steps,
+             outcome_name(b.outcome), b.error);
     }
   }
   print_row(BARE_NAMES[which], bare, cells);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One cell of the stress grid: a scene, a way to integrate it, and what has become of it. */
+/* One cell of the stress grid: a scene, a way to integrate it, and the result. */
 #ifndef BAUM_TEST_CELL_H
 #define BAUM_TEST_CELL_H
 
@@ -10,8 +10,8 @@ typedef struct way {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  bool fixed;   /* takes a step */
-  double order; /* of a fixed step, with the default gains */
+  bool fixed;   /* the step is fixed */
+  double order; /* at a fixed step, with the default gains */
   bool built;   /* part of this build */
 } way;
 
@@ -20,33 +20,33 @@ typedef struct cell {
   double value; /* along the axis */
   scene scene;
   const way *way;
-  double periods;   /* length of the run in periods of its fastest rate */
-  double step;      /* in those periods, fixed steps */
-  double rtol;      /* variable steps */
-  double gain;      /* alpha = beta in the rate; NaN: the default rule */
-  double share;     /* what of the promise is added for faults of the data [-], of the scale */
+  double periods;   /* duration of the run, in periods of its fastest rate */
+  double step;      /* fixed step, in those periods */
+  double rtol;      /* for variable steps */
+  double gain;      /* [1/s] alpha = beta; NaN: the default rule */
+  double share;     /* [-] added to the permitted error for inexact data, relative to the scale */
   baum_start begin; /* how to begin */
   int64_t most;     /* steps */
 } cell;
 
 typedef enum outcome {
-  MET,     /* the tolerance */
+  MET,     /* the error is within the promise */
   REFUSED, /* before the start */
   STOPPED, /* with a reason */
-  WARNED,  /* of doubt in the motion */
-  CROSSED, /* took branches within 1e-10 of each other for crossing ones, and told of the crossing
+  WARNED,  /* that the motion may be wrong */
+  CROSSED, /* wrong, but reported a singularity crossing where branches are within 1e-10
               */
-  WRONG,   /* status OK, no doubt, and off by more than promised */
+  WRONG,   /* status OK, no warning, and an error above the promise */
   OUTCOMES
 } outcome;
 
 typedef struct grade {
   outcome outcome;
-  bool false_alarm;   /* refused, or warned of the motion, which is right */
-  double error;       /* of the scale, or rad; NaN where there is none */
-  double promise;     /* likewise */
+  bool false_alarm;   /* refused or warned, although the motion is right */
+  double error;       /* relative to the scale, or in rad; NaN: none */
+  double promise;     /* largest permitted error, likewise */
   double seconds;     /* of the run */
-  double all_seconds; /* and of the oracle */
+  double all_seconds; /* of run and oracle */
   int64_t steps;
   baum_status status;
   char message[400];
@@ -54,16 +54,16 @@ typedef struct grade {
 
 const char *outcome_name(outcome o);
 
-/* How long a cell runs, and in which units of time and length. */
+/* Duration of a cell's run, and its units of time and length. */
 typedef struct cell_time {
-  double rate;   /* [rad/s] fastest of the motion */
+  double rate;   /* [rad/s] fastest rate of the motion */
   double period; /* [s] */
   double span;   /* [s] */
   double scale;  /* [m] */
 } cell_time;
 
 cell_time cell_time_of(const cell *c);
-/* Error and promise of positions q, in the units of the scene, after out->steps. */
+/* Writes error and promise for positions q, in the units of the scene, after out->steps steps. */
 void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time,
                   grade *out);
 grade cell_grade(const cell *c);

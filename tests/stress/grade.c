@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run promises, and whether it has kept it.
+/* Computes the error that a run may have, its promise, and compares the actual error with it.
  *
- * Errors are the largest of positions at the end, of the length scale or in radians. Where steps
- * are chosen, the error of each, a mean over all coordinates, is estimated and held at rtol; later
- * it grows as neighbouring motions part. So the promise is
+ * The error is the largest of all positions at the end, relative to the length scale or in radians.
+ * With variable steps, the estimated error of each step, a mean over all coordinates, is at most
+ * rtol. It then grows as neighbouring motions diverge. So the promise is
  *
  *   CONSTANT x rtol x steps x growth
  *
- * with the growth of the oracle's own neighbours, and a constant for what is between the mean and
- * the largest, and between an error and its estimate. With a fixed step it is what a method of
- * order p leaves,
+ * The oracle gives the growth from neighbouring motions. The constant covers the ratio of the
+ * largest error to the mean, and of an error to its estimate. With a fixed step the promise is the
+ * error of a method of order p,
  *
  *   CONSTANT x rate T x (rate h)^p x growth
  *
- * for the fastest rate of the motion: error constants of all methods here are below 1, and
- * derivatives of a motion are a few times powers of that rate. Both have the rounding of a double
- * for each step added.
+ * with the fastest rate of the motion: error constants of all methods here are below 1, and
+ * derivatives of a motion are a few times powers of that rate. Both promises also include the
+ * rounding error of a double for each step.
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,12 +23,14 @@
 #include <time.h>
 
 #include "cell.h"
+#include "space.h"
+#include "tilt.h"
 
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* An error above this share of the mechanism, and above so many tolerances, is no answer, whatever
- * a step may leave and however neighbours part. */
+/* Upper bound of every promise: this share of the length scale or, with variable steps, so many
+ * times rtol if that is more. A result with a larger error is useless. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
@@ -46,7 +48,7 @@ const char *outcome_name(outcome o)
 typedef struct truth {
   double rate;   /* [rad/s] fastest */
   double span;   /* [s] */
-  double growth; /* [-] of what is between neighbours */
+  double growth; /* [-] of the distance of neighbouring motions */
   oracle_state end;
   bool known;
 } truth;
@@ -56,24 +58,22 @@ static double rate_at(const oracle *o, oracle_state y)
   return (double)fmaxl(fabsl(y.v), sqrtl(fabsl(o->acceleration(o->scene, y.x, y.v))));
 }
 
-/* Largest distance between poses, lengths divided by `scale`. */
+/* Returns the largest distance of a body's poses at the angles x and y, lengths over `scale`. */
 static double distance(const scene *s, long double x, long double y, double scale)
 {
   double most = 0.0;
   int bodies = scene_bodies(s);
   for (int k = 0; k<bodies; k += bodies> 6 ? bodies / 3 : 1) {
-    long double a[3];
-    long double b[3];
+    long double a[SCENE_NUMBERS];
+    long double b[SCENE_NUMBERS];
     scene_pose(s, k, x, a);
     scene_pose(s, k, y, b);
-    for (int i = 0; i < scene_width(s); i++) {
-      most = fmax(most, fabs((double)(a[i] - b[i])) / (i < 2 ? scale : 1.0));
-    }
+    most = fmax(most, scene_distance(s, a, b, scale));
   }
   return most;
 }
 
-/* A stiff spring or damper has a rate of its own, which is not seen in the acceleration at rest. */
+/* Returns the rate of oscillation on a stiff spring. The acceleration at rest does not show it. */
 static double stiff_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};
@@ -82,7 +82,7 @@ static double stiff_rate(const scene *s)
   return slope > 0 ? sqrt((double)slope / 1e-3) : 0.0;
 }
 
-/* Fastest rate over some radians, which makes the unit of time of a cell. */
+/* Returns the fastest rate in the first LOOKS radians. Its period is a cell's unit of time. */
 static double find_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};
@@ -163,12 +163,21 @@ static void count(trial *t)
   }
 }
 
-/* Where a body was drawn out of place, the motion begins with the pose that was assembled. */
+/* If a body is displaced in the design configuration, the true motion starts where the library
+ * assembled it. */
 static void take_start(trial *t)
 {
   scene *s = &t->scene;
   const double *q = baum_simulation_q(t->run);
   const double *v = baum_simulation_v(t->run);
+  if (s->tilted) {
+    double pose[3];
+    double off[2];
+    model_untilt_body(q, pose, off);
+    s->angle = pose[2];
+    s->rate = v[5] * s->units.time;
+    return;
+  }
   bool bob = s->kind == SCENE_BOB;
   s->angle = bob ? atan2(q[1], q[0]) : q[2];
   s->rate =
@@ -205,22 +214,25 @@ static void end_trial(trial *t)
 static double error_of(const scene *s, const double *q, oracle_state end, double scale)
 {
   int width = scene_width(s);
+  int lengths = space_is(s) ? 3 : 2;
   double most = 0.0;
   for (int k = 0; k < scene_bodies(s); k++) {
-    long double pose[3];
-    scene_pose(s, k, end.x, pose);
+    long double want[SCENE_NUMBERS];
+    long double got[SCENE_NUMBERS];
+    scene_pose(s, k, end.x, want);
     for (int i = 0; i < width; i++) {
-      double unit = i < 2 ? s->units.length : 1.0;
-      double error = fabs((double)(q[width * k + i] / unit - pose[i])) / (i < 2 ? scale : 1.0);
-      most = error > most || isnan(error) ? error : most;
+      double unit = i < lengths ? s->units.length : 1.0;
+      got[i] = q[width * k + i] / unit;
     }
+    double error = scene_distance(s, got, want, scale);
+    most = error > most || isnan(error) ? error : most;
   }
   return most;
 }
 
 static double promise_of(const cell *c, const truth *true_, int64_t steps, double scale)
 {
-  double parts = fmax(scale, scene_bodies(&c->scene)); /* each adds its own, and bodies have 1 m */
+  double parts = fmax(scale, scene_bodies(&c->scene)); /* rounding of bodies of 1 m adds up */
   double rounding = ROUNDING * (double)(steps + 100) * parts;
   double method = CONSTANT * c->rtol * (double)steps;
   double most = fmax(WORTHLESS, TOLERANCES * c->rtol);
@@ -261,7 +273,7 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* Below this distance a configuration is singular for doubles. */
+/* In double precision, a configuration this close to a singular one is singular. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
@@ -281,8 +293,8 @@ static outcome judge(const trial *t, const grade *g)
   return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
 
-/* A start that is neither singular nor inconsistent should not be refused; gains that are called
- * unstable should not do well. */
+/* Returns true for two kinds of wrong refusal: a start that is neither singular nor inconsistent,
+ * and gains that the library calls unstable although the run meets its promise with them. */
 static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {
@@ -330,8 +342,8 @@ grade cell_grade(const cell *c)
     measure(c, &t, time, &out);
   }
   out.outcome = judge(&t, &out);
-  /* Which way a motion goes from a singular configuration is open, however well one of them has
-   * been followed. */
+  /* From a singular configuration the motion can take several branches. A warning is right there,
+   * even if the run followed one of them accurately. */
   bool open = c->scene.gap <= SINGULAR;
   out.false_alarm = (out.outcome == WARNED && out.error <= out.promise && !open) ||
                     (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));

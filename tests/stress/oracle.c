@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard, Numerische
- * Mathematik
- * 41 (1983) 373). Its error is a series in h^2 whatever the Jacobian, which therefore may be taken
- * by differences; with none it is the method of Gragg, Bulirsch and Stoer.
+ * Mathematik 41 (1983) 373). Its error is a series in h^2 for any Jacobian, so differences are
+ * sufficient for the Jacobian. If that is zero, the method is that of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 
@@ -11,7 +10,7 @@
 enum { COLUMNS = 8, MOST_STEPS = 4000 };
 
 static const int PARTS[COLUMNS] = {2, 6, 10, 14, 22, 34, 50, 70};
-/* Error of a step in x, against rounding of 5e-20 that extrapolation enlarges some ten times. */
+/* Permitted error of x in a step. Extrapolation enlarges the rounding of 5e-20 about ten times. */
 static const long double TOLERANCE = 1e-17L;
 
 typedef struct slopes {
@@ -19,7 +18,7 @@ typedef struct slopes {
   long double v;
 } slopes;
 
-/* Central differences; only the speed of the extrapolation depends on their digits. */
+/* The Jacobian by central differences. Only the speed of extrapolation depends on its accuracy. */
 static slopes slopes_at(const oracle *o, oracle_state y, long double span)
 {
   long double dx = 1e-6L;
@@ -59,7 +58,7 @@ static oracle_state midpoints(const oracle *o, slopes j, long double span, int p
   return (oracle_state){y.x + d.x, y.v + d.v};
 }
 
-/* Neville's scheme in h^2; returns the difference of the last two columns. */
+/* Extrapolates a step by Neville's scheme; returns the difference of the last two columns. */
 static long double step(const oracle *o, long double span, oracle_state from, oracle_state *to)
 {
   slopes j = slopes_at(o, from, span);

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With the configuration p(x) of all coordinates as a function of one angle, and masses m,
+/* With all coordinates p(x) as functions of one angle x(t), p' = dp/dx, and masses m,
  *
  *   (sum m p'^2) x'' = sum (G p' - m p' p'' x'^2) - k (x - x_r) - d x'
  *
- * where G is gravity's force. Bodies that move alike are taken once, with their number.
+ * where G is the force of gravity; k, d and x_r are stiffness, damping and relaxed angle of the
+ * spring. Bodies that move alike are evaluated once and multiplied by their number.
  */
-#include "scene.h"
+#include "space.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "tilt.h"
 
 static const long double CRANK = 1.0L;
 static const long double COUPLER = 2.0L;
@@ -15,32 +19,45 @@ static const long double ROCKER = 2.2L;
 static const long double GROUND = 2.5L;
 static const double RELAXED = 0.1; /* [rad] behind the start */
 
+static const scene START[SCENE_KINDS] = {
+  [SCENE_BOB] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_PENDULUM] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_CRANK] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_FOUR_BAR] = {.count = 2, .angle = 1.0, .rate = 1.0, .gravity = 9.81},
+  /* Starts hanging, and does not reach singular (flat) configurations. */
+  [SCENE_WINDOWS] = {.count = 2, .angle = -1.0, .rate = 1.0, .gravity = 9.81},
+  [SCENE_CHAIN] = {.count = 3, .angle = 0.3, .rate = 3.0, .gravity = 0.0},
+  [SCENE_SPATIAL_CRANK] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_RSSR] = {.angle = 0.0, .rate = 1.0, .gravity = 9.81, .driven = true},
+  [SCENE_BRICARD] = {.angle = 1.0, .rate = 1.0, .gravity = 9.81},
+  [SCENE_TOP] = {.angle = 0.0, .rate = 100.0, .gravity = 9.81},
+};
+
 scene scene_of(scene_kind kind)
 {
-  return (scene){.kind = kind,
-                 .count = kind == SCENE_CHAIN ? 3 : 2,
-                 .angle = kind == SCENE_FOUR_BAR ? 1.0
-                          : kind == SCENE_WINDOWS
-                            ? -1.0 /* hangs, and does not reach flat configurations */
-                            : 0.3,
-                 .rate = kind == SCENE_CHAIN ? 3.0 : 1.0,
-                 .gravity = kind == SCENE_CHAIN ? 0.0 : 9.81,
-                 .ratio = 1.0,
-                 .rod = 2.0,
-                 .gap = 1.0,
-                 .units = {1.0, 1.0, 1.0}};
+  scene s = START[kind];
+  s.kind = kind;
+  s.ratio = 1.0;
+  s.rod = 2.0;
+  s.gap = 1.0;
+  s.units = (model_units){1.0, 1.0, 1.0};
+  return s;
 }
 
-const char *scene_name(scene_kind kind)
+const char *scene_name(const scene *s)
 {
-  static const char *const NAMES[SCENE_KINDS] = {"bob",      "pendulum", "crank",
-                                                 "four_bar", "windows",  "chain"};
-  return NAMES[kind];
+  static const char *const NAMES[SCENE_KINDS] = {"bob",     "pendulum", "crank",         "four_bar",
+                                                 "windows", "chain",    "spatial crank", "rssr",
+                                                 "bricard", "top"};
+  static const char *const TILTED[SCENE_KINDS] = {"tilted bob",     "tilted pendulum",
+                                                  "tilted crank",   "tilted four_bar",
+                                                  "tilted windows", "tilted chain"};
+  return s->tilted ? TILTED[s->kind] : NAMES[s->kind];
 }
 
 int scene_width(const scene *s)
 {
-  return s->kind == SCENE_BOB ? 2 : 3;
+  return space_is(s) ? SPACE_NUMBERS : s->kind == SCENE_BOB ? 2 : 3;
 }
 
 int scene_bodies(const scene *s)
@@ -50,6 +67,10 @@ int scene_bodies(const scene *s)
   case SCENE_FOUR_BAR: return 3;
   case SCENE_WINDOWS: return 2 * s->count + 1;
   case SCENE_CHAIN: return s->count;
+  case SCENE_SPATIAL_CRANK:
+  case SCENE_RSSR:
+  case SCENE_BRICARD:
+  case SCENE_TOP: return space_bodies(s);
   case SCENE_BOB:
   case SCENE_PENDULUM:
   case SCENE_KINDS:
@@ -57,7 +78,7 @@ int scene_bodies(const scene *s)
   }
 }
 
-/* ---- geometry: a point or an angle with its first and second derivative ---- */
+/* ---- geometry: points and angles with their first and second derivatives by x ---- */
 
 typedef struct curve {
   long double at[3]; /* x, y, angle */
@@ -65,14 +86,14 @@ typedef struct curve {
   long double dd[3];
 } curve;
 
-/* An angle as a function of x. */
+/* An angle and its derivatives by x. */
 typedef struct turn {
   long double at;
   long double d;
   long double dd;
 } turn;
 
-/* A body whose centre is `length` from `from` in the direction of the angle. */
+/* Returns the point at `length` from `from` in the direction of the angle a, with that angle. */
 static curve along(curve from, turn a, long double length)
 {
   long double c = length * cosl(a.at);
@@ -83,7 +104,7 @@ static curve along(curve from, turn a, long double length)
     {from.dd[0] - s * a.dd - c * a.d * a.d, from.dd[1] + c * a.dd - s * a.d * a.d, a.dd}};
 }
 
-/* The same point on a body that does not turn. */
+/* The same point, with the angle 0. */
 static curve level(curve p)
 {
   p.at[2] = p.d[2] = p.dd[2] = 0;
@@ -94,7 +115,7 @@ static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
   if (rod == CRANK) {
-    return (turn){-x, -1, 0}; /* smoothly through where both fall on each other */
+    return (turn){-x, -1, 0}; /* the branch on which rod and crank pass smoothly over each other */
   }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
   long double c = cosl(a.at);
@@ -103,7 +124,7 @@ static turn rod_of_crank(const scene *s, long double x)
   return a;
 }
 
-/* Coupler and rocker from crank e(x) + coupler e(a) = ground + rocker e(b), e a unit vector. */
+/* Solves crank e(x) + coupler e(a) = ground + rocker e(b) for a and b; e(a) = (cos a, sin a). */
 static void close_four_bar(long double x, turn *a, turn *b)
 {
   long double r[2] = {GROUND - CRANK * cosl(x), -CRANK * sinl(x)};
@@ -115,7 +136,7 @@ static void close_four_bar(long double x, turn *a, turn *b)
   long double sa = COUPLER * sinl(a->at);
   long double cb = ROCKER * cosl(b->at);
   long double sb = ROCKER * sinl(b->at);
-  long double det = sa * cb - ca * sb; /* of -sa d_a + sb d_b = f, ca d_a - cb d_b = g */
+  long double det = sa * cb - ca * sb; /* of -sa a' + sb b' = f, ca a' - cb b' = g */
   long double f = CRANK * sinl(x);
   long double g = -CRANK * cosl(x);
   a->d = (-cb * f - sb * g) / det;
@@ -126,7 +147,7 @@ static void close_four_bar(long double x, turn *a, turn *b)
   b->dd = (-sa * g - ca * f) / det;
 }
 
-/* Cranks and couplers in turn. */
+/* Even bodies are cranks, odd ones are couplers. */
 static curve pose_in_windows(int body, turn first)
 {
   curve left = {{(long double)(body / 2)}, {0}, {0}};
@@ -142,7 +163,7 @@ static curve pose_of(const scene *s, int body, long double x)
   curve tip = along(origin, first, CRANK);
   turn a = {0};
   turn b = {0};
-  switch (s->kind) {
+  switch ((int)s->kind) {
   case SCENE_BOB: return tip;
   case SCENE_CRANK: a = rod_of_crank(s, x); break;
   case SCENE_FOUR_BAR:
@@ -153,9 +174,7 @@ static curve pose_of(const scene *s, int body, long double x)
     break;
   case SCENE_WINDOWS: return pose_in_windows(body, first);
   case SCENE_CHAIN: return along(origin, first, (body + 0.5L) / s->count);
-  case SCENE_PENDULUM:
-  case SCENE_KINDS:
-  default: break;
+  default: break; /* a pendulum */
   }
   long double length = s->kind == SCENE_CRANK ? (long double)s->rod : COUPLER;
   return body == 0   ? along(origin, first, CRANK / 2)
@@ -163,12 +182,31 @@ static curve pose_of(const scene *s, int body, long double x)
                      : level(along(tip, a, length));
 }
 
-void scene_pose(const scene *s, int body, long double x, long double pose[3])
+void scene_pose(const scene *s, int body, long double x, long double pose[SCENE_NUMBERS])
 {
+  if (s->kind > SCENE_CHAIN) {
+    space_pose(s, body, x, pose);
+    return;
+  }
   curve p = pose_of(s, body, x);
-  pose[0] = p.at[0];
-  pose[1] = p.at[1];
-  pose[2] = p.at[2];
+  if (s->tilted) {
+    space_tilt(p.at, pose);
+  } else {
+    memcpy(pose, p.at, sizeof p.at);
+  }
+}
+
+double scene_distance(const scene *s, const long double *a, const long double *b, double scale)
+{
+  double most = 0.0;
+  if (space_is(s)) {
+    return space_distance(a, b, scale);
+  }
+  for (int i = 0; i < scene_width(s); i++) {
+    double off = fabs((double)(a[i] - b[i])) / (i < 2 ? scale : 1.0);
+    most = off > most || isnan(off) ? off : most;
+  }
+  return most;
 }
 
 /* ---- masses ---- */
@@ -191,8 +229,7 @@ static double mass_of(const scene *s, int body)
   return last && s->kind != SCENE_PENDULUM ? mass * s->ratio : mass;
 }
 
-/* The one body of a pendulum is all its mass; its ratio is that of its inertia to a uniform
- * rod's. */
+/* A pendulum has only one body; its `ratio` is its inertia relative to that of a uniform rod. */
 static double inertia_of(const scene *s, int body)
 {
   double length = length_of(s, body);
@@ -239,6 +276,9 @@ long double scene_acceleration(const void *scene_, long double x, long double v)
   const scene *s = scene_;
   if (s->kind == SCENE_CHAIN || s->driven) {
     return 0;
+  }
+  if (s->kind > SCENE_CHAIN) {
+    return space_acceleration(s, x, v);
   }
   sums all = sum_bodies(s, x, v);
   all.force -= s->stiffness * (x - (s->angle - RELAXED)) + s->damping * v;
@@ -306,7 +346,7 @@ static void pin_four_bar(baum_i_parts *parts, const baum_body_id *b)
   pin(parts, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
 }
 
-/* Body k hangs on the one before it; returns its first pin. */
+/* Pins body k to the body before it or to ground; returns its first pin. */
 static baum_joint_id hang(baum_i_parts *parts, const scene *s, baum_body_id before,
                           baum_body_id body, int k)
 {
@@ -375,7 +415,7 @@ static void add_spring(baum_i_parts *parts, const scene *s, baum_body_id body)
   parts->status = baum_mechanism_add_planar_torsion_spring(parts->mechanism, &def, NULL);
 }
 
-baum_status scene_build(const scene *s, model *out)
+static baum_status build_planar(const scene *s, model *out)
 {
   baum_i_parts parts = baum_i_parts_begin();
   baum_i_parts_gravity(&parts, s->gravity);
@@ -403,4 +443,26 @@ baum_status scene_build(const scene *s, model *out)
   add_spring(&parts, s, first[0]);
   bool si = s->units.length == 1.0 && s->units.mass == 1.0 && s->units.time == 1.0;
   return model_finish(&parts, si ? NULL : &s->units, out);
+}
+
+/* Replaces a model by its twin in a tilted plane. A violation also moves the last body off the
+ * plane. */
+static baum_status tilt_model(const scene *s, model *m)
+{
+  baum_mechanism *tilted = NULL;
+  baum_status status = model_tilt(m->mechanism, s->violation * s->units.length, &tilted);
+  model_destroy(m);
+  return status == BAUM_OK ? model_adopt(tilted, m) : status;
+}
+
+baum_status scene_build(const scene *s, model *out)
+{
+  if (s->kind > SCENE_CHAIN) {
+    baum_mechanism *mechanism = NULL;
+    *out = (model){.mechanism = NULL};
+    baum_status status = space_build(s, &mechanism);
+    return status == BAUM_OK ? model_adopt(mechanism, out) : status;
+  }
+  baum_status status = build_planar(s, out);
+  return status == BAUM_OK && s->tilted ? tilt_model(s, out) : status;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of one degree of freedom whose motion is known from one equation for one angle, with
- * every number that the stress grid varies. SI units; `units` only says in which ones the mechanism
- * is built. */
+/* Mechanisms of one degree of freedom, whose exact motion follows from one equation for one angle.
+ * A scene holds all numbers that the stress grid varies, in SI units; the mechanism is built in
+ * `units`. */
 #ifndef BAUM_TEST_SCENE_H
 #define BAUM_TEST_SCENE_H
 
@@ -14,46 +14,53 @@ typedef enum scene_kind {
   SCENE_CRANK,    /* slider-crank */
   SCENE_FOUR_BAR, /* crank and rocker */
   SCENE_WINDOWS,  /* N-four-bar */
-  SCENE_CHAIN,    /* straight, turning without gravity; 1 m long in all */
+  SCENE_CHAIN,    /* straight, rotating without gravity; its total length is 1 m */
+  /* Spatial mechanisms of the catalogue: */
+  SCENE_SPATIAL_CRANK, /* slider-crank; its spring acts on the slider */
+  SCENE_RSSR,          /* four-bar, driven */
+  SCENE_BRICARD,       /* has a redundant row; `ratio` is that of moments of inertia */
+  SCENE_TOP,           /* heavy top that precesses steadily with a horizontal axis */
   SCENE_KINDS
 } scene_kind;
 
 typedef struct scene {
   scene_kind kind;
-  int count;      /* windows, links */
-  double angle;   /* [rad] at start, of the first body */
-  double rate;    /* [rad/s] likewise */
-  double gravity; /* [m/s^2] */
-  double ratio;   /* [-] mass of the last body to that of the first */
-  double rod;     /* [m] rod of the slider-crank, whose crank has 1 m */
-  double
-    stiffness;    /* [N m/rad] torsion spring at the first pin, relaxed 0.1 rad behind the start */
-  double damping; /* [N m s/rad] torsion damper, likewise */
-  bool driven;    /* the first body turns at its rate for ever */
-  double start;   /* [s] time at start */
-  double violation; /* [m] by which the last body is drawn beside its place */
-  int spare;        /* joints that say again what others say */
-  double off;       /* [m] by which spare joints disagree */
-  double gap;       /* [rad] or [-] from a singular configuration at start; tells the grade, not the
-                 mechanism */
+  int count;        /* windows, links */
+  double angle;     /* [rad] of the first body at start */
+  double rate;      /* [rad/s] likewise */
+  double gravity;   /* [m/s^2] */
+  double ratio;     /* [-] mass of the last body to that of the first */
+  double rod;       /* [m] length of the slider-crank's rod; its crank has 1 m */
+  double stiffness; /* [N m/rad] torsion spring at the first pin, relaxed at `angle` - 0.1 rad */
+  double damping;   /* [N m s/rad] torsion damper at the first pin */
+  bool driven;      /* a driver keeps the first body at `rate` */
+  double start;     /* [s] time at start */
+  double violation; /* [m] displacement of the last body in the design configuration */
+  int spare;        /* number of redundant joints */
+  double off;       /* [m] by which redundant joints contradict the others */
+  double gap;       /* [rad] or [-] from the start to a singular configuration, for grade.c */
+  bool tilted;      /* planar mechanism, built of spatial elements in a tilted plane */
   model_units units;
 } scene;
 
-/* Level, at rest under gravity, with equal masses, in SI units. */
+/* Returns the default scene of a kind, with equal masses, no spring, and SI units. */
 scene scene_of(scene_kind kind);
-const char *scene_name(scene_kind kind);
+const char *scene_name(const scene *s);
 
 baum_status scene_build(const scene *s, model *out);
 
-/* Where the motor, in doubles, has the first body at start [rad]; the angle at start without
- * one. */
+/* [rad] angle of the first body at start; if driven, the driver's value in double precision. */
 double scene_begin(const scene *s);
-/* Numbers of q per body. */
+enum { SCENE_NUMBERS = 7 };
+/* Number of coordinates of each body. */
 int scene_width(const scene *s);
 int scene_bodies(const scene *s);
-/* x, y, angle of a body [m, m, rad] when the angle of the first is x. */
-void scene_pose(const scene *s, int body, long double x, long double pose[3]);
-/* The one equation. */
+/* Pose of a body when the angle of the first is x: x, y, angle [m, m, rad], or seven coordinates in
+ * space. */
+void scene_pose(const scene *s, int body, long double x, long double pose[SCENE_NUMBERS]);
+/* Largest distance between poses: lengths divided by `scale`, angles in radians. */
+double scene_distance(const scene *s, const long double *a, const long double *b, double scale);
+/* The equation of motion: returns x'' at the angle x and the angular velocity v. */
 long double scene_acceleration(const void *s, long double x, long double v);
 
 #endif

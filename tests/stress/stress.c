@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress grid: every run meets its tolerance, or says why not.
+/* Stress grid: tests that every run meets its tolerance or reports why not.
  *
  *   stress [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
  *
- * --thin takes every K-th cell. Fails where a run is silently wrong, or more than
- * one alarm in twenty cells was false.
+ * --thin runs every K-th cell only. Fails if a run is silently wrong, or if there is more than one
+ * false alarm in twenty cells.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +51,7 @@ static void print_cell(const cell *c, const grade *g)
   (void)fflush(stdout);
   printf(
     "  %s = %g, %s (%d), %s: %s%s, error %.1e, promised %.1e, %lld steps, %.2f s of %.2f s%s%s\n",
-    c->axis, c->value, scene_name(c->scene.kind), scene_bodies(&c->scene), c->way->name,
+    c->axis, c->value, scene_name(&c->scene), scene_bodies(&c->scene), c->way->name,
     outcome_name(g->outcome), g->false_alarm ? ", false alarm" : "", g->error, g->promise,
     (long long)g->steps, g->seconds, g->all_seconds, g->message[0] ? "\n      " : "", g->message);
   (void)fflush(stdout);
@@ -66,7 +66,7 @@ static void print_json(const counts *n)
   printf(", \"false_alarm\": %d}\n", n->false_alarms);
 }
 
-/* One row for each name of an axis, in the order of their first cells. */
+/* Counts for each axis, in the order of their first cells. */
 typedef struct table {
   const char *axis[AXES_MOST];
   counts row[AXES_MOST];
@@ -138,8 +138,8 @@ int main(int argc, char **argv)
   if (w.json) {
     print_json(&all);
   }
-  /* One in twenty; of the hundred cells of a thinned map so many may be nearly twice that by
-   * chance. */
+  /* At most one false alarm in twenty cells; a thinned grid has only about a hundred cells, so that
+   * chance may double the share. */
   int cells_to_an_alarm = w.thin > 1 ? 10 : 20;
   bool fine = all.of[WRONG] == 0 && cells_to_an_alarm * all.false_alarms <= all.cells;
   return fine ? EXIT_SUCCESS : EXIT_FAILURE;

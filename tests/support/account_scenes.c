@@ -13,7 +13,7 @@ const account_scene account_scenes[ACCOUNT_SCENES] = {
 
 /* ---- functions of the user ---- */
 
-/* Harder than linear, with friction. */
+/* A spring that stiffens, with damping. */
 static int spring_law(double length, double rate, double *out, void *user)
 {
   (void)user;
@@ -24,7 +24,7 @@ static int spring_law(double length, double rate, double *out, void *user)
   return 0;
 }
 
-/* Begins with the rate 0 of a link at rest. */
+/* Starts with velocity 0, since the link is at rest. */
 static int drive_law(double t, double s[3], void *user)
 {
   (void)user;
@@ -34,7 +34,7 @@ static int drive_law(double t, double s[3], void *user)
   return 0;
 }
 
-/* Drag of a planar body, and a pull that has a potential: x^4 / 4. */
+/* Drag on a planar body, and a force with the potential x^4 / 4. */
 static int drag(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -55,7 +55,7 @@ static int pull(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* (r, angle) of 2 kg. */
+/* Mass matrix of a particle of 2 kg in polar coordinates (r, angle). */
 static int polar_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -65,7 +65,7 @@ static int polar_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A spring to the centre, and friction of 0.5 N s/m along the radius. */
+/* A spring towards the centre, and damping of 0.5 N s/m along the radius. */
 static int polar_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {
@@ -87,7 +87,7 @@ static int polar_potential(double t, const double *q, double *out, void *user)
 
 /* ---- parts ---- */
 
-/* What is added, after the first failure nothing. */
+/* Keeps the first failure of the calls that add parts. */
 typedef struct maker {
   baum_mechanism *m;
   baum_status status;
@@ -100,7 +100,7 @@ static void keep(maker *make, baum_status status)
   make->status = make->status == BAUM_OK ? status : make->status;
 }
 
-/* Two links of 1 m, designed along x; the second rotates at 2 rad/s. */
+/* Adds two links of 1 m along x; the second rotates at 2 rad/s. */
 static void add_links(maker *make, double off)
 {
   keep(make, baum_mechanism_set_gravity(make->m, 0.0, -9.81, 0.0));

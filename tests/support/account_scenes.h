@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose energy changes by every class of work that an account knows. */
+/* Mechanisms that together have every kind of work that an energy account distinguishes. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
 
 #include <baum/baum.h>
 
 typedef enum account_kind {
-  ACCOUNT_QUIET,    /* two links under gravity: nothing comes or goes */
-  ACCOUNT_DRIVEN,   /* the first link turns by a law */
-  ACCOUNT_DAMPED,   /* springs, dampers, a law of the user, loads, an input, a user force */
-  ACCOUNT_VIOLATED, /* begins off its constraints */
+  ACCOUNT_QUIET,    /* two links under gravity: constant energy */
+  ACCOUNT_DRIVEN,   /* a driver rotates the first link by a law */
+  ACCOUNT_DAMPED,   /* springs, dampers, a user law, loads, an input, a user force */
+  ACCOUNT_VIOLATED, /* starts off its constraints */
   ACCOUNT_POLAR,    /* a body in polar coordinates, M(q), with friction */
   ACCOUNT_SCENES
 } account_kind;

@@ -120,7 +120,7 @@ static int weight(double t, const double *q, double *out, void *user)
   return visit(user, ASKED_WEIGHT, out);
 }
 
-/* A tension or torque, and its derivatives. */
+/* A tension or torque and its derivatives. */
 static int spring(double length, double rate, double out[3])
 {
   out[0] = 3.0 * length + 0.1 * rate;
@@ -182,15 +182,15 @@ int asked_progress(const baum_simulation *run, double t, void *user)
   return visit(user, ASKED_PROGRESS, NULL);
 }
 
-/* ---- a mechanism with all of them ---- */
+/* ---- a mechanism with all functions ---- */
 
 static void add_masses(asked *b)
 {
   baum_coordinates_def def = baum_coordinates_def_default();
-  const double drawn = 0.3;
+  const double design_q = 0.3;
   def.name = "masses";
   def.size = 1;
-  def.q = &drawn;
+  def.q = &design_q;
   def.mass = mass;
   def.force = force;
   def.potential = potential;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism with every kind of function that a user may give, each of which can be put at fault,
- * or calls back.
+/* A mechanism with every kind of user function. One kind can be made to fail, to return NaN or to
+ * call the library.
  *
  *   masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling, torsion
  *   spring, user force), a driven crank, a pea on a curve with a spring; one input, the stiffness
@@ -33,7 +33,7 @@ typedef enum asked_kind {
   ASKED_PROGRESS = ASKED_KINDS
 } asked_kind;
 
-/* Element and function as messages name them. */
+/* The element and the function as named in messages. */
 typedef struct asked_name {
   const char *element;
   const char *function;
@@ -47,23 +47,24 @@ typedef enum asked_fault { ASKED_FINE, ASKED_STOPS, ASKED_GIVES_NAN, ASKED_CALLS
 typedef struct asked asked;
 
 struct asked {
-  asked_kind kind; /* which of them is at fault */
+  asked_kind kind; /* the kind that fails */
   asked_fault fault;
-  int64_t calls; /* of that kind, while it is at fault */
-  bool inside;   /* what it calls calls it again */
+  int64_t calls; /* of that kind, while it fails */
+  bool inside;   /* prevents recursion */
   baum_mechanism *mechanism;
   baum_joint_id motor;
   baum_input_id input;
   baum_simulation *run;
-  const baum_simulation *other; /* to go on from */
+  const baum_simulation *other; /* a run to continue from */
   baum_workspace *w;
-  void (*back)(asked *user); /* what it does when it calls back */
+  void (*back)(asked *user); /* called instead of failing, if the fault is ASKED_CALLS_BACK */
 };
 
-/* Frozen; the functions have the address of *b. Fails the test on failure. */
+/* Makes and freezes the mechanism, whose functions keep the address of *b. Fails the test on
+ * failure. */
 void asked_make(asked *b);
 
-/* Of an event, which is never zero, and of a run; their `user` is the asked. */
+/* An event function that is never zero, and a progress function; `user` is the asked. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user);
 int asked_progress(const baum_simulation *run, double t, void *user);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Comparison of doubles; cmocka's own is in float. Include after cmocka.h. */
+/* Comparison of doubles; that of cmocka uses float. Include after cmocka.h. */
 #ifndef BAUM_TEST_ASSERT_NEAR_H
 #define BAUM_TEST_ASSERT_NEAR_H
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The force of a row on body k is -lambda times its columns, so that
+/* The force of a row on body k is -lambda times the row's columns of that body, so that
  *
  *   force x: J [1 0 0 ...],   force y: J [0 1 0 ...],   moment about the origin: J [-y x 1 ...]
  *
- * with the three (or, of a particle, two) columns of each body must be zero.
+ * must be zero, where each body contributes its three columns (a particle: two).
  */
 #include "balance.h"
 
@@ -30,7 +30,7 @@ static bool has_ground(const baum_i_joint *joint)
   return false;
 }
 
-/* Adds the share of one column, and its size. */
+/* Adds the contribution of one column to the sums, and its absolute value to the size. */
 static void add_column(const baum_i_frame *frame, int coordinate, double value, double sums[SUMS],
                        double *size)
 {

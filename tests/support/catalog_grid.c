@@ -26,14 +26,14 @@ int catalog_tally_wrong(const catalog_tally *of)
   return of->missing + of->better + of->differ + of->unmarked;
 }
 
-/* ---- two studies ---- */
+/* ---- two studies of one entry ---- */
 
-/* An entry, studied twice up to the sample until which times of the catalogue are equally spaced,
- * as those of a study are. */
+/* An entry of the catalogue and two studies of it, up to the last sample with equal spacing,
+ * because the samples of a study are equally spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
-  double *times; /* of the catalogue */
-  int n;         /* samples after the start */
+  double *times; /* samples of the catalogue */
+  int n;         /* number of samples after the start */
   baum_mechanism *mechanism;
   baum_study *own;
   baum_study *stored;
@@ -55,7 +55,7 @@ static baum_status take_times(pair *p)
   return status;
 }
 
-/* Errors are known when half is done; times are not wanted. */
+/* Stops after the first half of the stages: errors are measured then, and times are not needed. */
 static int stop_before_times(const baum_study *study, int32_t done, int32_t total, void *user)
 {
   (void)study;
@@ -92,7 +92,7 @@ static baum_status add_same_entries(const baum_study *from, baum_study *to)
   return status;
 }
 
-/* Digits of the stored positions by the scales of the mechanism, as errors are. */
+/* Number of correct digits of the stored positions, relative to the scales of the mechanism. */
 static double digits_of(const pair *p, const baum_catalog_choice *choice, const double *q)
 {
   baum_catalog_error error;
@@ -132,9 +132,9 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
   return status == BAUM_OK ? run(p->stored) : status;
 }
 
-/* ---- what must be so ---- */
+/* ---- checks ---- */
 
-/* Whether the method has constant gains that leave a violation as it is, or more. */
+/* Whether the method has constant gains for which violations do not decay. */
 static bool has_unstable_constants(const baum_study_entry *entry)
 {
   baum_amplification a;
@@ -167,7 +167,7 @@ static bool is_consistent(const pair *p, const baum_study_entry *own,
   (void)baum_study_reference_read(p->stored, &b, sizeof b);
   double differ = fabs(stored->error_q - own->error_q);
   double open = a.uncertainty_q + b.uncertainty_q + 1e-14 * own->error_q; /* last: rounding */
-  return own->error_q == stored->error_q || differ <= open; /* equal: both may be infinite */
+  return own->error_q == stored->error_q || differ <= open;               /* both may be infinite */
 }
 
 static bool is_better(const baum_study_entry *entry, const baum_study *study)
@@ -199,7 +199,7 @@ static void judge_entry(const pair *p, int32_t k, catalog_tally *t)
   catalog_tally_add(t, &one);
 }
 
-/* Entries that an integrator has with a formulation. */
+/* Number of entries of an integrator with a formulation. */
 static int count_entries(const baum_study *study, const baum_integrator *integrator,
                          baum_formulation formulation)
 {
@@ -214,8 +214,8 @@ static int count_entries(const baum_study *study, const baum_integrator *integra
   return count;
 }
 
-/* Every integrator has each of its formulations with all settings, BAUMGARTE with all constants and
- * a rule. */
+/* Counts the missing methods: every integrator has each of its formulations with all settings, and
+ * BAUMGARTE with one rule and all constants. */
 static int count_missing(const baum_study *study, const baum_study_grid *grid)
 {
   int missing = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries of a study with a reference of its own against the reference of the catalogue. */
+/* Compares the entries of a study that computes its own reference with those of a study that uses
+ * the reference of the catalogue. */
 #ifndef BAUM_TEST_CATALOG_GRID_H
 #define BAUM_TEST_CATALOG_GRID_H
 
@@ -9,25 +10,24 @@
 /* Counts of entries. */
 typedef struct catalog_tally {
   int entries;
-  int state[BAUM_STUDY_TIMED_OUT + 1]; /* by their state */
+  int state[BAUM_STUDY_TIMED_OUT + 1]; /* by state */
   int off;
   int unstable;
   int at_floor;
   int compared; /* done in both studies */
-  int missing;  /* methods that are not there with all their settings, entries that were not run */
-  int better;   /* graded better than their reference is known */
-  int differ;   /* errors differ by more than both references leave open */
-  int unmarked; /* another motion or unstable gains, and no flag, or a flag without */
+  int missing;  /* methods without all their settings, and entries that were not run */
+  int better;   /* error below the uncertainty of the reference */
+  int differ;   /* errors differ by more than the uncertainty of both references */
+  int unmarked; /* another motion or unstable gains without a flag, or a flag without these */
 } catalog_tally;
 
 void catalog_tally_add(catalog_tally *sum, const catalog_tally *of);
 
-/* How many entries are not as they should be. */
+/* Number of entries that are missing, better, differ or unmarked. */
 int catalog_tally_wrong(const catalog_tally *of);
 
-/* Study an entry that has a reference twice, with these settings: with the study's own reference
- * and with the stored one. Entries that are wrong are printed. limit [s] is the option
- * entry_limit. */
+/* Studies a catalogue entry with these settings twice: with the study's own reference and with the
+ * stored one. Prints wrong entries. limit [s] is the option entry_limit. */
 baum_status catalog_grid_judge(const baum_catalog_entry *entry, const baum_study_grid *grid,
                                double limit, catalog_tally *out);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a test takes for granted: calls that do not fail, a build with SUNDIALS. Include after
+/* Preconditions of a test: calls that must not fail, a build with SUNDIALS. Include after
  * cmocka.h. */
 #ifndef BAUM_TEST_CHECK_H
 #define BAUM_TEST_CHECK_H
@@ -7,7 +7,7 @@
 #include <baum/status.h>
 #include <baum/version.h>
 
-/* Warnings are fine. */
+/* Fails the test unless the status is BAUM_OK or a warning. */
 static inline void check(baum_status status)
 {
   if (status < BAUM_OK) {
@@ -15,7 +15,7 @@ static inline void check(baum_status status)
   }
 }
 
-/* The test is skipped in a build without. */
+/* Skips the test in a build without SUNDIALS. */
 static inline void need_sundials(void)
 {
   if (!baum_has("sundials")) {

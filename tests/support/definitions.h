@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions that are refused, and definitions that come back as they were given. */
+/* Checks of definitions that must be refused, and of definitions that are read back. */
 #ifndef BAUM_TEST_DEFINITIONS_H
 #define BAUM_TEST_DEFINITIONS_H
 
@@ -8,17 +8,17 @@
 
 #include <baum/mechanism.h>
 
-/* The C library's are floats, which clang says aloud. */
+/* The macros of math.h are floats, and clang warns of the conversion. */
 #define TEST_NAN      ((double)NAN)
 #define TEST_INFINITY ((double)INFINITY)
 
-/* One kind's add function, without its id. */
+/* The add function of a kind, without the id. */
 typedef baum_status add_fn(baum_mechanism *mechanism, const void *def);
 
-/* The definition is refused with BAUM_ERR_ARGUMENT and this message, and nothing is added. */
+/* Adding the definition fails with BAUM_ERR_ARGUMENT and this message, and adds nothing. */
 void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *message);
 
-/* A good definition with one number replaced. */
+/* One number of a good definition is replaced by a bad value. */
 typedef struct bad_number {
   size_t offset;
   double value;
@@ -28,15 +28,15 @@ typedef struct bad_number {
 void check_bad_numbers(baum_mechanism *mechanism, add_fn *add, const void *good, size_t size,
                        const bad_number *numbers, int count);
 
-/* Both definitions say the same; names are compared as text. */
+/* Compares two definitions; names are compared as text. */
 void check_same_definition(const void *got, const void *want, size_t size);
 
-/* Size of a definition up to its last member: what pads its end has no value. */
+/* Size of a definition up to its last member, without padding at its end. */
 #define FILLED_SIZE(NAME, LAST) \
   (offsetof(baum_##NAME##_def, LAST) + sizeof(((baum_##NAME##_def *)0)->LAST))
 
-/* Add first, read it back, replace it by second, read that back. FAMILY: body, joint, force; NAME
- * as in baum_NAME_def, LAST its last member. */
+/* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY: body, joint, force;
+ * NAME as in baum_NAME_def, LAST its last member. */
 #define CHECK_ROUND_TRIP(FAMILY, NAME, LAST, mechanism, first, second)                          \
   do {                                                                                          \
     baum_##FAMILY##_id id_;                                                                     \

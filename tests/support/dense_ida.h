@@ -6,8 +6,8 @@
 
 #include "integrator_run.h"
 
-/* Replace the integrator of an open run, and release what it has made before the run is closed. One
- * run at a time. */
+/* Replaces the integrator of an open run. Release the replacement before the run is closed. One run
+ * at a time. */
 void dense_ida_use(integrator_run *run);
 void dense_ida_release(void);
 

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences are of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with h = 1e-3: truncation
- * h^4 f''''' / 30 is
- * 3e-14 times the fifth derivative, rounding about 1e-12 times f. With both up to some thousands at
- * the states that test_point_random() makes, 1e-8 of the value and of 1 is what the tolerance must
- * be.
- */
+/* Derivatives are compared with differences of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h
+ * with h = 1e-3. The truncation error h^4 f''''' / 30 is 3e-14 times the fifth derivative, rounding
+ * about 1e-12 times f. Both f and its fifth derivative may be some thousands at the states that
+ * test_point_random() makes, hence the tolerance of 1e-8, absolute and relative. */
 #include "derivatives.h"
 
 #include <setjmp.h>
@@ -22,18 +20,18 @@ static const double TOLERANCE = 1e-8;
 
 enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
 
-/* What functions below are evaluated with; fixed numbers, so that they are functions of the state
- * alone. */
+/* Fixed arguments of the functions below, so that these are functions of the state only. */
 typedef struct directions {
   double w[TEST_SIZE_MAX];
   double lambda[TEST_SIZE_MAX];
+  int coordinate; /* number of it, of the first joint */
 } directions;
 
 typedef void state_fn(test_point *p, const directions *d, double *out);
 
 static directions some_directions(void)
 {
-  directions d;
+  directions d = {.coordinate = 0};
   uint64_t seed = 17;
   for (int i = 0; i < TEST_SIZE_MAX; i++) {
     d.w[i] = test_uniform(&seed, -2.0, 2.0);
@@ -42,7 +40,7 @@ static directions some_directions(void)
   return d;
 }
 
-/* ---- blocks to full matrices, added up over the elements ---- */
+/* ---- blocks of all elements added to full matrices ---- */
 
 static void spread_rows(const test_point *p, const double *blocks, double *full)
 {
@@ -89,7 +87,7 @@ static void spread_force_squares(const test_point *p, const double *blocks, doub
 
 /* ---- functions of the state ---- */
 
-/* What is set, not added to, must not depend on what was there. */
+/* Fills with NaN, so that a function that adds to old values, or leaves one out, is noticed. */
 static void spoil(double *values, int count)
 {
   for (int i = 0; i < count; i++) {
@@ -180,15 +178,15 @@ static void potential_of(test_point *p, const directions *d, double *out)
 
 /* ---- the joint's coordinate ---- */
 
-static baum_i_coordinate coordinate_at(const test_point *p)
+static baum_i_coordinate coordinate_at(const test_point *p, const directions *d)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
   baum_i_coordinate c;
-  joint->type->coordinate(joint, &p->point, &c);
+  joint->type->coordinate(joint, d->coordinate, &p->point, &c);
   return c;
 }
 
-/* The columns of the joint's bodies to nv, and back. */
+/* Copies columns of the joint's bodies to all nv columns, and back. */
 static void spread_wide(const test_point *p, const double *wide, double *full)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
@@ -204,26 +202,32 @@ static void wide_of(const test_point *p, const double *full, double wide[BAUM_I_
 
 static void value_of(test_point *p, const directions *d, double *out)
 {
-  (void)d;
-  *out = coordinate_at(p).value;
+  *out = coordinate_at(p, d).value;
 }
 
 static void coordinate_rate_of(test_point *p, const directions *d, double *out)
 {
-  (void)d;
-  *out = coordinate_at(p).rate;
+  *out = coordinate_at(p, d).rate;
 }
 
 static void coordinate_gamma_of(test_point *p, const directions *d, double *out)
 {
-  (void)d;
-  *out = coordinate_at(p).gamma;
+  *out = coordinate_at(p, d).gamma;
 }
 
 static void coordinate_gradient_of(test_point *p, const directions *d, double *out)
 {
-  (void)d;
-  spread_wide(p, coordinate_at(p).gradient, out);
+  spread_wide(p, coordinate_at(p, d).gradient, out);
+}
+
+static void coordinate_jw_of(test_point *p, const directions *d, double *out)
+{
+  double gradient[TEST_SIZE_MAX];
+  coordinate_gradient_of(p, d, gradient);
+  *out = 0.0;
+  for (int i = 0; i < p->nv; i++) {
+    *out += gradient[i] * d->w[i];
+  }
 }
 
 /* ---- differences ---- */
@@ -266,7 +270,7 @@ static void compare(const char *what, int row, int column, double got, double di
   ASSERT_NEAR(got, difference, TOLERANCE, TOLERANCE);
 }
 
-/* A matrix (count x nv) is the derivative of fn in q, or in v. */
+/* Checks that a matrix (count x nv) is the derivative of fn with respect to q, or to v. */
 static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *fn,
                          const directions *d, int count, const double *matrix)
 {
@@ -282,16 +286,15 @@ static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *f
 }
 
 /* sign * values is the derivative of fn in time, the positions moving with v if asked, v held. */
-static void check_in_time(test_point *p, const char *what, bool moving, state_fn *fn, int count,
-                          double sign, const double *values)
+static void check_in_time(test_point *p, const char *what, bool moving, state_fn *fn,
+                          const directions *d, int count, double sign, const double *values)
 {
   double direction[1 + 2 * TEST_SIZE_MAX] = {1.0};
   double difference[TEST_SIZE_MAX];
-  const directions d = some_directions();
   if (moving) {
     memcpy(direction + 1, p->v, (size_t)p->nv * sizeof(double));
   }
-  slope(p, direction, fn, &d, count, difference);
+  slope(p, direction, fn, d, count, difference);
   for (int i = 0; i < count; i++) {
     compare(what, i, -1, sign * values[i], difference[i]);
   }
@@ -307,9 +310,9 @@ static void check_first_derivatives(test_point *p)
   full_jacobian(p, full);
   check_matrix(p, "J", true, phi_of, &d, p->nc, full);
   nu_of(p, &d, values);
-  check_in_time(p, "nu", false, phi_of, p->nc, -1.0, values);
+  check_in_time(p, "nu", false, phi_of, &d, p->nc, -1.0, values);
   gamma_of(p, &d, values);
-  check_in_time(p, "gamma", true, rate_of, p->nc, -1.0, values);
+  check_in_time(p, "gamma", true, rate_of, &d, p->nc, -1.0, values);
 }
 
 typedef struct joint_arrays {
@@ -325,7 +328,7 @@ static void linearize_joints(test_point *p, const directions *d, const baum_i_jo
   assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, d->w, d->lambda, blocks), BAUM_OK);
 }
 
-/* Asked for alone, a block is the same as among the others. */
+/* A block is the same whether it is requested alone or with the others. */
 static void check_blocks_alone(test_point *p, const directions *d, const joint_arrays *all)
 {
   size_t rows = (size_t)p->mechanism->jacobian_size * sizeof(double);
@@ -367,22 +370,27 @@ void check_joint_derivatives(test_point *p)
   check_second_derivatives(p);
 }
 
-void check_coordinate_derivatives(test_point *p)
+static void check_coordinate(test_point *p, int number)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
-  const directions d = some_directions();
-  baum_i_coordinate c = coordinate_at(p);
+  directions d = some_directions();
+  d.coordinate = number;
+  baum_i_coordinate c = coordinate_at(p, &d);
   double full[MATRIX];
   spread_wide(p, c.gradient, full);
   check_matrix(p, "coordinate_q", true, value_of, &d, 1, full);
   check_matrix(p, "rate_v", false, coordinate_rate_of, &d, 1, full);
-  check_in_time(p, "coordinate rate", true, value_of, 1, 1.0, &c.rate);
-  check_in_time(p, "coordinate gamma", true, coordinate_rate_of, 1, -1.0, &c.gamma);
+  check_in_time(p, "coordinate rate", true, value_of, &d, 1, 1.0, &c.rate);
+  check_in_time(p, "coordinate gamma", true, coordinate_rate_of, &d, 1, -1.0, &c.gamma);
 
   double w[BAUM_I_PAIR_COLUMNS];
   baum_i_coordinate_blocks blocks;
   wide_of(p, d.w, w);
-  joint->type->coordinate_linearize(joint, &p->point, w, 1.0, &blocks);
+  joint->type->coordinate_linearize(joint, number, &p->point, w, 1.0, &blocks);
+  spread_wide(p, blocks.jw_q, full);
+  check_matrix(p, "coordinate (J w)_q", true, coordinate_jw_of, &d, 1, full);
+  spread_wide(p, blocks.rate_q, full);
+  check_matrix(p, "coordinate rate_q", true, coordinate_rate_of, &d, 1, full);
   spread_wide(p, blocks.gamma_q, full);
   check_matrix(p, "coordinate gamma_q", true, coordinate_gamma_of, &d, 1, full);
   spread_wide(p, blocks.gamma_v, full);
@@ -392,6 +400,15 @@ void check_coordinate_derivatives(test_point *p)
   baum_i_columns_pack_square(p->mechanism, &joint->span, joint->type->width, blocks.jtl_q, packed);
   spread_square(p, &joint->span, packed, full);
   check_matrix(p, "coordinate_qq", true, coordinate_gradient_of, &d, p->nv, full);
+}
+
+void check_coordinate_derivatives(test_point *p)
+{
+  const baum_joint_coordinate *all = p->mechanism->joints[0]->type->coordinates;
+  assert_int_not_equal(all[0], BAUM_COORDINATE_FIRST);
+  for (int k = 0; all[k] != BAUM_COORDINATE_FIRST; k++) {
+    check_coordinate(p, k);
+  }
 }
 
 /* ---- forces ---- */

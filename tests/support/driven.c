@@ -26,7 +26,7 @@ static baum_mechanism *begin(void)
   return mechanism;
 }
 
-/* A rod of some length from one place in some direction; its origin is its middle. */
+/* A rod that begins at a point and has a length and an angle; its origin is its middle. */
 static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
                             double length, double angle)
 {
@@ -164,8 +164,8 @@ static const double COUPLER = 3.0;
 static const double ROCKER = 2.5;
 static const double FRAME = 2.8;
 
-/* Where coupler and rocker meet: of two places that above the line from the crank's tip to the
- * rocker's foot. */
+/* Finds the joint of coupler and rocker that is above the line from the crank's tip to the rocker's
+ * foot. */
 static void find_knee(double angle, double tip[2], double knee[2])
 {
   tip[0] = CRANK * cos(angle);

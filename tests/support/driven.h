@@ -6,7 +6,7 @@
 
 #include <baum/baum.h>
 
-/* What drives the crank: its angle is angle + rate t, or that of the law. */
+/* Drives the crank to angle + rate t, or by a law. */
 typedef struct drive {
   double angle; /* [rad] at the design configuration */
   double rate;  /* [rad/s] */
@@ -16,7 +16,7 @@ typedef struct drive {
 
 /* ---- slider-crank: crank r from the origin, rod l, slider on y = e ----
  *
- * q = (x, y, angle) of crank, rod, slider. Branch 1: the rod points to +x, -1: to -x. */
+ * q = (x, y, angle) of crank, rod, slider. Branch 1: the rod points towards +x, -1: towards -x. */
 
 enum { SLIDER_X = 6, SLIDER_NV = 9 };
 
@@ -29,23 +29,24 @@ typedef struct slider_crank {
 } slider_crank;
 
 baum_mechanism *slider_crank_make(const slider_crank *data);
-/* One more in a mechanism that is not yet frozen. */
+/* Adds a slider-crank to an open mechanism. */
 void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
-/* x of the slider, its rate and acceleration while the crank at an angle turns at a constant
- * rate. */
+/* x of the slider, its velocity and acceleration at a crank angle with constant angular
+ * velocity. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
-/* Angle between the crank at some angle and the nearest one at which rod and guide are square: a
- * lock-up where the rod is too short. INFINITY where there is none. */
+/* Smallest difference between this crank angle and one at which the rod is perpendicular to the
+ * guide; INFINITY if there is none. There the crank locks if the rod is too short. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----
  *
- * q = (x, y, angle) of crank, coupler, rocker. A crank-rocker: the crank turns for ever. */
+ * q = (x, y, angle) of crank, coupler, rocker. A crank-rocker, whose crank can make full
+ * revolutions. */
 
 enum { ROCKER_ANGLE = 8 };
 
 baum_mechanism *four_bar_make(const drive *motor);
-/* Angle of the rocker, up to turns. */
+/* Angle of the rocker, up to revolutions. */
 double four_bar_rocker(double angle);
 
 /* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a

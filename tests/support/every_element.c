@@ -16,9 +16,9 @@
 
 static const double CIRCLE_RADIUS = 0.3;
 static const double CRANK_ANGLE = 0.5;
-static const double BLOCK_ANGLE = 0.1; /* of all blocks: none is level by chance */
+static const double BLOCK_ANGLE = 0.1; /* of all blocks, so that none is horizontal */
 
-/* The answer of a function, after which `out` is spoiled if the fault says so. */
+/* Counts a call; if it has to fail, puts a NaN into `out` or returns the answer of the fault. */
 static int answer(void *user, double t, double *out)
 {
   every_fault *fault = user;
@@ -36,7 +36,7 @@ static int answer(void *user, double t, double *out)
   return fault->answer;
 }
 
-/* Of the slider (x, y, angle) and the bob (x, y). */
+/* q: slider (x, y, angle) and bob (x, y). */
 static int circle_phi(double t, const double *q, double *out, void *user)
 {
   double x = q[3] - q[0];
@@ -123,7 +123,7 @@ static int drag_force_v(double t, const double *q, const double *v, const double
   return answer(user, t, out);
 }
 
-/* Where the bead is in the slot of the disc; it depends on no time. */
+/* Position of the bead in the slot of the disc; the law has no time argument. */
 static int lead_law(double x, double f[3], void *user)
 {
   f[0] = 0.05 + 0.02 * sin(x - CRANK_ANGLE);
@@ -132,7 +132,7 @@ static int lead_law(double x, double f[3], void *user)
   return answer(user, -(double)INFINITY, f);
 }
 
-/* y = 2 x^2 - 0.1; no time either. */
+/* The curve y = 2 x^2 - 0.1; without time argument either. */
 static int track_curve(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];
@@ -408,7 +408,7 @@ static baum_status add_block(every_element *parts, const char *name, double x, d
   return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
 }
 
-/* A particle, placed in the axes of a block. */
+/* Adds a particle at a point in the axes of a block. */
 static baum_status add_bead(every_element *parts, const char *name, const double block[2],
                             const double at[2], baum_body_id *id)
 {
@@ -420,7 +420,7 @@ static baum_status add_bead(every_element *parts, const char *name, const double
   return baum_mechanism_add_planar_particle(parts->mechanism, &def, id);
 }
 
-/* What hangs on the gear. */
+/* Adds disc, bar, bead and pea with axle and rail. */
 static baum_status add_train(every_element *parts)
 {
   baum_planar_revolute_def axle = baum_planar_revolute_def_default();
@@ -457,7 +457,7 @@ static baum_status add_train(every_element *parts)
            : status;
 }
 
-/* What the spline drives. */
+/* Adds the wheel and its hinge, which the spline drives. */
 static baum_status add_wheel(every_element *parts)
 {
   baum_planar_revolute_def hinge = baum_planar_revolute_def_default();
@@ -487,10 +487,10 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
-/* Kinds before the joints of the train, before the spline driver, and before those in space. */
+/* Indices of kinds: the first joint of the train, the spline driver, the first one in space. */
 enum { EVERY_WITHOUT_TRAIN = 13, EVERY_WITHOUT_WHEEL = 18, EVERY_WITHOUT_SPACE = 19 };
 
-/* The first kinds, and what they hang on. */
+/* Adds the first `count` kinds, and the bodies that they need. */
 static baum_status add_kinds(every_element *parts, int count)
 {
   baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);

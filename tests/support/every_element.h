@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism with an element of every kind, and the kinds as a table: what tests of the
- * interface go through.
+/* One mechanism with an element of every kind, and a table of the kinds for tests of the interface.
  *
  *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
  *   a circle about the slider (user constraint); two masses in a row (user coordinates);
@@ -10,10 +9,11 @@
  *   (cam);
  *   in space: shaft in a bearing; yoke on a cross of it, with a shoe on a plane; ram on a slide;
  *   top in a socket of the shaft and on a table of the ram; tube in a sleeve, cap clamped to it;
- *   ball on a wire of the yoke, on a strut of the cap; coil (spring), push (load).
+ *   ball on a wire of the yoke, on a strut of the cap; coil (spring), push (load),
+ *   winding (joint spring of the sleeve).
  *
- * 71 positions, 65 velocities and 56 rows, 9 degrees of freedom, of which 26, 26, 22 and 4 are
- * planar and come first; the design configuration fulfils all rows but that of cam.
+ * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes first
+ * and has 26, 26, 22 and 4 of them. The design configuration fulfils all rows except that of cam.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -22,19 +22,19 @@
 
 #include "mechanism/kinds.h"
 
-/* Any id, for functions that serve all kinds. */
+/* An id of any kind. */
 typedef struct any_id {
   int32_t index1;
   uint32_t tag;
 } any_id;
 
-/* How the functions of the elements fail, and how often they are called. All zero: they do not. */
+/* Makes the functions of the elements fail, and counts their calls. All zero: they do not fail. */
 typedef struct every_fault {
-  int answer;    /* returned by the faulty call; 0: it gives NaN instead, when `fails` */
-  bool fails;    /* at all */
-  double after;  /* fails when t is above this */
-  int64_t from;  /* or from this call on, when > 0 */
-  int64_t calls; /* of all functions together */
+  int answer;    /* return value of a failing call; 0: it gives NaN instead */
+  bool fails;    /* whether calls fail */
+  double after;  /* a call fails if t is above this */
+  int64_t from;  /* if > 0, calls fail from this one on, whatever t is */
+  int64_t calls; /* number of calls of all functions */
 } every_fault;
 
 typedef struct every_element {
@@ -87,9 +87,10 @@ typedef struct every_element {
   baum_force_id twist;
   baum_force_id coil;
   baum_force_id push;
+  baum_force_id winding;
   baum_input_id throttle;        /* of load and push, 1 at first */
   every_fault *fault;            /* `user` of all functions; may be NULL */
-  baum_body_id circle_bodies[2]; /* of the definitions */
+  baum_body_id circle_bodies[2]; /* arrays for the definitions */
   baum_body_id drag_bodies[1];
 } every_element;
 
@@ -111,8 +112,8 @@ typedef enum field_type {
   FIELD_NUMBERS,  /* doubles, at most FIELD_NUMBERS_MAX */
   FIELD_INTEGER,  /* int32_t, int64_t or an enum */
   FIELD_FLAG,     /* bool */
-  FIELD_ID,       /* of a body or joint */
-  FIELD_FUNCTION, /* or a pointer that is not looked into */
+  FIELD_ID,       /* id of a body, joint or input */
+  FIELD_FUNCTION, /* function, or other pointer that is not dereferenced */
   FIELD_ARRAY,    /* copied doubles or ids, or NULL */
   FIELD_GAINS
 } field_type;
@@ -133,13 +134,13 @@ typedef struct element_kind {
   baum_status (*add)(baum_mechanism *mechanism, const any_def *def, any_id *id);
   baum_status (*get)(const baum_mechanism *mechanism, any_id id, any_def *out, size_t caller_size);
   baum_status (*set)(baum_mechanism *mechanism, any_id id, const any_def *def);
-  /* The definition that every_element_build() uses; its parts must be in `parts` already. */
+  /* The definition that every_element_build() uses; the parts that it refers to must exist. */
   void (*good)(const every_element *parts, any_def *def);
   size_t id; /* offset in every_element */
   const baum_i_definition *const *definition;
 } element_kind;
 
-/* All of a definition, in its order. */
+/* All fields of a definition, in their order. */
 enum { ELEMENT_FIELDS_MAX = 32, FIELD_NUMBERS_MAX = 6 };
 typedef struct element_fields {
   element_field list[ELEMENT_FIELDS_MAX];
@@ -148,7 +149,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 33 };
+enum { ELEMENT_KINDS = 34 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };
@@ -156,17 +157,17 @@ extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_o
 
 any_id every_element_id(const every_element *parts, const element_kind *kind);
 
-/* Build it, not frozen; on failure there is no mechanism. parts->fault is read, the rest
- * written. */
+/* Builds the mechanism without freezing it; on failure there is none. Reads parts->fault and writes
+ * the rest. */
 baum_status every_element_build(every_element *parts);
 
-/* The same, frozen; fails the test on failure. */
+/* The frozen mechanism; fails the test on failure. */
 every_element every_element_make(every_fault *fault);
 
-/* Without the part in space: nq = nv. */
+/* Only the planar part, for which nq = nv. */
 every_element every_element_make_planar(void);
 
-/* Whether an integrator takes it: there are dampers and a mass that varies among its elements. */
+/* Whether an integrator supports the mechanism, which has dampers and a variable mass. */
 static inline bool every_element_suits(const baum_integrator *integrator)
 {
   return integrator != baum_rattle();

@@ -40,11 +40,12 @@ void good_spatial_point_on_line(const every_element *parts, any_def *to);
 void good_spatial_point_on_plane(const every_element *parts, any_def *to);
 void good_spatial_spring(const every_element *parts, any_def *to);
 void good_spatial_load(const every_element *parts, any_def *to);
+void good_joint_spring(const every_element *parts, any_def *to);
 
-/* The spatial bodies of no kind's definition; in every_element_spatial.c. */
+/* Adds the spatial bodies that are not an example of a kind; in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 
-/* GOOD(name) { return the definition made of `parts`; } */
+/* Use: GOOD(name) { return the definition, made with `parts`; } */
 #define GOOD(NAME)                                                 \
   static baum_##NAME##_def NAME##_def(const every_element *parts); \
   void good_##NAME(const every_element *parts, any_def *to)        \

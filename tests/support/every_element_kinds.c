@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields of the options, and the table of kinds with the fields of their definitions. */
+/* The fields of the options, and the table of all kinds with the fields of their definitions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -115,9 +115,10 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(joint, spatial_distance, "spatial distance joint", strut),
   KIND(force, spatial_spring, "spatial spring", coil),
   KIND(force, spatial_load, "spatial load", push),
+  KIND(force, joint_spring, "joint spring", winding),
 };
 
-/* ---- fields of a definition, as its own table has them ---- */
+/* ---- fields of a definition, read from the library's table ---- */
 
 static field_type type_of(const baum_i_def_field *field)
 {
@@ -135,6 +136,7 @@ static field_type type_of(const baum_i_def_field *field)
     [BAUM_I_FIELD_CARRIER] = FIELD_ID,
     [BAUM_I_FIELD_BODIES] = FIELD_ARRAY,
     [BAUM_I_FIELD_JOINT] = FIELD_ID,
+    [BAUM_I_FIELD_COORDINATE] = FIELD_INTEGER,
     [BAUM_I_FIELD_INPUT] = FIELD_ID,
     [BAUM_I_FIELD_FUNCTION] = FIELD_FUNCTION,
     [BAUM_I_FIELD_OPTIONAL_FUNCTION] = FIELD_FUNCTION,

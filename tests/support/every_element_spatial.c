@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The part of the mechanism of every element that moves in space. */
+/* The spatial part of the mechanism with every element. */
 #include "every_element_good.h"
 
 /* ---- bodies ---- */
@@ -184,5 +184,17 @@ GOOD(spatial_load)
   set3(def.moment, 0.01, 0.0, 0.02);
   def.follows_body = true;
   def.input = parts->throttle;
+  return def;
+}
+
+GOOD(joint_spring)
+{
+  baum_joint_spring_def def = baum_joint_spring_def_default();
+  def.name = "winding";
+  def.joint = parts->sleeve;
+  def.coordinate = BAUM_COORDINATE_ANGLE;
+  def.stiffness = 0.03;
+  def.damping = 0.002;
+  def.free_value = 0.4;
   return def;
 }

@@ -160,7 +160,7 @@ double motion_error(int nv, const double *q, const double *v, const double *want
   return error;
 }
 
-/* Over 50 times up to t. */
+/* Largest error at 50 times up to t. */
 static double largest_error(const integrator_setup *setup, double t, motion_fn *motion, double rate)
 {
   integrator_run run;
@@ -244,7 +244,7 @@ static void angle_rate(const double y[2], double rate[2])
   rate[1] = -9.81 * cos(y[0]);
 }
 
-/* The classical Runge-Kutta method, h = 1e-4 s: error below 1e-13 over 2 s. */
+/* The classical Runge-Kutta method with h = 1e-4 s: error below 1e-13 over 2 s. */
 static void turn_angle(double y[2], double h)
 {
   double k[4][2];
@@ -331,7 +331,7 @@ static void add_spring(baum_mechanism *mechanism, baum_body_id id, double stiffn
   check(baum_mechanism_add_planar_spring(mechanism, &spring, NULL));
 }
 
-/* A spring without length has no direction at the origin; the user force -4 q has. */
+/* Used instead of a spring without length, which has no direction at the origin. */
 static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {

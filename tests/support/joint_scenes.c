@@ -19,13 +19,13 @@ static void need(baum_status status)
 }
 
 /* Design pose of a body, and its initial angular velocity (NaN: free). */
-typedef struct drawn {
+typedef struct placed {
   double x, y, angle, w;
-} drawn;
+} placed;
 
 static const double FREE = (double)NAN;
 
-static baum_body_id body(baum_mechanism *m, const char *name, drawn at)
+static baum_body_id body(baum_mechanism *m, const char *name, placed at)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
   baum_body_id id;
@@ -64,7 +64,7 @@ static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, doub
   return id;
 }
 
-/* b slides in a along an axis of the design configuration. */
+/* Lets b slide in a along an axis of the design configuration. */
 static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
                            const double axis[2])
 {
@@ -100,27 +100,27 @@ static baum_joint_id slot(baum_mechanism *m, baum_body_id a, baum_body_id b, con
 /* Double pendulum. */
 static void revolute(baum_mechanism *m)
 {
-  baum_body_id upper = body(m, "upper", (drawn){0.2, 0.0, 0.0, 1.0});
-  baum_body_id lower = body(m, "lower", (drawn){0.4, -0.15, -1.5, -2.0});
+  baum_body_id upper = body(m, "upper", (placed){0.2, 0.0, 0.0, 1.0});
+  baum_body_id lower = body(m, "lower", (placed){0.4, -0.15, -1.5, -2.0});
   (void)pin(m, BAUM_GROUND, upper, 0.0, 0.0);
   (void)pin(m, upper, lower, 0.4, 0.0);
 }
 
-/* Block on a swinging beam. */
+/* A block on a swinging beam. */
 static void translational(baum_mechanism *m)
 {
   const double axis[2] = {cos(0.3), sin(0.3)};
   const double at[2] = {0.3 * axis[0], 0.3 * axis[1]};
-  baum_body_id beam = body(m, "beam", (drawn){0.1 * axis[0], 0.1 * axis[1], 0.3, 2.0});
-  baum_body_id block = body(m, "block", (drawn){at[0], at[1], 0.3, FREE});
+  baum_body_id beam = body(m, "beam", (placed){0.1 * axis[0], 0.1 * axis[1], 0.3, 2.0});
+  baum_body_id block = body(m, "block", (placed){at[0], at[1], 0.3, FREE});
   (void)pin(m, BAUM_GROUND, beam, 0.0, 0.0);
   (void)guide(m, beam, block, at, axis);
 }
 
-/* Plate on a rod without mass. */
+/* A plate on a massless rod. */
 static void distance(baum_mechanism *m)
 {
-  baum_body_id plate = body(m, "plate", (drawn){0.5, -0.1, 0.0, 1.5});
+  baum_body_id plate = body(m, "plate", (placed){0.5, -0.1, 0.0, 1.5});
   baum_planar_distance_def def = baum_planar_distance_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = plate;
@@ -131,11 +131,11 @@ static void distance(baum_mechanism *m)
   need(baum_mechanism_add_planar_distance(m, &def, NULL));
 }
 
-/* Pendulum of two pieces. */
+/* A pendulum of two welded links. */
 static void fixed(baum_mechanism *m)
 {
-  baum_body_id link = body(m, "link", (drawn){0.2, 0.0, 0.0, 1.0});
-  baum_body_id plate = body(m, "plate", (drawn){0.4, 0.1, 0.7, FREE});
+  baum_body_id link = body(m, "link", (placed){0.2, 0.0, 0.0, 1.0});
+  baum_body_id plate = body(m, "plate", (placed){0.4, 0.1, 0.7, FREE});
   (void)pin(m, BAUM_GROUND, link, 0.0, 0.0);
   baum_planar_fixed_def def = baum_planar_fixed_def_default();
   def.body_a = link;
@@ -145,11 +145,11 @@ static void fixed(baum_mechanism *m)
   need(baum_mechanism_add_planar_fixed(m, &def, NULL));
 }
 
-/* Pendulum on a driven crank. */
+/* A pendulum on a driven crank. */
 static void driver(baum_mechanism *m)
 {
-  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, FREE});
-  baum_body_id link = body(m, "link", (drawn){0.35, 0.0, 0.0, 1.0});
+  baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, FREE});
+  baum_body_id link = body(m, "link", (placed){0.35, 0.0, 0.0, 1.0});
   baum_driver_def def = baum_driver_def_default();
   def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
   (void)pin(m, crank, link, 0.2, 0.0);
@@ -158,13 +158,13 @@ static void driver(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-/* Pendulum on a crank that is swung to and fro. */
+/* A pendulum on a crank that swings back and forth. */
 static void spline_driver(baum_mechanism *m)
 {
   static const double times[5] = {0.0, 0.3, 0.7, 1.2, 1.5};
   static const double angles[5] = {0.0, 0.6, -0.5, 0.2, 0.0};
-  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, FREE});
-  baum_body_id link = body(m, "link", (drawn){0.35, 0.0, 0.0, 1.0});
+  baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, FREE});
+  baum_body_id link = body(m, "link", (placed){0.35, 0.0, 0.0, 1.0});
   baum_spline_driver_def def = baum_spline_driver_def_default();
   def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
   (void)pin(m, crank, link, 0.2, 0.0);
@@ -211,19 +211,19 @@ static void pin_in_slot(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.0};
   const double axis[2] = {0.1, 0.3};
-  baum_body_id crank = body(m, "crank", (drawn){0.05, 0.0, 0.0, 4.0});
-  baum_body_id arm = body(m, "arm", (drawn){0.07, -0.09, 1.2, FREE});
+  baum_body_id crank = body(m, "crank", (placed){0.05, 0.0, 0.0, 4.0});
+  baum_body_id arm = body(m, "arm", (placed){0.07, -0.09, 1.2, FREE});
   (void)pin(m, BAUM_GROUND, crank, 0.0, 0.0);
   (void)pin(m, BAUM_GROUND, arm, 0.0, -0.3);
   (void)slot(m, arm, crank, at, axis);
 }
 
-/* A particle that is pushed along a swinging slot. */
+/* A particle that is driven along a swinging slot. */
 static void driver_in_slot(baum_mechanism *m)
 {
   const double at[2] = {0.3, 0.0};
   const double axis[2] = {1.0, 0.0};
-  baum_body_id arm = body(m, "arm", (drawn){0.1, 0.0, 0.0, 1.0});
+  baum_body_id arm = body(m, "arm", (placed){0.1, 0.0, 0.0, 1.0});
   baum_body_id ball = particle(m, "ball", at[0], at[1]);
   (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
   baum_driver_def def = baum_driver_def_default();
@@ -233,13 +233,13 @@ static void driver_in_slot(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-/* An unbalanced pinion above a rack that slides. */
+/* An unbalanced pinion above a sliding rack. */
 static void rack_and_pinion(baum_mechanism *m)
 {
   const double at[2] = {0.0, 0.0};
   const double axis[2] = {1.0, 0.0};
-  baum_body_id rack = body(m, "rack", (drawn){0.0, 0.0, 0.0, FREE});
-  baum_body_id pinion = body(m, "pinion", (drawn){0.05, 0.1, 0.0, 3.0});
+  baum_body_id rack = body(m, "rack", (placed){0.0, 0.0, 0.0, FREE});
+  baum_body_id pinion = body(m, "pinion", (placed){0.05, 0.1, 0.0, 3.0});
   (void)guide(m, BAUM_GROUND, rack, at, axis);
   (void)pin(m, BAUM_GROUND, pinion, 0.0, 0.1);
   baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
@@ -251,12 +251,12 @@ static void rack_and_pinion(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* A pinion that rolls down a slope, its centre in a slot beside the rack. */
+/* A pinion that rolls down a slope, with its centre in a slot beside the rack. */
 static void rolling(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.2};
   const double axis[2] = {0.8, -0.6};
-  baum_body_id wheel = body(m, "wheel", (drawn){at[0], at[1], 0.0, FREE});
+  baum_body_id wheel = body(m, "wheel", (placed){at[0], at[1], 0.0, FREE});
   (void)slot(m, BAUM_GROUND, wheel, at, axis);
   baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
   def.body_a = BAUM_GROUND;
@@ -269,12 +269,12 @@ static void rolling(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* Sun and planet on an arm, all unbalanced. */
+/* Sun and planet gears on an arm, all unbalanced. */
 static void gear(baum_mechanism *m)
 {
-  baum_body_id sun = body(m, "sun", (drawn){0.05, 0.0, 0.0, 4.0});
-  baum_body_id arm = body(m, "arm", (drawn){0.1, 0.0, 0.0, 1.0});
-  baum_body_id planet = body(m, "planet", (drawn){0.25, 0.04, 0.0, FREE});
+  baum_body_id sun = body(m, "sun", (placed){0.05, 0.0, 0.0, 4.0});
+  baum_body_id arm = body(m, "arm", (placed){0.1, 0.0, 0.0, 1.0});
+  baum_body_id planet = body(m, "planet", (placed){0.25, 0.04, 0.0, FREE});
   (void)pin(m, BAUM_GROUND, sun, 0.0, 0.0);
   (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
   (void)pin(m, arm, planet, 0.25, 0.0);
@@ -287,13 +287,13 @@ static void gear(baum_mechanism *m)
   need(baum_mechanism_add_planar_gear(m, &def, NULL));
 }
 
-/* A crank and a weight that goes up and down; the caller couples them. */
+/* A crank and a weight that slides vertically; the caller couples them. */
 static baum_coupling_def crank_and_weight(baum_mechanism *m)
 {
   const double at[2] = {0.3, 0.0};
   const double axis[2] = {0.0, 1.0};
-  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, 3.0});
-  baum_body_id weight = body(m, "weight", (drawn){0.3, 0.0, 0.0, FREE});
+  baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, 3.0});
+  baum_body_id weight = body(m, "weight", (placed){0.3, 0.0, 0.0, FREE});
   baum_coupling_def def = baum_coupling_def_default();
   def.joint_a = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
   def.joint_b = guide(m, BAUM_GROUND, weight, at, axis);
@@ -327,7 +327,7 @@ static void cam(baum_mechanism *m)
   need(baum_mechanism_add_coupling(m, &def, NULL));
 }
 
-/* ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20, with a gradient of 0.5 to 1. */
+/* ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20, whose gradient is between 0.5 and 1 on the ellipse. */
 static int ellipse(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -342,7 +342,7 @@ static int ellipse(const double xy[2], double out[6], void *user)
 /* A particle on the track of a swinging body. */
 static void curve(baum_mechanism *m)
 {
-  baum_body_id track = body(m, "track", (drawn){0.0, -0.2, 0.0, 1.0});
+  baum_body_id track = body(m, "track", (placed){0.0, -0.2, 0.0, 1.0});
   baum_body_id ball = particle(m, "ball", 0.2, -0.2);
   (void)pin(m, BAUM_GROUND, track, 0.0, 0.0);
   baum_planar_curve_def def = baum_planar_curve_def_default();

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small mechanism around each kind of joint: in gravity, in motion, with one freedom or two. What
- * all joints must be able to do is tried on all of them.
- */
+/* A small mechanism for each kind of joint: under gravity, in motion, with one or two degrees of
+ * freedom. Tests of all joints use all of them. */
 #ifndef BAUM_TEST_JOINT_SCENES_H
 #define BAUM_TEST_JOINT_SCENES_H
 
@@ -11,7 +10,7 @@ typedef struct joint_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism); /* fails the test on failure */
   int degrees_of_freedom;
-  bool conservative; /* energy is kept: nothing drives */
+  bool conservative; /* energy is constant: nothing is driven */
 } joint_scene;
 
 enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* nv, nc */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A bar that turns about a pin on the ground, and another that it carries by two pins, of whose
- * four rows three suffice: which three changes twice in a turn. Include after cmocka.h.
- */
+/* A bar on a pin to the ground, and a second bar that two pins hold to the first. Three of the four
+ * rows of these pins suffice; which three changes twice per revolution. Include after cmocka.h. */
 #ifndef BAUM_TEST_LOCKED_PAIR_H
 #define BAUM_TEST_LOCKED_PAIR_H
 
@@ -18,7 +17,8 @@ static inline baum_body_id locked_pair_bar(baum_i_parts *parts, double x, double
                            (const double[3]){-rate * y, rate * x, rate});
 }
 
-/* It goes over the top at any rate [rad/s] above 6. welded: by one weld instead. */
+/* With a rate [rad/s] above 6 the bars pass the top. welded: with a weld instead of the two
+ * pins. */
 static inline baum_mechanism *locked_pair_make(double rate, bool welded)
 {
   baum_mechanism *m = NULL;

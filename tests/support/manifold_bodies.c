@@ -71,7 +71,7 @@ static int angle_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A pendulum with its weight at (cos, sin). */
+/* A pendulum with the direction (cos, sin) of its weight. */
 static int angle_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {
@@ -206,7 +206,7 @@ static void free_rate(const double *p, const double *w, double *dp, void *user)
   quaternion_product(p, z, dp);
 }
 
-/* By the rotation whose half angle has that tangent: of second order, as the exponential is. */
+/* Moves by the rotation with tan(half angle) = h |w| / 2: second order, as the exponential map. */
 static void free_move(double h, const double *w, double *p, void *user)
 {
   (void)user;
@@ -260,7 +260,7 @@ static int free_force(double t, const double *q, const double *v, const double *
   const manifold_body *body = user;
   const double momentum[3] = {body->inertia[0] * v[0], body->inertia[1] * v[1],
                               body->inertia[2] * v[2]};
-  if (is_gyroscopic(body)) { /* to the last bit */
+  if (is_gyroscopic(body)) { /* otherwise exactly zero */
     cross(momentum, v, out);
   }
   return 0;
@@ -329,7 +329,7 @@ static int top_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* z points up. */
+/* Gravity along -z. */
 static int top_force(double t, const double *q, const double *v, const double *inputs, double *out,
                      void *user)
 {

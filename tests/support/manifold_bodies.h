@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies whose positions are no vector, as user coordinates with a manifold:
+/* Bodies whose positions are not a vector, as user coordinates with a manifold:
  *
  *   turned body   q = (x, y, cos, sin), v = (x', y', angular velocity)                (4, 3)
  *   angle         q = (cos, sin), v the angular velocity                              (2, 1)
@@ -13,14 +13,14 @@
 
 typedef struct manifold_body {
   double mass;
-  double inertia[3]; /* of a turned body the first */
+  double inertia[3]; /* a turned body uses the first only */
 } manifold_body;
 
 baum_body_id manifold_add_turned(baum_mechanism *mechanism, manifold_body *body, double x, double y,
                                  double angle, const double *v);
 baum_body_id manifold_add_angle(baum_mechanism *mechanism, manifold_body *body, double angle,
                                 const double *v);
-/* p need not be of unit length to the last digit. */
+/* p may differ from unit length by rounding. */
 baum_body_id manifold_add_top(baum_mechanism *mechanism, manifold_body *body, const double q[7],
                               const double *v);
 baum_body_id manifold_add_free_top(baum_mechanism *mechanism, manifold_body *body,

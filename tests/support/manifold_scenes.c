@@ -20,10 +20,10 @@ enum { SIZE = MANIFOLD_SIZE };
 
 /* ---- pins between turned bodies ---- */
 
-/* Point b of the last body on point a of the first, or of the ground. */
+/* A pin that holds point b of the last body at point a of the first body, or of the ground. */
 typedef struct pin {
   bool to_ground;
-  bool to_ordinary; /* the last body has an angle */
+  bool to_ordinary; /* the last body has an angle instead of (cos, sin) */
   double a[2];
   double b[2];
 } pin;
@@ -65,7 +65,7 @@ static void put_side(const double *c, const double s[2], double sign, int first,
   out[columns + first + 2] = sign * arm[0];
 }
 
-/* Of the turned bodies alone, by velocities. */
+/* The Jacobian with respect to velocities, of turned bodies only. */
 static int pin_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -185,7 +185,7 @@ static void translate_angle(const double *twin_q, double *q)
 
 static manifold_body rod = {.mass = 1.5, .inertia = {0.2}};
 static pin hinge = {.to_ground = true, .b = {-0.5, 0.1}};
-/* Of the rod at angle 0.4, so that its point b is at the origin; v as of -4 rad/s. */
+/* Puts the rod at the angle 0.4 with its point b at the origin; v corresponds to -4 rad/s. */
 static void place_rod(double *x, double *y, double v[3])
 {
   double arm[2] = {0.0, 0.0};
@@ -231,10 +231,10 @@ static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
 static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
 static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
 static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
-/* Of a coupler as long as the crank: branches cross where the slider is at the main pin. */
+/* Pins of a coupler as long as the crank: branches cross where the slider is at the main pin. */
 static pin short_crank_pin = {.a = {0.5, 0.0}, .b = {-0.5, 0.0}};
 static pin short_slider_pin = {.a = {0.5, 0.0}, .b = {0.0, 0.0}};
-/* Crank at 1 rad with 4 rad/s. */
+/* The crank starts at 1 rad with 4 rad/s. */
 static const double CRANK = 1.0;
 static const double CRANK_V[3] = {(double)NAN, (double)NAN, 4.0};
 
@@ -244,7 +244,7 @@ typedef struct crank_place {
   double slider;
 } crank_place;
 
-/* Crank at an angle, coupler of half that length. */
+/* Places the bodies for a crank angle; `half` is half the length of the coupler. */
 static crank_place place_crank(double angle, double half)
 {
   crank_place p = {.crank = {0.5 * cos(angle), 0.5 * sin(angle)}};
@@ -255,7 +255,7 @@ static crank_place place_crank(double angle, double half)
   return p;
 }
 
-/* y = 0 and sin = 0. */
+/* The slider's rows: y = 0 and sin = 0. */
 static int rail_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -364,7 +364,7 @@ static void translate_crank(const double *twin_q, double *q)
   translate_bodies(twin_q, q, 3);
 }
 
-/* ---- a turned body and behind it an ordinary one: columns of q and of v part ---- */
+/* ---- a turned body followed by an ordinary one, so that columns of q and v differ ---- */
 
 static manifold_body lower_rod = {.mass = 0.7, .inertia = {0.05}};
 static pin joint_pin = {.to_ordinary = true, .a = {0.5, 0.0}, .b = {-0.4, 0.0}};
@@ -451,7 +451,7 @@ const manifold_scene manifold_scenes[MANIFOLD_SCENES] = {
    spatial_translate_four_bar,
    NULL,
    1,
-   true,
+   false,
    {3, 3, 4},
    3},
   {"spatial heavy top",
@@ -460,9 +460,10 @@ const manifold_scene manifold_scenes[MANIFOLD_SCENES] = {
    NULL,
    manifold_solve_heavy_top,
    3,
-   true,
+   false,
    {3, 1, 4},
    0},
+  {"screw", spatial_build_screw, NULL, NULL, spatial_solve_screw, 1, false, {3, 2, 4}, 0},
   {"driven slider-crank",
    build_driven_crank,
    NULL,

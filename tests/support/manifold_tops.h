@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies that turn about a fixed point, with a unit quaternion: a free top, a heavy one held
- * by three user constraints, with and without their Jacobian, and a ball. Their motion is
+/* Rigid bodies with a unit quaternion that rotate about a fixed point: a free top, a heavy top held
+ * by three user constraints, with and without their Jacobian, and a ball. Their solutions are
  * integrated here. */
 #ifndef BAUM_TEST_MANIFOLD_TOPS_H
 #define BAUM_TEST_MANIFOLD_TOPS_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a refusal says. Include after cmocka.h. */
+/* Compares status and message of a refused call. Include after cmocka.h. */
 #ifndef BAUM_TEST_SENTENCE_H
 #define BAUM_TEST_SENTENCE_H
 
@@ -7,7 +7,7 @@
 
 #include <baum/status.h>
 
-/* The status, and a message of this thread that has all the parts, which are separated by '|'. */
+/* The status is `want`, and this thread's message contains all parts, which '|' separates. */
 #define ASSERT_SAYS(status, want, parts) \
   assert_says_((status), (want), (parts), baum_message(), #status, __FILE__, __LINE__)
 

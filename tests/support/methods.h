@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The methods of fixed step, as src/stabilization sees them, and numbers that repeat from run to
- * run. */
+/* Fixed-step methods as src/stabilization represents them, and reproducible random numbers. */
 #ifndef BAUM_TEST_METHODS_H
 #define BAUM_TEST_METHODS_H
 
@@ -59,7 +58,7 @@ static inline baum_amplification amplification_at(int method, double alpha_h, do
   return out;
 }
 
-/* Uniform in [low, high); a linear congruential generator (Knuth, MMIX). */
+/* A uniform random number in [low, high): linear congruential generator (Knuth, MMIX). */
 static inline double uniform(uint64_t *seed, double low, double high)
 {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;

@@ -12,7 +12,7 @@ static void normalize3(wide x[3])
   }
 }
 
-/* By the series of an angle below 1, which is doubled. */
+/* Halves the angle until below 1, computes sine and cosine by series, and doubles it again. */
 static void wide_turn(wide angle, wide *cosine, wide *sine)
 {
   int halved = 0;
@@ -36,7 +36,7 @@ static void wide_turn(wide angle, wide *cosine, wide *sine)
 
 /* ---- bodies ---- */
 
-/* A of a unit quaternion, by rows, from p u p*. */
+/* Writes the rotation matrix A of a unit quaternion p: A e = p e p*. */
 static void matrix_of_quaternion(const wide p[4], wide a[9])
 {
   wide square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
@@ -189,7 +189,7 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
   joint->length = wide_root(dot3(apart, apart));
 }
 
-/* A joint in motion. */
+/* The vectors of a joint along a motion. */
 typedef struct moving {
   jet e[3]; /* from body_a's point to body_b's */
   jet axes[2][3][3];
@@ -265,13 +265,35 @@ static int rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_RO
   }
 }
 
-static jet coordinate_of(const oracle_joint *joint, const motion *bodies)
+int oracle_coordinate_count(oracle_kind kind)
+{
+  switch ((int)kind) {
+  case ORACLE_PLANAR: return 3;
+  case ORACLE_UNIVERSAL:
+  case ORACLE_CYLINDRICAL: return 2;
+  case ORACLE_REVOLUTE:
+  case ORACLE_PRISMATIC:
+  case ORACLE_ON_LINE: return 1;
+  default: return 0;
+  }
+}
+
+/* Angles are 0 in the design configuration, where the axes on both bodies coincide. On body_b the
+ * axis of a universal joint is x. */
+jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bodies)
 {
   const moving m = moving_of(joint, bodies);
-  if (joint->kind == ORACLE_REVOLUTE) {
-    return jet_angle(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][0]));
+  if (joint->kind == ORACLE_PLANAR && number < 2) {
+    return jet_dot(m.axes[0][number], m.e);
   }
-  return jet_dot(m.axes[0][2], m.e);
+  if (joint->kind == ORACLE_UNIVERSAL && number == 1) {
+    return jet_angle(jet_dot(m.axes[0][2], m.axes[1][2]), jet_dot(m.axes[0][2], m.axes[1][1]));
+  }
+  bool along = joint->kind == ORACLE_PRISMATIC || joint->kind == ORACLE_ON_LINE ||
+               (joint->kind == ORACLE_CYLINDRICAL && number == 0);
+  return along
+           ? jet_dot(m.axes[0][2], m.e)
+           : jet_angle(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][0]));
 }
 
 int oracle_law(double t, double s[3], void *user)
@@ -294,11 +316,11 @@ int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const mot
   double start[2] = {joint->start[0], joint->start[1]};
   (void)oracle_law(t, s, start);
   jet law = {{s[0], flow * s[1], flow * s[2]}};
-  out[0] = jet_less(coordinate_of(&o->joints[joint->of], bodies), law);
+  out[0] = jet_less(oracle_coordinate_of(&o->joints[joint->of], joint->coordinate, bodies), law);
   return 1;
 }
 
-wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint)
+wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint, int number)
 {
   static const wide still[6] = {0};
   motion bodies[ORACLE_BODIES];
@@ -307,5 +329,5 @@ wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint
     design_of(&o->bodies[k], q);
     bodies[k] = oracle_motion_of(&o->bodies[k], q, still);
   }
-  return coordinate_of(joint, bodies).d[0];
+  return oracle_coordinate_of(joint, number, bodies).d[0];
 }

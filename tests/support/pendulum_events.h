@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body on a pin whose motion between events is known in closed form: it hangs at angle 0, is
- * released at rest at an angle below pi, and passes 0 at odd multiples of a quarter of its
- * period. Include after cmocka.h. */
+/* A body on a pin whose motion between events is known in closed form. It hangs at angle 0, is
+ * released at rest at an angle below pi, and passes 0 at odd multiples of a quarter period. Include
+ * after cmocka.h. */
 #ifndef BAUM_TEST_PENDULUM_EVENTS_H
 #define BAUM_TEST_PENDULUM_EVENTS_H
 
@@ -28,7 +28,8 @@ static inline double quarter_of(double angle, double rate)
   return acos(-1.0) / (2.0 * a * rate);
 }
 
-/* A particle-like body of 1 kg at 1 m with 0.25 kg m^2: small swings at sqrt(9.81 / 1.25) rad/s. */
+/* A body of 1 kg, 1 m below the pin, with 0.25 kg m^2: small swings have sqrt(9.81 / 1.25)
+ * rad/s. */
 static inline swing swing_make(double angle)
 {
   swing s = {.mechanism = NULL};

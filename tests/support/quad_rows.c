@@ -135,7 +135,8 @@ static void bring_up(const quad_equations *s, int k, int best)
   s->order[best] = kept;
 }
 
-/* Takes column k, of length 1 now, out of all behind it; twice, so that it is gone. */
+/* Subtracts from all later columns their part along column k, which has unit length; twice, because
+ * rounding of the first pass leaves a part. */
 static void take_out(const quad_equations *s, int k)
 {
   const wide *q = column(s, k);
@@ -151,7 +152,7 @@ static void take_out(const quad_equations *s, int k)
   }
 }
 
-/* Returns the length of the column with which it ended, 0 after the last. */
+/* Returns the length of the column that is too short to continue, or 0 if all columns are used. */
 static wide factor_rows(const quad_equations *s, int *rank)
 {
   for (int k = 0; k < s->nc; k++) {
@@ -180,7 +181,7 @@ static wide factor_rows(const quad_equations *s, int *rank)
 
 /* ---- solution ---- */
 
-/* x := R^-T x, of the first `rank` rows and columns. */
+/* Solves with R^T of the first `rank` rows and columns. */
 static void solve_transposed(const quad_equations *s, int rank, wide *x)
 {
   for (int k = 0; k < rank; k++) {
@@ -191,7 +192,7 @@ static void solve_transposed(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* x := R^-1 x likewise. */
+/* Solves with R likewise. */
 static void solve_straight(const quad_equations *s, int rank, wide *x)
 {
   for (int i = rank - 1; i >= 0; i--) {
@@ -202,7 +203,7 @@ static void solve_straight(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* By inverse iteration on R^T R; ten turns have the smallest to a digit or two. */
+/* Ten inverse iterations with R^T R; accurate to one or two digits. */
 static wide smallest_singular_value(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -222,7 +223,7 @@ static wide smallest_singular_value(const quad_equations *s, int rank)
   return 1 / wide_root(size);
 }
 
-/* y from L^-1 g to where the independent rows hold. */
+/* Moves y from L^-1 g to the nearest point that fulfils the independent rows. */
 static void move_onto_rows(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -238,7 +239,7 @@ static void move_onto_rows(const quad_equations *s, int rank)
   }
 }
 
-/* Of the rows behind the rank: their columns of W are those of R times Q. */
+/* Conflict of the dependent rows, whose columns of W are Q times columns of R. */
 static double largest_conflict(const quad_equations *s, int rank, wide size)
 {
   wide worst = 0;
@@ -297,7 +298,7 @@ bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out)
   return true;
 }
 
-/* Multipliers of the rows as they were given, from those of the scaled ones in s->work. */
+/* Multipliers of the original rows, from those of the scaled rows in s->work. */
 static void unscale(const quad_equations *s, wide *lambda)
 {
   for (int k = 0; k < s->nc; k++) {
@@ -305,7 +306,7 @@ static void unscale(const quad_equations *s, wide *lambda)
   }
 }
 
-/* W lambda = L^-1 g - y, along Q. */
+/* Solves W lambda = L^-1 g - y, projected onto Q. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda)
 {
   wide *rest = s->work + s->nc;
@@ -360,7 +361,7 @@ static bool begin(quad_equations *s, read_equations *read, int nv, int nc)
 static bool solve(quad_equations *s, const read_equations *read, double *a, quad_rows *out)
 {
   size_t count = (size_t)(s->nv * s->nv + s->nc * s->nv + s->nv + s->nc);
-  for (size_t i = 0; i < count; i++) { /* both have the same order */
+  for (size_t i = 0; i < count; i++) { /* mass, jacobian, force, gamma: both have this order */
     s->mass[i] = read->mass[i];
   }
   wide *found = calloc((size_t)s->nv + 1, sizeof *found);

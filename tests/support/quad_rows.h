@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations in quadruple precision where rows may depend on each other, and how far from it
- * they are, from M, J, g and gamma in double precision as they are. With M = L L^T, y = L^T a and
- * the rows of J L^-T scaled to length 1, the constraints are W^T y = c, and of all such y the one
- * nearest to L^-1 g is wanted: by a QR factorization of W with pivoting. No part of the library
- * solves anything here.
- */
+/* Accelerations in quadruple precision, also with dependent rows, and measures of dependence, from
+ * M, J, g and gamma of the library in double precision. With M = L L^T, y = L^T a and the rows of J
+ * L^-T scaled to length 1, the constraints are W^T y = c. The y nearest to L^-1 g is found by a QR
+ * factorization of W with pivoting. No solver of the library is used. */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
 
@@ -15,17 +13,18 @@
 #include "quad.h"
 
 typedef struct quad_rows {
-  int rank;        /* rows that are at least QUAD_DEPENDENT apart from those before them */
-  double distance; /* smallest singular value of W; with dependent rows, how far the first is from
-                      the others */
-  double kept;     /* smallest singular value of the rows of the rank */
-  double conflict; /* largest |W^T y - c| of dependent rows, of |c|, |y| and |L^-1 g| */
-  double size;     /* largest |a| or |M^-1 g| */
+  int rank;        /* number of rows that are at least QUAD_DEPENDENT from the span of those before
+                    * them */
+  double distance; /* smallest singular value of W; with dependent rows, the distance of the first
+                    * from the span of the others */
+  double kept;     /* smallest singular value of the independent rows */
+  double conflict; /* largest |W^T y - c| of dependent rows, relative to |c|, |y| and |L^-1 g| */
+  double size;     /* the larger of max |a| and max |M^-1 g| */
 } quad_rows;
 
 static const double QUAD_DEPENDENT = 1e-10;
 
-/* Equations of an oracle's own: fill mass to gamma, then solve. */
+/* Equations of an oracle: fill mass, jacobian, force and gamma, then solve. */
 typedef struct quad_equations {
   int nv;
   int nc;
@@ -33,35 +32,36 @@ typedef struct quad_equations {
   wide *jacobian; /* (nc x nv) */
   wide *force;    /* (nv) */
   wide *gamma;    /* (nc) */
-  int rank;       /* what follows is found */
-  int *order;     /* (nc) rows in the order of the pivots */
+  int rank;       /* from here on: results */
+  int *order;     /* (nc) rows in pivot order */
   wide *factor;   /* (nv x nv) L */
-  wide *w;        /* (nc x nv) columns of W, then of Q: column k from k nv on */
-  wide *r;        /* (nc x nc) R in the order of the pivots */
-  wide *c;        /* (nc) right sides in that order */
-  wide *length;   /* (nc) of the rows of J L^-T */
+  wide *w;        /* (nc x nv) columns of W, then of Q; column k begins at k nv */
+  wide *r;        /* (nc x nc) R in pivot order */
+  wide *c;        /* (nc) right sides in pivot order */
+  wide *length;   /* (nc) lengths of the rows of J L^-T */
   wide *y;        /* (nv) */
   wide *work;     /* (nv + nc) */
 } quad_equations;
 
-/* false: no memory; destroy it all the same. */
+/* Returns false without memory; destroy it also then. */
 bool quad_equations_create(quad_equations *s, int nv, int nc);
 void quad_equations_destroy(quad_equations *s);
 
-/* a is (nv). false: M is not positive definite. */
+/* Computes a (nv). Returns false if M is not positive definite. */
 bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out);
 
-/* After it: multipliers (nc), 0 of dependent rows; the k-th combination of rows that is zero. */
+/* After solving: multipliers (nc), 0 for dependent rows; and the k-th combination of rows that is
+ * zero. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda);
 void quad_equations_null(const quad_equations *s, int k, wide *lambda);
 
-/* Through the public functions of a workspace; a is (nv). false: they fail, M is not positive
- * definite, or there is no memory. */
+/* Reads M, J, g and gamma from a workspace and computes a (nv). Returns false if a call fails, M is
+ * not positive definite, or there is no memory. */
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out);
 
-/* Likewise the velocities nearest to v, in the metric of M, that fulfil constraints which do not
- * depend on time; as accelerations without bending, M v for forces. */
+/* Likewise the velocities nearest to v in the metric of M that fulfil time-independent constraints:
+ * the same equations with gamma = 0 and the force M v. */
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out);
 

@@ -7,7 +7,7 @@
 
 #include "quad.h"
 
-/* ---- the system: a list of entries ---- */
+/* ---- the system as a list of entries ---- */
 
 typedef struct entry {
   int row;
@@ -18,11 +18,11 @@ typedef struct entry {
 typedef struct quad_system {
   int n; /* nv + nc */
   int nv;
-  entry *entries; /* of M and J; J^T goes without saying */
+  entry *entries; /* of M and J; J^T is implied */
   size_t count;
   size_t room;
   double *b;  /* (n) */
-  int *place; /* (n) of each unknown in the order of elimination */
+  int *place; /* (n) position of each unknown in the elimination order */
   bool failed;
 } quad_system;
 
@@ -67,8 +67,8 @@ static void add(quad_system *s, int row, int column, double value)
 
 /* ---- order ---- */
 
-/* A velocity stands at twice its number, a row of J between the first and the last velocity in
- * it. */
+/* Sort key of an unknown: 2 i for velocity i; for a row of J, the sum of its first and last
+ * velocity. */
 typedef struct seat {
   int at;
   int unknown;
@@ -119,7 +119,7 @@ static void find_order(quad_system *s)
 
 /* ---- elimination in a band ---- */
 
-/* Row i holds columns i - half to i + 2 half, the upper part being wider because of the pivoting,
+/* Row i holds columns i - half to i + 2 half (the upper part is wider because of the pivoting),
  * then the right side. */
 typedef struct band {
   int n;
@@ -196,7 +196,7 @@ static void bring_up_pivot(const band *m, int k)
   }
 }
 
-/* Row i less the part of row k that takes away its column k. */
+/* Subtracts from row i the multiple of row k that eliminates column k. */
 static void take_away(const band *m, int k, int last, int i)
 {
   wide *low = at(m, i, k);

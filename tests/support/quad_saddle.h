@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations and multipliers in quadruple precision (long double where there is none), from M,
- * J, g and gamma in double precision as they are:
+/* Accelerations and multipliers in quadruple precision (or long double), from M, J, g and gamma of
+ * the library in double precision:
  *
  *   [ M  J^T ] [ a      ]   [ g     ]
  *   [ J   0  ] [ lambda ] = [ gamma ]
  *
- * Unknowns are ordered so that the matrix of a chain is a narrow band, whatever its length; a
- * matrix that is no band is eliminated like a dense one. Partial pivoting. No part of the library
- * solves anything here.
+ * The unknowns are ordered so that the matrix of a chain has a narrow band, whatever its length;
+ * other matrices are eliminated like dense ones. Partial pivoting. No solver of the library is
+ * used.
  */
 #ifndef BAUM_TEST_QUAD_SADDLE_H
 #define BAUM_TEST_QUAD_SADDLE_H
@@ -16,14 +16,15 @@
 
 #include "dynamics/dynamics.h"
 
-/* (a, lambda) rounded to double. false: singular, or no memory. */
+/* Both functions round (a, lambda) to double. They return false if the matrix is singular or memory
+ * is missing. */
 
-/* Through the public functions of a workspace, with J and M dense: for some hundred coordinates.
- * Rows marked in `left_out` (nc), which may be NULL, are not taken; their lambda is 0. */
+/* Reads dense J and M from a workspace: for some hundred coordinates. Omits the rows marked in
+ * left_out (nc), which may be NULL; their lambda is 0. */
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *left_out, double *a, double *lambda);
 
-/* From the blocks that the workspace keeps, for long chains. */
+/* Reads the blocks of the workspace: for long chains. */
 bool quad_acceleration_of_blocks(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *a, double *lambda);
 

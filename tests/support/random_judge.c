@@ -15,7 +15,7 @@
 /* Dependent rows that contradict each other by more must be refused. */
 static const double CONTRADICTION = 1e-9;
 
-/* What is looked at. */
+/* A configuration to test. */
 typedef struct scene {
   random_tally *tally;
   uint64_t seed;
@@ -31,7 +31,7 @@ typedef struct scene {
 
 /* ---- kinds ---- */
 
-/* Small mostly; one in ten has some dozens of bodies. */
+/* Draws the kind of a mechanism: mostly small, one in ten with up to 30 bodies. */
 static random_kind draw_kind(chance *c)
 {
   bool large = chance_below(c, 10) == 0;
@@ -69,7 +69,7 @@ static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *
     return RANDOM_CONFLICT;
   }
   double error = error_of(s, rows);
-  /* which of two dependent rows is kept makes a difference where they differ */
+  /* library and oracle may omit different rows, which changes the result by the rows' conflict */
   double choice = dependent ? rows->conflict / rows->kept : 0.0;
   if (!(error <= RANDOM_ERROR + choice)) {
     return RANDOM_WRONG;
@@ -114,7 +114,7 @@ static void move_a_bit(scene *s, chance *c, double away)
   }
 }
 
-/* Back onto the constraints, where possible. */
+/* Projects the state onto the constraints and, if that succeeds, tests it. */
 static void look_on_constraints(scene *s, const char *what)
 {
   if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
@@ -127,10 +127,10 @@ static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
   baum_mobility mobility = {.redundant_rows = 0};
   (void)baum_workspace_design(s->w, s->q, NULL);
   move_a_bit(s, c, 0.0);
-  look_on_constraints(s, "drawn");
+  look_on_constraints(s, "design");
   move_a_bit(s, c, 0.2);
   look_on_constraints(s, "moved");
-  /* redundant rows are omitted, and off the constraints they need not depend on each other */
+  /* rows that are redundant on the constraints may be independent off them */
   (void)baum_mechanism_mobility(m, &mobility, sizeof mobility);
   if (mobility.redundant_rows == 0) {
     move_a_bit(s, c, 1.0);

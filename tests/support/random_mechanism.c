@@ -203,7 +203,7 @@ static void add_body(random_mechanism *r, const random_kind *kind)
 
 /* ---- joints ---- */
 
-/* Point of the design configuration, near one of both, or in its centre. */
+/* Chooses a point near the centre of `a`, or the centre itself. */
 static void choose_point(random_mechanism *r, const random_body *a, double point[2])
 {
   chance *c = &r->chance;
@@ -213,7 +213,7 @@ static void choose_point(random_mechanism *r, const random_body *a, double point
   }
 }
 
-/* In the axes of a body. */
+/* Converts a point from ground axes to body axes. */
 static void to_body(const random_body *b, const double point[2], double out[2])
 {
   double x = point[0] - b->q[0];
@@ -233,7 +233,7 @@ static void keep(random_mechanism *r, char kind, baum_status status, baum_joint_
   r->joints[r->joint_count++] = id;
 }
 
-/* Joints of a point and an axis begin alike but for their names and types. */
+/* Sets the fields that all definitions of joints with one point share. */
 #define PLACE(DEF)           \
   (DEF).body_a = a->id;      \
   (DEF).body_b = b->id;      \
@@ -273,7 +273,7 @@ static void add_weld(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'f', baum_mechanism_add_planar_fixed(r->mechanism, &def, &id), id);
 }
 
-/* In axes of the body; a particle has its points at itself. */
+/* Chooses a random point in body axes; for a particle, its own position. */
 static void choose_end(random_mechanism *r, const random_body *body, double end[2])
 {
   double point[2];
@@ -396,7 +396,8 @@ static void add_rows(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'u', baum_mechanism_add_user_constraint(r->mechanism, &def, &id), id);
 }
 
-/* In the design configuration points of sliders and slots coincide. */
+/* Returns a joint's coordinate in the design configuration. That of sliders and slots is 0, because
+ * their points coincide. */
 static double design_coordinate(const random_mechanism *r, int joint)
 {
   baum_planar_revolute_def def;
@@ -414,7 +415,7 @@ static double design_coordinate(const random_mechanism *r, int joint)
   return angle[1] - angle[0];
 }
 
-/* Of any joint that has a coordinate. */
+/* Adds a driver to a random joint, if it has a coordinate. */
 static void add_driver(random_mechanism *r, const random_kind *kind)
 {
   int k = chance_below(&r->chance, r->joint_count + 1) - 1;
@@ -432,7 +433,7 @@ static void add_driver(random_mechanism *r, const random_kind *kind)
   def.joint = r->joints[k];
   def.law = sway;
   def.user = rows->at;
-  r->joint_kind[k] = 'x'; /* one driver each */
+  r->joint_kind[k] = 'x'; /* no second driver */
   keep(r, 'v', baum_mechanism_add_driver(r->mechanism, &def, &id), id);
 }
 
@@ -519,7 +520,7 @@ static void add_load(random_mechanism *r)
   assert_int_equal(baum_mechanism_add_planar_load(r->mechanism, &def, &id), BAUM_OK);
 }
 
-/* Between bodies with points. */
+/* Adds a spring between two bodies, but not to user coordinates, which have no points. */
 static void add_spring(random_mechanism *r)
 {
   chance *c = &r->chance;

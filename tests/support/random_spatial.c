@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "random_coordinates.h"
 #include "rotation.h"
 
 static void choose_vector(chance *c, double size, double out[3])
@@ -42,7 +43,7 @@ static void check(baum_status status)
 
 /* ---- bodies ---- */
 
-/* Of an ellipsoid, one in six of them a rod, in random axes. */
+/* Chooses the inertia of an ellipsoid in random axes; one in six is nearly a rod. */
 static void choose_inertia(chance *c, double mass, double out[6])
 {
   double square[3];
@@ -147,7 +148,8 @@ static bool is_planar(const oracle_body *b)
 
 /* ---- joints: definitions ---- */
 
-/* A definition of any kind begins like that of a revolute joint, or is shorter. */
+/* Adds a joint whose definition has its first SIZE bytes in common with that of a revolute joint,
+ * and copies these from `given`. */
 #define ADD(NAME, SIZE)                                                       \
   {                                                                           \
     baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default();      \
@@ -155,6 +157,23 @@ static bool is_planar(const oracle_body *b)
     memcpy((char *)&def + head, (const char *)given + head, (SIZE)-head);     \
     check(baum_mechanism_add_spatial_##NAME(r->mechanism, &def, &joint->id)); \
   }
+
+/* Adds a planar joint with the x axis of the oracle's joint. */
+static void add_planar(random_spatial *r, const baum_spatial_revolute_def *given,
+                       oracle_joint *joint)
+{
+  wide x[3];
+  baum_spatial_planar_def def = baum_spatial_planar_def_default();
+  size_t head = offsetof(baum_spatial_planar_def, body_a);
+  memcpy((char *)&def + head, (const char *)given + head,
+         offsetof(baum_spatial_planar_def, x_axis) - head);
+  memcpy(x, joint->axes[0], sizeof x);
+  if (!isnan(given->point[0])) {
+    oracle_axis_to_ground(&r->oracle.bodies[joint->a], joint->axes[0], x);
+  }
+  narrow(x, def.x_axis);
+  check(baum_mechanism_add_spatial_planar(r->mechanism, &def, &joint->id));
+}
 
 static void add_defined(random_spatial *r, const baum_spatial_revolute_def *given,
                         oracle_joint *joint)
@@ -165,7 +184,7 @@ static void add_defined(random_spatial *r, const baum_spatial_revolute_def *give
   case ORACLE_UNIVERSAL: ADD(universal, sizeof def) break;
   case ORACLE_CYLINDRICAL: ADD(cylindrical, sizeof def) break;
   case ORACLE_PRISMATIC: ADD(prismatic, sizeof def) break;
-  case ORACLE_PLANAR: ADD(planar, sizeof def) break;
+  case ORACLE_PLANAR: add_planar(r, given, joint); break;
   case ORACLE_FIXED: ADD(fixed, sizeof def) break;
   case ORACLE_DISTANCE: ADD(distance, offsetof(baum_spatial_distance_def, length)) break;
   case ORACLE_ON_LINE: ADD(point_on_line, sizeof def) break;
@@ -181,7 +200,7 @@ static void scaled(chance *c, const wide x[3], double out[3])
   }
 }
 
-/* By `point`, all in ground axes. */
+/* Defines a joint by `point` and axes, all in ground axes. */
 static void define_at_point(random_spatial *r, const double point[3], const double axis[3],
                             oracle_joint *joint, baum_spatial_revolute_def *def)
 {
@@ -203,7 +222,8 @@ static void define_at_point(random_spatial *r, const double point[3], const doub
   }
 }
 
-/* A point that both the library and the oracle have, in double precision; of a particle itself. */
+/* Rounds a point in body axes to double precision, so that library and oracle use the same one. For
+ * a particle the point becomes its position. */
 static void round_on_body(const oracle_body *body, wide point[3], double out[3])
 {
   wide s[3];
@@ -215,7 +235,8 @@ static void round_on_body(const oracle_body *body, wide point[3], double out[3])
   oracle_to_ground(body, s, point);
 }
 
-/* By points and axes on both bodies; body_b's point is `apart` from that of body_a. */
+/* Defines a joint by points and axes on both bodies; `apart` is the vector from body_a's point to
+ * body_b's. */
 static void define_on_bodies(random_spatial *r, const double point[3], const double axis[3],
                              const double apart[3], oracle_joint *joint,
                              baum_spatial_revolute_def *def)
@@ -245,7 +266,7 @@ static void define_on_bodies(random_spatial *r, const double point[3], const dou
   }
 }
 
-/* ---- joints: places ---- */
+/* ---- joints: points and axes ---- */
 
 static void choose_axis(random_spatial *r, const double point[3], bool in_plane, double axis[3])
 {
@@ -263,7 +284,7 @@ static void choose_axis(random_spatial *r, const double point[3], bool in_plane,
   }
 }
 
-/* Where body_b's point may be off that of body_a. */
+/* Chooses a vector from body_a's point to body_b's that the joint permits. */
 static void choose_apart(chance *c, oracle_kind kind, const double axis[3], double apart[3])
 {
   double beside[3];
@@ -300,7 +321,7 @@ static void choose_point(random_spatial *r, oracle_kind kind, int a, int b, doub
   }
 }
 
-/* Between two points of any place. */
+/* Defines a rod between two random points. */
 static void define_rod(random_spatial *r, oracle_joint *joint, baum_spatial_revolute_def *def)
 {
   static const wide z[3] = {0, 0, 1};
@@ -344,7 +365,7 @@ static void add_joint_at(random_spatial *r, oracle_kind kind, const int bodies[2
   add_defined(r, &def, joint);
 }
 
-/* Of those that both bodies may have; loops close with few rows mostly. */
+/* Chooses a kind that both bodies support. Two of three joints that close loops have few rows. */
 static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
 {
   static const oracle_kind few[] = {ORACLE_SPHERICAL, ORACLE_UNIVERSAL, ORACLE_PLANAR,
@@ -366,7 +387,7 @@ static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
                                         : (oracle_kind)chance_below(c, ORACLE_JOINT_KINDS);
 }
 
-/* One in twelve a second time, the other way round or at another point of its axis. */
+/* Adds a joint; one in twelve twice, with bodies exchanged or at another point of the axis. */
 static void add_joint(random_spatial *r, int one, int other, bool loop)
 {
   chance *c = &r->chance;
@@ -390,42 +411,6 @@ static void add_joint(random_spatial *r, int one, int other, bool loop)
   }
 }
 
-/* ---- drivers ---- */
-
-/* Of a joint that has a coordinate, and no driver yet; -1 if chance finds none. */
-static int choose_coordinate(random_spatial *r)
-{
-  const spatial_oracle *o = &r->oracle;
-  int n = chance_below(&r->chance, o->joint_count + 1) - 1;
-  if (n < 0) {
-    return -1;
-  }
-  oracle_kind kind = o->joints[n].kind;
-  bool has = kind == ORACLE_REVOLUTE || kind == ORACLE_CYLINDRICAL || kind == ORACLE_PRISMATIC ||
-             kind == ORACLE_ON_LINE;
-  for (int k = 0; k < o->joint_count; k++) {
-    has = has && !(o->joints[k].kind == ORACLE_DRIVER && o->joints[k].of == n);
-  }
-  return has ? n : -1;
-}
-
-static void add_driver(random_spatial *r)
-{
-  int n = choose_coordinate(r);
-  if (n < 0) {
-    return;
-  }
-  oracle_joint *joint = next_joint(r, ORACLE_DRIVER, 0, 0);
-  joint->of = n;
-  joint->start[0] = r->start;
-  joint->start[1] = (double)oracle_design_coordinate(&r->oracle, &r->oracle.joints[n]);
-  baum_driver_def def = baum_driver_def_default();
-  def.joint = r->oracle.joints[n].id;
-  def.law = oracle_law;
-  def.user = joint->start;
-  check(baum_mechanism_add_driver(r->mechanism, &def, &joint->id));
-}
-
 /* ---- forces ---- */
 
 static void add_spring(random_spatial *r)
@@ -438,7 +423,7 @@ static void add_spring(random_spatial *r)
     return;
   }
   oracle_force *f = &o->forces[o->force_count++];
-  *f = (oracle_force){.is_spring = true, .a = a, .b = b};
+  *f = (oracle_force){.kind = ORACLE_SPRING, .a = a, .b = b};
   choose_vector(c, turns(&o->bodies[a]) ? 1.0 : 0.0, f->s[0]);
   choose_vector(c, turns(&o->bodies[b]) ? 1.0 : 0.0, f->s[1]);
   f->stiffness = chance_decade(c, 1.0, 100.0);
@@ -511,7 +496,7 @@ static void add_joints(random_spatial *r)
     }
   }
   if (chance_below(c, 4) == 0) {
-    add_driver(r);
+    random_spatial_add_driver(r);
   }
 }
 
@@ -536,6 +521,9 @@ void random_spatial_make(random_spatial *out, uint64_t seed)
   }
   for (int k = chance_below(c, ORACLE_FORCES / 2); k > 0; k--) {
     add_spring(out);
+  }
+  for (int k = chance_below(c, 3); k > 0; k--) {
+    random_spatial_add_joint_spring(out);
   }
   check(baum_mechanism_freeze(out->mechanism));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar mechanisms with redundant rows and uneven masses, chosen at random; what M a + J^T
- * lambda = g leaves. The same seed gives the same mechanism on every machine. */
+/* Random planar mechanisms with redundant rows and uneven masses, and the residual of M a + J^T
+ * lambda = g. The same seed gives the same mechanism on every machine. */
 #ifndef BAUM_TEST_REDUNDANT_MECHANISM_H
 #define BAUM_TEST_REDUNDANT_MECHANISM_H
 
@@ -9,16 +9,17 @@
 
 #include <baum/baum.h>
 
-/* Frozen. Kind by seed: doubled pins, welds with pins, parallel cranks, stacked parallelograms,
- * closed chains. Masses lie between 1/ratio and 1 kg. */
+/* Frozen. The seed determines the kind: doubled pins, welds with pins, parallel cranks, stacked
+ * parallelograms, closed chains. Masses are between 1/ratio and 1 kg. */
 baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio);
 
-/* A bracket of 1/ratio kg, pinned and welded to the ground, holds 1 kg at rest. */
+/* A bracket of 1/ratio kg, pinned and welded to the ground, carries 1 kg at rest. `hold` receives
+ * the joint between them. */
 baum_mechanism *redundant_bracket(double ratio, baum_joint_id *hold);
 
-/* A solution to be judged. */
+/* A state with accelerations and multipliers to test. */
 typedef struct redundant_state {
-  baum_workspace *w; /* of a planar mechanism without particles, of the order of 1 m */
+  baum_workspace *w; /* of a planar mechanism without particles, with a size of about 1 m */
   int32_t nv;
   int32_t nc;
   double *q; /* (nv) */
@@ -28,9 +29,9 @@ typedef struct redundant_state {
   bool *unique;   /* (nc) */
 } redundant_state;
 
-/* The largest row of M a + J^T lambda - g against the largest term on its body, or against 1e-14 of
- * the largest term of all; NaN is infinite. *rows, where it is given, receives the largest row of J
- * a - gamma against the largest term of all, with or without the constraints. */
+/* Largest residual of M a + J^T lambda = g on a body, relative to the largest term on this body or
+ * to 1e-14 of the largest term of all; infinite with NaN. *rows, if not NULL, receives the largest
+ * residual of J a = gamma relative to the largest term, with or without the constraints. */
 double redundant_imbalance(const redundant_state *s, double *rows);
 
 typedef enum redundant_verdict {
@@ -40,22 +41,20 @@ typedef enum redundant_verdict {
   REDUNDANT_VERDICTS
 } redundant_verdict;
 
-/* Forces are met within it. */
+/* Limit of the relative residual. */
 static const double REDUNDANT_ERROR = 1e-9;
 
 enum { REDUNDANT_STATES = 3 };
 
-/* By state: on the constraints, 1e-6 and 1e-3 off them. */
+/* Counts for each state: on the constraints, 1e-6 and 1e-3 off them. */
 typedef struct redundant_tally {
   long workspace[REDUNDANT_STATES][REDUNDANT_VERDICTS];
   long run[REDUNDANT_STATES][REDUNDANT_VERDICTS];
-  double worst;      /* imbalance of those met */
-  long wrong_unique; /* multipliers that the run calls unique and are not, or the reverse, on the
-                        constraints */
+  double worst;      /* largest residual of the results that are met */
+  long wrong_unique; /* wrong flags of uniqueness on the constraints */
 } redundant_tally;
 
-/* Judge the workspace and a run that starts as given, in the three states. What is wrong is
- * printed. */
+/* Tests a workspace and a run that starts as given, in the three states. Prints wrong results. */
 void redundant_judge(uint64_t seed, redundant_tally *tally);
 
 #endif

@@ -29,8 +29,9 @@ static baum_status make_pendulum(baum_mechanism **out)
   return status ? status : baum_mechanism_freeze(*out);
 }
 
-/* The fine entries are of two methods, the first of which has three; the next drifts until it warns
- * of the joint, by name; the gains of the last are unstable. */
+/* The first four entries are right and belong to two methods, the first of which has three
+ * entries. The fifth drifts until it warns, with the name of the joint. The gains of the last are
+ * unstable. */
 static baum_status add_entries(baum_study *study)
 {
   static const double steps[REPORT_ENTRIES] = {0.04, 0.02, 0.01, 0.01, 0.05, 0.01};

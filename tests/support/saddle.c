@@ -32,7 +32,7 @@ static int pick(uint64_t *seed, int count)
   return k < count ? k : count - 1;
 }
 
-/* ---- making ---- */
+/* ---- creation ---- */
 
 static saddle make(int mass_blocks, int row_blocks, int columns)
 {
@@ -43,7 +43,7 @@ static saddle make(int mass_blocks, int row_blocks, int columns)
   };
 }
 
-/* The blocks are in place: give room for their values and for the vectors. */
+/* Allocates the values and vectors after the blocks are defined. */
 static void complete(saddle *system)
 {
   baum_i_kkt_structure *structure = &system->structure;
@@ -102,7 +102,7 @@ void saddle_free(saddle *system)
 
 /* ---- random ones ---- */
 
-/* Columns of a block over bodies i and j (or i alone, where they are the same), shuffled. */
+/* Lists the columns of a block over bodies i and j (or i alone, if i = j) in random order. */
 static int list_columns(const saddle *system, int i, int j, uint64_t *seed, int *col)
 {
   int cols = 0;
@@ -230,7 +230,7 @@ saddle saddle_make_four_bar(int loops)
   return system;
 }
 
-/* Columns of one body in a pin at (x, y) from its centre, ground axes. */
+/* Columns of one body in a pin at (x, y) from its centre, in ground axes. */
 static double *write_pin(double *value, int cols, double sign, double x, double y)
 {
   const double rows[2][3] = {{sign, 0.0, -sign * y}, {0.0, sign, sign * x}};
@@ -262,7 +262,7 @@ void saddle_pose_four_bar(saddle *system, double angle)
   }
 }
 
-/* ---- changing ---- */
+/* ---- changes ---- */
 
 void saddle_make_consistent(saddle *system, uint64_t seed)
 {
@@ -315,7 +315,7 @@ static wide size_of(wide x)
   return x < 0 ? -x : x;
 }
 
-/* The dense system in wide arithmetic with right side, (n) rows of (n + 1); dropped rows say
+/* The dense system with its right side in wide arithmetic: n rows of n + 1. An omitted row becomes
  * lambda_i = 0. */
 static wide *write_wide(const saddle *system, int n)
 {
@@ -353,7 +353,7 @@ static void bring_up_pivot(wide *matrix, int n, int k)
   }
 }
 
-/* Gauss and Jordan. */
+/* Gauss-Jordan elimination. */
 static void eliminate(wide *matrix, int n)
 {
   for (int k = 0; k < n; k++) {
@@ -392,7 +392,7 @@ double saddle_backward_error(const saddle *system)
       residual -= term;
       size += size_of(term);
     }
-    /* Written so that NaN becomes the worst. */
+    /* a NaN becomes the worst */
     double error = size > 0 ? (double)(size_of(residual) / size) : 0.0;
     worst = error <= worst ? worst : error;
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A solver of saddle-point systems on the systems of saddle.h, and its results compared. Include
- * after cmocka.h. */
+/* Solves the systems of saddle.h with a chosen solver and compares the results. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_SADDLE_SOLVER_H
 #define BAUM_TEST_SADDLE_SOLVER_H
 
@@ -43,7 +43,7 @@ static inline double largest_of(const double *x, int count)
   return largest;
 }
 
-/* Every component of (a, lambda) against want, to a part of the largest of its kind. */
+/* Compares every element of (a, lambda) with want, relative to the largest of a or of lambda. */
 static inline void assert_solution(const saddle *system, const double *want, double tolerance)
 {
   int nv = system->structure.nv;

@@ -14,6 +14,7 @@
 #include "driven.h"
 #include "every_element.h"
 #include "models.h"
+#include "spatial_scenes.h"
 #include "step_mode.h"
 
 double saved_random(int k)
@@ -29,7 +30,8 @@ bool saved_reached(baum_status status)
 
 /* ---- mechanisms ---- */
 
-/* The law that the motor has, from here on by the run: value, rate and acceleration go on. */
+/* Replaces the law of the motor by its quadratic continuation, with the same value, rate and
+ * acceleration. */
 static baum_status lead_on(baum_simulation *run, const saved_scene *scene)
 {
   double t = baum_simulation_time(run);
@@ -71,7 +73,7 @@ static void open_driven(saved_scene *scene)
 
 /* ---- the list ---- */
 
-/* Every integrator with every formulation, on a mechanism that it takes. */
+/* Every integrator with every formulation, on a mechanism that it supports. */
 static bool open_pair(saved_scene *scene, int *number)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -96,7 +98,7 @@ static bool open_pair(saved_scene *scene, int *number)
   return false;
 }
 
-/* Four-bars in a row that pass singular configurations twice a revolution, with events, too. */
+/* Two coupled four-bars that pass singular configurations twice a revolution, with events. */
 static bool open_singular(saved_scene *scene, int number)
 {
   const baum_integrator *const methods[] = {baum_rk4(), baum_rk8(), baum_ab4(), baum_ida()};
@@ -120,7 +122,7 @@ static bool open_singular(saved_scene *scene, int number)
   return true;
 }
 
-/* Further ones: other solvers, redundant rows, fixed bodies, the energy account, kinematics. */
+/* Other solvers, redundant rows, fixed bodies, the energy account, kinematics, RATTLE in space. */
 static bool open_other(saved_scene *scene, int number)
 {
   static const baum_solver solvers[] = {BAUM_SOLVER_KLU, BAUM_SOLVER_QR, BAUM_SOLVER_BLOCK};
@@ -135,12 +137,12 @@ static bool open_other(saved_scene *scene, int number)
     return true;
   }
   switch (number) {
-  case 6: /* the account of a fixed step */
+  case 6: /* the energy account with a fixed step */
     open_every_element(scene);
     o->step = 1e-3;
     o->energy_account = true;
     return true;
-  case 7: /* and of a variable one */
+  case 7: /* the energy account with a variable step */
     open_every_element(scene);
     o->integrator = baum_rk8();
     o->step = (double)NAN;
@@ -152,7 +154,11 @@ static bool open_other(saved_scene *scene, int number)
     o->integrator = baum_kinematics();
     o->step = (double)NAN;
     return true;
-  default: return open_singular(scene, number - 9);
+  case 9: /* rigid bodies in space, by the one method that does not take every element */
+    scene->mechanism = spatial_make_rssr();
+    o->integrator = baum_rattle();
+    return true;
+  default: return open_singular(scene, number - 10);
   }
 }
 

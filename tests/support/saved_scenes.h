@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs to be saved and restored: every integrator with every formulation, and every solver. */
+/* Runs for saving and restoring: every integrator with every formulation, and every solver. */
 #ifndef BAUM_TEST_SAVED_SCENES_H
 #define BAUM_TEST_SAVED_SCENES_H
 
@@ -17,28 +17,29 @@ struct saved_scene {
   baum_simulation_options options;
   int32_t nq;
   int32_t nv;
-  int times;   /* at which it is saved */
-  double span; /* [s] most between two of them */
+  int times;   /* how often it is saved */
+  double span; /* [s] longest interval between two saves */
   bool has_input;
   baum_input_id input;
-  baum_joint_id watched; /* an event counts where its coordinate passes this; none: no event */
+  baum_joint_id watched; /* an event occurs where this joint's coordinate passes `passes`; none: no
+                          * event */
   double passes;
-  baum_joint_id motor; /* of the law */
-  /* Give the motor another law, from where it is; NULL: there is none. */
+  baum_joint_id motor; /* has the law */
+  /* Replaces the law of the motor without a jump; NULL: there is no motor. */
   baum_status (*law)(baum_simulation *run, const saved_scene *scene);
 };
 
-/* The number-th, its mechanism built again; false past the last. */
+/* Opens scene `number` with a new mechanism; returns false if there are fewer. */
 bool saved_scene_open(saved_scene *scene, int number);
 void saved_scene_close(saved_scene *scene);
 
-/* A run of it; fails the test on failure. */
+/* Creates a run of the scene; fails the test on failure. */
 baum_simulation *saved_scene_start(const saved_scene *scene);
 
-/* BAUM_OK or BAUM_WARNED. */
+/* Whether the status is BAUM_OK or BAUM_WARNED. */
 bool saved_reached(baum_status status);
 
-/* The k-th of a sequence of numbers between 0 and 1. */
+/* The k-th of a sequence of random numbers between 0 and 1. */
 double saved_random(int k);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose motion leads through singular configurations and is known: on its branch each is
- * one turning angle th with
+/* Mechanisms whose motion passes singular configurations and is known: on its branch each has one
+ * angle th with
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  *
@@ -19,41 +19,40 @@ typedef enum singular_kind {
   SINGULAR_N_FOUR_BAR,
   SINGULAR_PARALLELOGRAM,
   SINGULAR_THREE_CRANKS,
-  SINGULAR_SLIDER_CRANK,       /* rod and crank of one length */
-  SINGULAR_NEAR_PARALLELOGRAM, /* coupler longer by 1e-4: close to singular only; no angle is known
-                                  */
+  SINGULAR_SLIDER_CRANK,       /* rod and crank have the same length */
+  SINGULAR_NEAR_PARALLELOGRAM, /* coupler longer by 1e-4: nearly singular only, no equation for
+                                * th */
   SINGULAR_KINDS
 } singular_kind;
 
 typedef struct singular_scene {
   model m;
-  double end;  /* [s] */
-  double unit; /* [s] time in which it turns by about five radians, of which steps and gains are
-                  told */
+  double end;                        /* [s] */
+  double unit;                       /* [s] time for about five radians; unit of steps and gains */
   double want[SINGULAR_SAMPLES + 1]; /* [rad] th at k end / SINGULAR_SAMPLES */
-  int count;                         /* of angles in q that follow th */
-  int angle[SINGULAR_ANGLES];        /* where they are */
+  int count;                         /* number of angles in q that are th or -th */
+  int angle[SINGULAR_ANGLES];        /* their indices */
   double sign[SINGULAR_ANGLES];
-  double *reference; /* ((SINGULAR_SAMPLES + 1) x nq) where no angle is known, else NULL */
+  double *reference; /* ((SINGULAR_SAMPLES + 1) x nq) if there is no equation for th, else NULL */
 } singular_scene;
 
-/* loops: N of the N-four-bar. seed: of the start, which differs by up to 0.1 rad. */
+/* loops: N of the N-four-bar. seed: for the random start, up to 0.1 rad from the usual one. */
 singular_scene singular_open(singular_kind kind, int loops, uint64_t *seed);
 void singular_close(singular_scene *scene);
 
-/* One setting to run it with. */
+/* Settings of a run. */
 typedef struct singular_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  double step; /* [unit]; 0: rtol */
+  double step; /* [unit]; 0: variable step with rtol */
   double rtol;
-  double alpha; /* [1/unit] of BAUMGARTE, beta likewise */
+  double alpha; /* [1/unit] alpha and beta of BAUMGARTE */
 } singular_setting;
 
 typedef struct singular_result {
   baum_status status; /* < 0: failed */
-  double error;       /* [rad or m] largest at a sample, until it failed */
+  double error;       /* [rad or m] largest error at a sample, until the run failed */
   int64_t intervals;
   int64_t branch_warnings;
   int64_t warnings;
@@ -63,7 +62,7 @@ typedef struct singular_result {
 
 singular_result singular_run(const singular_scene *scene, const singular_setting *setting);
 
-/* All that the issue of singular positions is about; ends with a NULL name. */
+/* All settings to test; ends with a NULL name. */
 extern const singular_setting SINGULAR_SETTINGS[];
 
 #endif

@@ -10,12 +10,12 @@
 
 #include <cmocka.h>
 
-/* Of states that the library has projected; velocities are of size 3. */
+/* Permitted violation after a projection by the library; velocities are about 3. */
 static const double ON_CONSTRAINTS = 1e-9;
 
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
 
-/* What is looked at. */
+/* A configuration to test. */
 typedef struct scene {
   const random_spatial *random;
   spatial_tally *tally;
@@ -31,7 +31,7 @@ typedef struct scene {
   oracle_answer want;
 } scene;
 
-/* Errors relative to the sizes, and how much rounding of the positions changes the oracle's own. */
+/* Relative errors of the library, or of the oracle due to rounding of the positions. */
 typedef struct errors {
   double acceleration;
   double reaction;
@@ -67,7 +67,8 @@ static double more(double most, double apart)
   return apart <= most ? most : apart; /* NaN stays */
 }
 
-/* Of `a` and the reactions from those of the oracle. */
+/* Returns the errors of the library's results or, if `from` is not s->want, of those in `from`,
+ * relative to s->want. */
 static errors errors_of(const scene *s, const oracle_answer *from)
 {
   const spatial_oracle *o = &s->random->oracle;
@@ -88,7 +89,7 @@ static errors errors_of(const scene *s, const oracle_answer *from)
   return e;
 }
 
-/* The oracle with positions and inertias that differ by rounding. */
+/* Returns by how much the oracle's results change if positions and inertias change by rounding. */
 static errors sensitivity(const scene *s)
 {
   chance c = chance_of(s->seed);
@@ -127,13 +128,13 @@ static void print(const scene *s, const char *verdict, const errors *e, const er
 static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const errors *own)
 {
   if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
-    /* which of two dependent rows is omitted makes a difference where they differ */
+    /* library and oracle may omit different rows, which changes the result by the rows' conflict */
     return e->acceleration <= rows->conflict / rows->kept ? SPATIAL_CONFLICT : SPATIAL_ACCELERATED;
   }
   if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
     return SPATIAL_REACTION;
   }
-  /* masses times errors of the accelerations */
+  /* the imbalance contains errors of accelerations, times masses, and of reactions */
   double allowed = SPATIAL_ERROR + 100.0 * (own->acceleration + own->reaction);
   return e->imbalance <= allowed ? SPATIAL_MET : SPATIAL_BALANCE;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the library says of random spatial mechanisms, against an oracle in quadruple precision. */
+/* Compares the library's results for random spatial mechanisms with an oracle in quadruple
+ * precision. */
 #ifndef BAUM_TEST_SPATIAL_JUDGE_H
 #define BAUM_TEST_SPATIAL_JUDGE_H
 
@@ -7,42 +8,42 @@
 
 typedef enum spatial_verdict {
   SPATIAL_MET,     /* accelerations, reactions and balance within SPATIAL_ERROR */
-  SPATIAL_REFUSED, /* and rightly: rows depend on each other, or nearly so */
-  /* Rows contradict each other, so that the velocities are admitted to first order only:
-   * accelerated by the rows that were not omitted. */
+  SPATIAL_REFUSED, /* rightly refused: rows are dependent or nearly so */
+  /* Accepted, although omitted rows contradict the others in their second derivative; the
+   * accelerations fulfil only the remaining rows. */
   SPATIAL_CONFLICT,
-  SPATIAL_OFF,         /* a projected state does not fulfil the oracle's constraints */
-  SPATIAL_ACCELERATED, /* accelerations are farther off */
-  SPATIAL_REACTION,    /* reactions that are unique are farther off */
+  SPATIAL_OFF,         /* a projected state violates the oracle's constraints */
+  SPATIAL_ACCELERATED, /* the error of accelerations is above the limit */
+  SPATIAL_REACTION,    /* the error of unique reactions is above the limit */
   SPATIAL_BALANCE,     /* reactions do not balance the forces */
   SPATIAL_FALSE_ALARM, /* refused, but the rows are independent */
   SPATIAL_VERDICTS
 } spatial_verdict;
 
-/* Relative to the largest acceleration with or without the constraints, or to the largest part of a
- * reaction. What rounding of positions and inertias costs the oracle itself is added a hundred
- * times. */
+/* Permitted error, relative to the largest acceleration, with or without constraints, or to the
+ * largest element of a reaction. A hundred times the oracle's own sensitivity to rounding of
+ * positions and inertias is added to it. */
 static const double SPATIAL_ERROR = 1e-9;
 
-/* Of all configurations so far. */
+/* Counts over all configurations so far. */
 typedef struct spatial_tally {
   long mechanisms;
   long configurations;
-  long not_projected; /* configurations that the library could not move onto the constraints */
+  long not_projected; /* configurations where the projection failed */
   long counts[SPATIAL_VERDICTS];
-  long dependent;       /* of those met, with dependent rows */
-  long reactions;       /* compared */
-  long ill_conditioned; /* of those met, farther off because rounding costs the oracle as much */
-  double worst;         /* largest error of the others met */
+  long dependent;       /* SPATIAL_MET configurations with dependent rows */
+  long reactions;       /* number of compared reactions */
+  long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
+  double worst;         /* largest error of the other SPATIAL_MET configurations */
   double worst_reaction;
   uint64_t worst_seed;
 } spatial_tally;
 
-/* The mechanism of a seed at its design configuration, and at another that fulfils the constraints,
- * both in motion. Prints what is wrong or a false alarm. `room` holds the mechanism. */
+/* Makes the mechanism of a seed in `room` and tests it in its design configuration and in another
+ * one on the constraints, both with velocities. Prints wrong results and false alarms. */
 void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally);
 
-/* How many are wrong, or false alarms. */
+/* Number of wrong results and false alarms. */
 long spatial_bad(const spatial_tally *tally);
 
 #endif

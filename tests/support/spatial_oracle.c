@@ -7,12 +7,12 @@
 
 #include "oracle_motion.h"
 
-/* Entries of a row that are smaller are rounding: rows are of size 1, or zero because bodies stay
- * in their plane. */
+/* A row without larger entries is zero except for rounding, for example that of a planar body which
+ * cannot leave its plane. Other rows have entries of size 1. */
 static const double NO_ROW = 1e-13;
 
-/* Of a combination of rows that is zero, a joint whose part in it is smaller has a reaction that is
- * unique. */
+/* A joint's reaction is unique if its rows have smaller coefficients in every linear combination of
+ * rows that is zero. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)
@@ -71,7 +71,7 @@ static void inertia_times(const oracle_body *body, const wide x[3], wide out[3])
   out[2] = i[4] * x[0] + i[5] * x[1] + i[2] * x[2];
 }
 
-/* A force at a point and a moment, all in ground axes. */
+/* Adds a force at a point and a moment, all in ground axes. */
 static void add_wrench(const motion *body, const wide point[3], const wide force[3],
                        const wide moment[3], wide six[6])
 {
@@ -144,6 +144,35 @@ static void add_load(const oracle_force *f, const motion *bodies, wide six[][6])
   add_wrench(body, point, given[0], given[1], six[f->b]);
 }
 
+static instant stop(const instant *now)
+{
+  instant still = *now;
+  memset(still.six, 0, sizeof still.six);
+  for (int k = 0; k < now->o->body_count; k++) {
+    still.bodies[k] = motion_at(&still, k, still.six[k]);
+  }
+  return still;
+}
+
+static void add_joint_spring(const oracle_force *f, const instant *now, wide six[][6])
+{
+  const oracle_joint *joint = &now->o->joints[f->of];
+  const jet c = oracle_coordinate_of(joint, f->coordinate, now->bodies);
+  wide force = f->stiffness * (c.d[0] - f->free_length) + f->damping * c.d[1];
+  instant still = stop(now);
+  for (int side = 0; side < 2; side++) {
+    int body = side == 0 ? joint->a : joint->b;
+    const motion kept = still.bodies[body];
+    for (int k = 0; k < 6; k++) {
+      wide unit[6] = {0};
+      unit[k] = 1;
+      still.bodies[body] = motion_at(&still, body, unit);
+      six[body][k] -= force * oracle_coordinate_of(joint, f->coordinate, still.bodies).d[1];
+    }
+    still.bodies[body] = kept;
+  }
+}
+
 static void forces_at(const instant *now, wide six[][6])
 {
   const spatial_oracle *o = now->o;
@@ -161,19 +190,23 @@ static void forces_at(const instant *now, wide six[][6])
   }
   for (int n = 0; n < o->force_count; n++) {
     const oracle_force *f = &o->forces[n];
-    (f->is_spring ? add_spring : add_load)(f, now->bodies, six);
+    if (f->kind == ORACLE_JOINT_SPRING) {
+      add_joint_spring(f, now, six);
+    } else {
+      (f->kind == ORACLE_SPRING ? add_spring : add_load)(f, now->bodies, six);
+    }
   }
 }
 
 /* ---- equations ---- */
 
-/* Rows over six columns of each body. */
+/* The rows of all joints, with six columns for each body. */
 typedef struct row_list {
   int first[ORACLE_JOINTS + 1];
   wide (*j)[ORACLE_COLUMNS];
 } row_list;
 
-/* The joint itself, or that of a driver. */
+/* Returns the joint itself or, for a driver, the driven joint. */
 static const oracle_joint *pair_of(const spatial_oracle *o, const oracle_joint *joint)
 {
   return joint->kind == ORACLE_DRIVER ? &o->joints[joint->of] : joint;
@@ -197,16 +230,6 @@ static void find_columns(instant *still, const oracle_joint *joint, wide (*j)[OR
     }
     still->bodies[body] = kept;
   }
-}
-
-static instant stop(const instant *now)
-{
-  instant still = *now;
-  memset(still.six, 0, sizeof still.six);
-  for (int k = 0; k < now->o->body_count; k++) {
-    still.bodies[k] = motion_at(&still, k, still.six[k]);
-  }
-  return still;
 }
 
 static void find_rows(const instant *now, row_list *list, wide *gamma, oracle_answer *out)
@@ -274,7 +297,7 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
-/* -J^T lambda of a joint on body_b, reduced to its point there. */
+/* Writes -J^T lambda of a joint on body_b, as force and moment at body_b's point. */
 static void reaction_of(const instant *now, const row_list *list, int n, const wide *lambda,
                         wide out[6])
 {
@@ -323,7 +346,7 @@ static void find_reactions(const instant *now, const row_list *list, const quad_
   free(lambda);
 }
 
-/* ---- the answer ---- */
+/* ---- the whole evaluation ---- */
 
 bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const double *v,
                       oracle_answer *out)
@@ -352,7 +375,7 @@ bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const do
 
 /* ---- balance ---- */
 
-/* What the reactions of a joint add on all bodies: its opposite on body_a, about the same point. */
+/* Adds the reaction of a joint to body_b and its opposite to body_a, both at the same point. */
 static void add_reaction(const instant *now, const oracle_joint *joint, const double *reaction,
                          wide six[][6])
 {

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial mechanisms in quadruple precision by formulas of their own. A joint is Phi alone, from
- * the places and axes of its bodies; J v, gamma and coordinates are first and second derivatives
- * of Phi along motions, by truncated Taylor series. Rows may depend on each other: parallel axes
- * are z_a - z_b = 0, which is three rows of rank 2. Every body has six velocities here, r' in
- * ground axes and the angular velocity in body axes, of which a planar body or a particle uses
- * some.
- */
+/* Evaluates spatial mechanisms in quadruple precision, with formulas that differ from the
+ * library's. A joint is defined only by Phi as a function of the positions and axes of its bodies.
+ * J v and gamma follow from first and second derivatives of Phi along motions, by truncated Taylor
+ * series; likewise for coordinates. Rows may be dependent: parallel axes are z_a - z_b = 0, three
+ * rows of rank 2. Every body has six velocities: r' in ground axes and the angular velocity in body
+ * axes. Planar bodies and particles use some of them. */
 #ifndef BAUM_TEST_SPATIAL_ORACLE_H
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
@@ -16,10 +15,10 @@
 #include "quad_rows.h"
 
 enum {
-  ORACLE_BODIES = 9, /* with ground, which is 0 */
+  ORACLE_BODIES = 9, /* including ground, body 0 */
   ORACLE_JOINTS = 32,
   ORACLE_FORCES = 8,
-  ORACLE_ROWS = 12, /* most of a joint */
+  ORACLE_ROWS = 12, /* of one joint */
   ORACLE_COLUMNS = 6 * ORACLE_BODIES
 };
 
@@ -43,7 +42,7 @@ typedef struct oracle_body {
   char kind; /* 'g'round, 's'patial body, spatial 'p'article, planar 'b'ody, planar particle 'o' */
   double mass;
   double inertia[6]; /* xx, yy, zz, xy, xz, yz */
-  double q[7];       /* of the design configuration, as the library has it */
+  double q[7];       /* in the design configuration, as in the library */
   int nq;
   int nv;
   int first_q;
@@ -55,19 +54,27 @@ typedef struct oracle_joint {
   oracle_kind kind;
   int a, b;        /* bodies */
   wide s[2][3];    /* points in body axes */
-  wide axes[2][9]; /* x, y, z of the joint one after the other, in body axes */
+  wide axes[2][9]; /* x, y and z axis of the joint, in body axes */
   wide length;
   int of;          /* joint of a driver */
-  double start[2]; /* [s] of the law of a driver, and its coordinate then */
+  int coordinate;  /* number of the driven coordinate, in the order of the library */
+  double start[2]; /* of a driver: a time [s], and the prescribed coordinate then */
 } oracle_joint;
 
+typedef enum oracle_force_kind {
+  ORACLE_LOAD,
+  ORACLE_SPRING,
+  ORACLE_JOINT_SPRING
+} oracle_force_kind;
+
 typedef struct oracle_force {
-  bool is_spring;
-  int a, b; /* a load acts on b */
+  oracle_force_kind kind;
+  int a, b;           /* a load acts on b */
+  int of, coordinate; /* of a joint spring */
   double s[2][3];
   double stiffness;
   double damping;
-  wide free_length;
+  wide free_length; /* or free value */
   double force[3];
   double moment[3];
   bool follows_body;
@@ -87,37 +94,39 @@ typedef struct spatial_oracle {
 
 /* One evaluation. */
 typedef struct oracle_answer {
-  double phi;  /* largest |Phi| and |Phi'| of all rows */
-  double rate; /* of the largest velocity */
+  double phi;  /* largest |Phi| of all rows */
+  double rate; /* largest |Phi'| of all rows relative to the largest velocity */
   wide a[ORACLE_COLUMNS];
-  wide reaction[ORACLE_JOINTS][6]; /* force and moment on body_b about its point, ground axes */
+  wide reaction[ORACLE_JOINTS][6]; /* force and moment on body_b at its point, in ground axes */
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
 } oracle_answer;
 
-/* Find the points and axes of a joint on its bodies, from a point on each and an axis, all in
- * ground axes of the design configuration. */
+/* Computes the points and axes of a joint in body axes, from a point on each body and an axis, all
+ * in ground axes of the design configuration. */
 void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
                   const wide point_b[3], const wide z[3]);
 
-/* A point or an axis of the design configuration: s = A^T (point - r), and back. */
+/* Convert a point of the design configuration to body axes, s = A^T (point - r), and back; likewise
+ * an axis. */
 void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3]);
 void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3]);
 void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3]);
 void oracle_axis_to_ground(const oracle_body *body, const wide s[3], wide axis[3]);
 
-/* The sway of drivers, for the library: `user` points to an oracle_joint's start. */
+/* The law of drivers for the library: `user` points to an oracle_joint's start. */
 int oracle_law(double t, double s[3], void *user);
 
-/* The coordinate of a joint in the design configuration. */
-wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint);
+/* Number of coordinates of a joint, and one of them in the design configuration. */
+int oracle_coordinate_count(oracle_kind kind);
+wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint, int number);
 
-/* At q (nq) and v (nv) in the order of the bodies. false: no memory. */
+/* Evaluates at q (nq) and v (nv), in the order of the bodies. Returns false if out of memory. */
 bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const double *v,
                       oracle_answer *out);
 
-/* How far forces are from balance, with these accelerations and reactions: the largest entry of
- * M a - g - reactions, of the largest part of it. */
+/* Returns the largest element of M a - g - reactions, relative to the largest term, for the given
+ * accelerations and reactions. */
 double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v, const double *a,
                         double (*reactions)[6]);
 

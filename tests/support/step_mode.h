@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrators in each of their ways to step: of one length, or of their own choice. Include after
+/* Every integrator with fixed and with variable steps, where it has them. Include after
  * cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
@@ -11,11 +11,11 @@
 #include <baum/baum.h>
 
 typedef struct step_mode {
-  const baum_integrator *integrator; /* NULL past the end */
+  const baum_integrator *integrator; /* NULL if k is too large */
   bool fixed;
 } step_mode;
 
-/* The k-th of all that this build can run where freedom is left. */
+/* The k-th integrator and kind of step of this build, for mechanisms with degrees of freedom. */
 static inline step_mode step_mode_at(int k)
 {
   for (int32_t i = 0; baum_integrator_at(i); i++) {
@@ -24,7 +24,7 @@ static inline step_mode step_mode_at(int k)
     if (fixed && k-- == 0) {
       return (step_mode){integrator, true};
     }
-    /* All that has no fixed step is of SUNDIALS. */
+    /* Integrators without fixed step need SUNDIALS. */
     bool variable = baum_integrator_has_variable_step(integrator);
     if (variable && (fixed || baum_has("sundials")) && k-- == 0) {
       return (step_mode){integrator, false};
@@ -33,20 +33,22 @@ static inline step_mode step_mode_at(int k)
   return (step_mode){NULL, false};
 }
 
-/* One of Adams' explicit methods. */
+/* Whether it is an explicit Adams method. */
 static inline bool step_mode_is_adams(step_mode mode)
 {
   return strncmp(baum_integrator_name(mode.integrator), "ab", 2) == 0;
 }
 
-/* Steps of its own choice and multistep methods restart where a motion is changed. */
+/* Whether the method has memory and restarts after a change of the motion: variable steps and
+ * multistep methods. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
   return !mode.fixed || step_mode_is_adams(mode) || alpha;
 }
 
-/* Advance. Methods of first order, whose errors the tests know, may warn of these. */
+/* Advances to t. Warnings of first-order methods are accepted, because the tests know their
+ * errors. */
 static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run, double t)
 {
   baum_status status = baum_simulation_advance_to(run, t);
@@ -54,7 +56,7 @@ static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run
   return status == BAUM_WARNED && may_warn ? BAUM_OK : status;
 }
 
-/* Options of a mode: a step or a tolerance. */
+/* Options with the step, or with the tolerance. */
 static inline baum_simulation_options step_mode_options(step_mode mode, double step, double rtol)
 {
   baum_simulation_options options = baum_simulation_options_default();

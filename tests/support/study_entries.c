@@ -38,7 +38,7 @@ baum_study_entry study_entry(const baum_study *study, int32_t k)
   return entry;
 }
 
-/* Same bits, so that NaNs are compared too. */
+/* Compares bits, so that NaNs are equal. */
 #define ASSERT_SAME(type, name, known, unit, meaning) \
   assert_memory_equal(&a.name, &b.name, sizeof a.name);
 

@@ -15,7 +15,7 @@ baum_mechanism *user_make_empty(void)
   return mechanism;
 }
 
-/* Freeze, check, give up. */
+/* Freezes the mechanism, checks its derivatives and destroys it. */
 baum_status user_check(baum_mechanism *mechanism)
 {
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);

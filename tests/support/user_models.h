@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints and coordinates by user functions, of which every derivative is known.
+/* Constraints and coordinates by user functions whose derivatives are all known.
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
  *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
@@ -21,7 +21,7 @@ typedef struct user_model {
 /* Which derivatives of a constraint are given. */
 enum { GIVE_NOTHING = 0, GIVE_JACOBIAN = 1, GIVE_NU = 2, GIVE_GAMMA = 4, GIVE_ALL = 7 };
 
-/* Second derivatives as in baum_i_joint_blocks. */
+/* Second derivatives, as in baum_i_joint_blocks. */
 typedef struct user_blocks {
   double jw_q[9];
   double jtl_q[9];
@@ -47,24 +47,24 @@ extern const user_kind user_circle;
 extern const user_kind user_loop;
 extern const user_kind user_swing;
 
-/* 1 for the first coordinate, nothing for others. */
+/* Mass 1 for the first coordinate, 0 for the others. */
 int user_mass_of_first(double t, const double *q, double *out, void *user);
 
 /* Zero. */
 int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user);
 
-/* The test fails when they are called. */
+/* These fail the test if they are called. */
 int user_never_asked(double t, const double *q, double *out, void *user);
 int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
                       void *user);
 
-/* size coordinates with unit mass (2 x 2 and 3 x 3 only), designed at q, all of one scale. */
+/* `size` coordinates (2 or 3) with unit mass, the design values q and one common scale. */
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,
                                   double scale);
 
-/* One body and the constraint on it, not frozen; designed at some configuration of size l, or 1
- * for angles. */
+/* One body and the constraint on it, not frozen, in a design configuration of size l, or 1 for
+ * angles. */
 baum_mechanism *user_make(const user_kind *kind, user_model *model, int given);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations, multipliers, energy and reactions: against dense LU, and against what mechanics
- * says. */
+/* Accelerations, multipliers, energy and reactions, compared with dense LU and with the laws of
+ * mechanics. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* M, J, g, gamma and the violation terms at a state, as the dense system of (7). */
+/* Builds (7) as a dense system from M, J, g, gamma, Phi and Phi' at a state. */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
 {
@@ -133,7 +133,7 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
   const double q[3] = {0.0, -0.7, 0.0};
-  const double v[3] = {0.7 * 3.0, 0.0, 3.0}; /* swinging through the lowest point at 3 rad/s */
+  const double v[3] = {0.7 * 3.0, 0.0, 3.0}; /* swings through the lowest point at 3 rad/s */
   double lambda[2];
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
@@ -150,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* Newton and Euler for every body of the slider-crank, with the reactions of its joints as the only
- * unknown forces: the balance that a user would check. */
+/* Newton's and Euler's equations for every body of the slider-crank, with the reactions of its
+ * joints as the only unknown forces. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;
@@ -186,7 +186,7 @@ static void reactions_on_each_body_balance_inertia_and_weight(void **state)
   double moment = (near[0] - q[0]) * on_rod[1] - (near[1] - q[1]) * on_rod[0] + on_rod[2];
   moment -= (far[0] - q[0]) * on_slider[1] - (far[1] - q[1]) * on_slider[0] + on_slider[2];
   ASSERT_NEAR(moment, 5.9e-4 * a[2], 0.0, 1e-12 * size);
-  ASSERT_NEAR(on_rod[2], 0.0, 0.0, 1e-12 * size); /* a pin takes no moment about itself */
+  ASSERT_NEAR(on_rod[2], 0.0, 0.0, 1e-12 * size); /* the moment of a pin at its own point is zero */
   baum_simulation_destroy(s);
   model_destroy(&m);
 }
@@ -216,7 +216,7 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12); /* a cantilever: its weight and weight times arm */
+  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12); /* weight, and weight times arm */
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);
   baum_workspace_destroy(w);
@@ -262,9 +262,9 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* Blocks divide by the mass's root; what has none goes to the solver of the whole, and what is zero
- * to nobody. */
-static void a_mass_that_is_positive_no_more_is_handed_over(void **state)
+/* The block solver divides by the square root of the mass. A negative mass is left to the solver of
+ * the whole system, and no solver accepts a zero mass. */
+static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **state)
 {
   (void)state;
   static const double design = 2.0;
@@ -300,7 +300,7 @@ int main(void)
     cmocka_unit_test(reactions_on_each_body_balance_inertia_and_weight),
     cmocka_unit_test(joints_that_end_on_ground_give_the_reaction_on_ground),
     cmocka_unit_test(stabilization_pulls_a_violated_pendulum_back),
-    cmocka_unit_test(a_mass_that_is_positive_no_more_is_handed_over),
+    cmocka_unit_test(a_mass_that_becomes_negative_is_left_to_the_whole_system),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

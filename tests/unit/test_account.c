@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account, class by class, on motions that are known in closed form; and what begins,
- * continues and does not enter it.
- */
+/* The energy account on motions known in closed form, one class of work after the other, and its
+ * start and continuation in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +18,7 @@
 #include "message.h"
 #include "user_models.h"
 
-/* rk8 at rtol 1e-12, whose errors over a second are some 1e-12. */
+/* Errors of rk8 at rtol 1e-12 over a second are about 1e-12. */
 static const double CLOSE = 1e-10;
 
 static baum_simulation_options account_options(void)
@@ -49,7 +48,7 @@ static double residual_in_counters(baum_simulation *run)
   return out.energy_residual;
 }
 
-/* A frozen mechanism to t = 1, then both are gone. */
+/* Runs a frozen mechanism to t = 1 and destroys run and mechanism. */
 static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options options)
 {
   baum_simulation *run = NULL;
@@ -64,7 +63,7 @@ static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options o
   return out;
 }
 
-/* Without gravity; a particle of 1 kg at (1, 0) with v along x. */
+/* Makes a particle of 1 kg at (1, 0) with velocity v along x, without gravity. */
 static baum_mechanism *make(double v, baum_body_id *id)
 {
   baum_mechanism *m = NULL;
@@ -79,7 +78,7 @@ static baum_mechanism *make(double v, baum_body_id *id)
 
 /* ---- classes ---- */
 
-/* 2 N from rest for 1 s: 2 m. */
+/* A force of 2 N moves the particle from rest by 2 m in 1 s. */
 static void loads_do_work(void **state)
 {
   (void)state;
@@ -123,7 +122,7 @@ static baum_energy_account run_spring(double damping, baum_spring_fn *law)
   return run_to_1(m, account_options());
 }
 
-/* v = 3 exp(-c t), c = 0.5. */
+/* The velocity is v = 3 exp(-c t) with c = 0.5. */
 static void dampers_take_energy(void **state)
 {
   (void)state;
@@ -131,7 +130,8 @@ static void dampers_take_energy(void **state)
   ASSERT_NEAR(a.dampers, -4.5 * (1.0 - exp(-1.0)), 0.0, CLOSE);
 }
 
-/* l = |2 cos 2t|; 2 l^2 would be the potential, and what it loses is the work. */
+/* The length is l = |2 cos 2t|. The force 4 l of the law does the work 8 - 2 l^2. The account lists
+ * it under `springs`, because the library knows no potential of a user law. */
 static void a_law_works_as_a_spring(void **state)
 {
   (void)state;
@@ -152,7 +152,7 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* x'' = 6 t: v = 3 t^2, and 9/2 J at t = 1. */
+/* x'' = 6 t gives v = 3 t^2, and 9/2 J at t = 1. */
 static void user_forces_do_work(void **state)
 {
   (void)state;
@@ -174,7 +174,7 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* M v' = 0 with v = 1 and M = 1 + q^2, which is no equation of Lagrange's: v^2 (q^2 / 2) comes from
+/* M v' = 0 with v = 1 and M = 1 + q^2 is not a Lagrange equation: the energy v^2 q^2 / 2 comes from
  * M' alone. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
@@ -191,7 +191,7 @@ static void a_varying_mass_is_in_the_account(void **state)
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }
 
-/* A wheel of 2 kg m^2 that is turned with 3 rad/s^2 from rest. */
+/* A wheel of 2 kg m^2 is accelerated from rest with 3 rad/s^2. */
 static void drivers_do_work(void **state)
 {
   (void)state;
@@ -234,7 +234,7 @@ static int wall_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* x = 1, left at 1 m/s; gravity along x or none. */
+/* The constraint x = 1 on a particle that starts with 1 m/s along x; gravity along x or none. */
 static baum_energy_account run_wall(double gravity, baum_simulation_options options)
 {
   baum_body_id body;
@@ -250,7 +250,7 @@ static baum_energy_account run_wall(double gravity, baum_simulation_options opti
   return run_to_1(m, options);
 }
 
-/* lambda holds the weight, 5 N, while x runs away with 1 m/s. */
+/* The multiplier balances the weight of 5 N, while x grows by 1 m/s. */
 static void violation_does_work(void **state)
 {
   (void)state;
@@ -259,8 +259,8 @@ static void violation_does_work(void **state)
   ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
 }
 
-/* x - 1 = t exp(-2 t) with alpha = beta = 2, v = (1 - 2 t) exp(-2 t); what the weight asks for is
- * no work of the gains. */
+/* With alpha = beta = 2, x - 1 = t exp(-2 t) and v = (1 - 2 t) exp(-2 t). The force that balances
+ * the weight is not part of the work of the gains. */
 static void gains_are_a_part_of_the_violation(void **state)
 {
   (void)state;
@@ -273,7 +273,7 @@ static void gains_are_a_part_of_the_violation(void **state)
   ASSERT_NEAR(a.violation, a.gains - 5.0 * exp(-2.0), 0.0, CLOSE);
 }
 
-/* The first step ends at rest. */
+/* The first step ends with zero velocity. */
 static void projection_takes_energy(void **state)
 {
   (void)state;
@@ -303,7 +303,7 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* 2 N for 1 s, then 4 N for 1 s: v = 2, then 6. */
+/* 2 N for 1 s, then 4 N for 1 s: the velocity is 2, then 6 m/s. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;
@@ -329,8 +329,8 @@ static void inputs_continue_and_states_restart(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Off the grid the work of the shorter step is in the sample, and in nothing else; and the motion
- * knows nothing of it. */
+/* A sample off the grid includes the work of the shortened step. The account of the run and the
+ * motion do not change. */
 static void samples_and_motion_stay_apart(void **state)
 {
   (void)state;
@@ -366,7 +366,7 @@ static void samples_and_motion_stay_apart(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void what_has_no_account_says_so(void **state)
+static void runs_without_an_account_say_so(void **state)
 {
   (void)state;
   baum_input_id input;
@@ -401,7 +401,7 @@ int main(void)
     cmocka_unit_test(projection_takes_energy),
     cmocka_unit_test(inputs_continue_and_states_restart),
     cmocka_unit_test(samples_and_motion_stay_apart),
-    cmocka_unit_test(what_has_no_account_says_so),
+    cmocka_unit_test(runs_without_an_account_say_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

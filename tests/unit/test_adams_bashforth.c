@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods: their formulas, steps beside the grid, and what restarts them. */
+/* Adams-Bashforth methods: their formulas, steps off the grid, and restarts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,7 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
 
 /* ---- formulas ---- */
 
-/* With theta^p over a step, w_j(theta) is right for all powers below k; the starter is, too. */
+/* With a force t^p the methods and their starter are exact for all p below the order k. */
 static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
 {
   (void)state;
@@ -57,8 +57,8 @@ static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
   }
 }
 
-/* And one power further it is off by the error constant: C h^(k+1) k! in every step. */
-static void one_power_more_shows_the_error_constant(void **state)
+/* With p = k the error per step is the error constant: C h^(k+1) k!. */
+static void a_force_of_the_next_power_shows_the_error_constant(void **state)
 {
   static const double CONSTANT[] = {5.0 / 12.0, 3.0 / 8.0, 251.0 / 720.0};
   static const double FACTORIAL[] = {2.0, 6.0, 24.0};
@@ -81,8 +81,8 @@ static void one_power_more_shows_the_error_constant(void **state)
   }
 }
 
-/* x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise of v, with the b_j that stability is computed
- * from. */
+/* x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise for v, with the b_j from which stability is
+ * computed. */
 static void steps_are_those_whose_stability_is_known(void **state)
 {
   (void)state;
@@ -117,7 +117,7 @@ static void steps_are_those_whose_stability_is_known(void **state)
   }
 }
 
-/* k - 1 steps by Runge-Kutta of four stages, all others by one evaluation. */
+/* The first k - 1 steps are Runge-Kutta steps with four evaluations; each later step needs one. */
 static void a_step_costs_one_evaluation_once_there_is_a_past(void **state)
 {
   (void)state;
@@ -148,10 +148,10 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
   return run;
 }
 
-/* One run with a step; returns its error. */
+/* Runs with a step and returns the error. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* Halving twice three times: terms of the next order fall below a fifth. */
+/* The steps differ by a factor of 2^3, so terms of the next order fall below a fifth. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -165,7 +165,7 @@ static void demand_order(error_fn *error)
   }
 }
 
-/* A past from before the jump would cost all orders but one. */
+/* If the method kept values from before the jump, its order would fall to one. */
 static double error_with_jump(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -190,7 +190,7 @@ static void a_jump_of_an_input_does_not_cost_the_order(void **state)
   demand_order(error_with_jump);
 }
 
-/* The grid is left twice, by a third of a step. */
+/* The run leaves the grid twice, by a third of a step. */
 static double error_with_short_steps(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -234,7 +234,7 @@ static void reversing_does_not_cost_the_order(void **state)
   demand_order(error_there_and_back);
 }
 
-/* Set again in the midst, at another place of the same motion. */
+/* Sets another state of the same motion during the run. */
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -257,8 +257,8 @@ static void another_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples a third and two thirds into every step: the motion is to the last digit that without
- * them, and they are as exact as the points of the grid. */
+/* Samples at a third and at two thirds of every step do not change the motion in any digit, and are
+ * as accurate as the grid points. */
 static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
 {
   (void)state;
@@ -287,14 +287,14 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
       *most = fmax(*most, error);
     }
     assert_true(on_grid > 0.0);
-    assert_true(beside <= 1.1 * on_grid); /* a part of one more step's error of some hundred */
+    assert_true(beside <= 1.1 * on_grid); /* one step of some hundred adds to the error */
     baum_simulation_destroy(sampled);
     baum_simulation_destroy(plain);
     baum_mechanism_destroy(mechanism);
   }
 }
 
-static void a_past_is_not_projected(void **state)
+static void projection_is_not_offered(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = make_pendulum();
@@ -316,7 +316,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(forces_of_time_are_integrated_exactly_up_to_the_order),
-    cmocka_unit_test(one_power_more_shows_the_error_constant),
+    cmocka_unit_test(a_force_of_the_next_power_shows_the_error_constant),
     cmocka_unit_test(steps_are_those_whose_stability_is_known),
     cmocka_unit_test(a_step_costs_one_evaluation_once_there_is_a_past),
     cmocka_unit_test(a_jump_of_an_input_does_not_cost_the_order),
@@ -324,7 +324,7 @@ int main(void)
     cmocka_unit_test(reversing_does_not_cost_the_order),
     cmocka_unit_test(another_state_does_not_cost_the_order),
     cmocka_unit_test(samples_beside_the_grid_are_exact_and_alter_nothing),
-    cmocka_unit_test(a_past_is_not_projected),
+    cmocka_unit_test(projection_is_not_offered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

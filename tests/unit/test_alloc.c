@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory: nothing is too little to have a block, too much has none. */
+/* Allocation: a block of zero bytes exists, one of too many bytes does not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,13 +16,13 @@ static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
   double *old = baum_i_alloc(1, sizeof *old);
   assert_non_null(old);
   *old = 3.0;
-  assert_null(baum_i_grow(old, SIZE_MAX, 1)); /* no power of two is as large */
+  assert_null(baum_i_grow(old, SIZE_MAX, 1)); /* the next power of two overflows */
   assert_null(baum_i_grow(old, SIZE_MAX / 4, sizeof *old));
-  assert_true(*old == 3.0); /* and nothing is lost */
+  assert_true(*old == 3.0); /* the old block is kept */
   baum_i_free(old);
 }
 
-static void nothing_has_a_block_too(void **state)
+static void zero_bytes_have_a_block_too(void **state)
 {
   (void)state;
   void *blocks[] = {baum_i_alloc(0, 8), baum_i_alloc(8, 0), baum_i_grow(NULL, 0, 8),
@@ -34,7 +34,7 @@ static void nothing_has_a_block_too(void **state)
   baum_i_free(NULL);
 }
 
-static void what_grows_one_by_one_is_kept(void **state)
+static void an_array_that_grows_one_by_one_keeps_its_elements(void **state)
 {
   (void)state;
   int *numbers = NULL;
@@ -53,8 +53,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(counts_whose_bytes_cannot_be_counted_get_nothing),
-    cmocka_unit_test(nothing_has_a_block_too),
-    cmocka_unit_test(what_grows_one_by_one_is_kept),
+    cmocka_unit_test(zero_bytes_have_a_block_too),
+    cmocka_unit_test(an_array_that_grows_one_by_one_keeps_its_elements),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static void is_class(int method, double alpha_h, double beta2_h2, baum_stability
   assert_int_equal(got.stability, want);
 }
 
-/* Roots of both Eulers are those of a quadratic z^2 + c1 z + c0: check sum and product. */
+/* Compares sum and product of the roots of an Euler method with z^2 + c1 z + c0. */
 static void has_polynomial(int method, double A, double B, double c1, double c0)
 {
   baum_amplification got = amplification_at(method, A, B);
@@ -84,8 +84,8 @@ static void edges_of_the_triangles_are_marginal(void **state)
   }
 }
 
-/* At (2, 4) explicit Euler has z = -1 twice; torn apart by rounding it would look unstable by
- * 1e-8. */
+/* At (2, 4) explicit Euler has the double root z = -1. If rounding separated the roots, the point
+ * would look unstable by 1e-8. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;
@@ -128,18 +128,18 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
     is_class(m, 1e-11, 1e-22, BAUM_STABLE);
     is_class(m, 1e-13, 1e-26, BAUM_MARGINAL);
-    /* Semi-implicit Euler's roots are apart by sqrt(A B). */
+    /* The roots of semi-implicit Euler differ by sqrt(A B). */
     ASSERT_NEAR(baum_i_amplification_growth(&methods[m], 1e-13, 1e-26), -1e-13, 1e-6, 0.0);
   }
 }
 
-/* Values published for A = B = 1 and for the Taylor pair (1, 2). */
+/* Published values for A = B = 1 and for Taylor's pair (1, 2). */
 static void radii_are_those_of_the_table(void **state)
 {
   (void)state;
   static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {0.0, 1.0},
-    [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951}, /* golden; 1 + sqrt 2 */
+    [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951}, /* golden ratio; 1 + sqrt 2 */
     [RK2] = {0.5, 0.0},
     [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* R(-1); |1 + i|/3 */
     [RK4] = {0.375, 0.37267799624996495},     /* 9/24; sqrt(5)/6 */
@@ -228,7 +228,7 @@ typedef void step_function(const oscillator *o, double y[2]);
 static step_function *const steps[ONE_STEP_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
                                                      heun_step, classical_step};
 
-/* Mean growth per step of log |y| from step 200 to step 2000, |y| kept near 1. */
+/* Mean growth of log |y| per step, from step 200 to step 2000, with |y| kept near 1. */
 static double observed_log_radius(int method, const oscillator *o)
 {
   double y[2] = {1.0, 0.3};
@@ -243,7 +243,7 @@ static double observed_log_radius(int method, const oscillator *o)
   return sum / 1800.0;
 }
 
-/* The matrix of one step has the predicted roots: same trace and determinant. */
+/* The matrix of one step has the predicted roots: compares trace and determinant. */
 static void agrees_with_the_step_matrix(int method, const oscillator *o)
 {
   double first[2] = {1.0, 0.0};
@@ -266,7 +266,7 @@ static void radius_is_the_growth_of_the_method_itself(void **state)
     for (int m = 0; m < ONE_STEP_COUNT; m++) {
       agrees_with_the_step_matrix(m, &o);
       double radius = amplification_at(m, o.A, o.B).spectral_radius;
-      /* The mean over 1800 steps of a bounded oscillation of log |y|. */
+      /* log |y| oscillates within bounds; this is the mean over 1800 steps */
       ASSERT_NEAR(observed_log_radius(m, &o), log(radius), 0.0, 5e-3);
     }
   }

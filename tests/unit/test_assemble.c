@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly and projection: constraints met, what is held stays, the rest changes least in the
- * metric of M. */
+/* Assembly and projection fulfil the constraints, keep held bodies in place, and change the others
+ * least in the metric of M. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +24,8 @@ typedef struct scene {
   double v[NV];
 } scene;
 
-/* The undriven slider-crank, with a rough design; its crank is held and rotates at 150 rad/s. */
+/* The undriven slider-crank with a rough design configuration; the crank is held and rotates at 150
+ * rad/s. */
 static scene open_scene(void)
 {
   scene s;
@@ -40,7 +41,7 @@ static void close_scene(scene *s)
   model_destroy(&s->m);
 }
 
-/* Phi and Phi' at rounding level: lengths 0.5 m, speeds 25 m/s. */
+/* Phi and Phi' are rounding for lengths of 0.5 m and speeds of 25 m/s. */
 static void check_consistent(const scene *s)
 {
   double phi[NC];
@@ -108,7 +109,7 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   close_scene(&s);
 }
 
-/* Velocities of a structure at rest that were computed are rounding errors of others. */
+/* Computed velocities of a structure at rest are rounding errors, which must not be refused. */
 static void given_velocities_that_are_rounding_errors_contradict_nothing(void **state)
 {
   (void)state;
@@ -136,8 +137,8 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   void **state)
 {
   (void)state;
-  /* A rod of length 1 between particles of 1 kg and 3 kg, designed 1.3 m long: each moves in
-   * proportion to the other's mass. */
+  /* A rod of length 1 between particles of 1 kg and 3 kg whose design distance is 1.3 m: each
+   * particle moves in proportion to the other's mass. */
   baum_mechanism *m = NULL;
   baum_body_id ids[2];
   baum_workspace *w = NULL;
@@ -175,9 +176,9 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The metric says nothing of it: klu cannot tell where it is to go, least squares leave it where it
- * is. */
-static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
+/* A coordinate without mass and without constraint: KLU cannot determine its change, least squares
+ * leave it unchanged. */
+static void a_coordinate_without_mass_and_joint_stays_or_is_refused(void **state)
 {
   (void)state;
   static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR, BAUM_I_KKT_KLU};
@@ -240,7 +241,7 @@ static void projection_moves_a_consistent_state_by_rounding_only(void **state)
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   for (int i = 0; i < NV; i++) {
     ASSERT_NEAR(s.q[i], q[i], 0.0, 1e-14);
-    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* 150 rad/s times rounding times a few */
+    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* some roundings of 150 rad/s */
   }
   close_scene(&s);
 }
@@ -260,7 +261,7 @@ static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void *
   }
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   assert_int_equal(baum_workspace_mass(s.w, 0.0, s.q, mass), BAUM_OK);
-  /* The change is M-orthogonal to every possible motion; the exact velocities are one. */
+  /* The change is M-orthogonal to every possible motion, one of which is the exact velocity. */
   double product = 0.0;
   double size = 0.0;
   for (int i = 0; i < NV; i++) {
@@ -272,7 +273,7 @@ static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void *
   close_scene(&s);
 }
 
-static void what_cannot_be_met_is_not_projected_and_the_state_stays(void **state)
+static void contradicting_constraints_are_not_projected_and_the_state_stays(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -285,7 +286,7 @@ static void what_cannot_be_met_is_not_projected_and_the_state_stays(void **state
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  for (int k = 0; k < 2; k++) { /* two rods of 1 m whose feet are 5 m apart */
+  for (int k = 0; k < 2; k++) { /* two rods of 1 m with feet 5 m apart */
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;
     rod.point_a[1] = 0.0;
@@ -312,11 +313,11 @@ int main(void)
     cmocka_unit_test(held_bodies_that_contradict_are_refused_and_nothing_changes),
     cmocka_unit_test(
       of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_the_masses),
-    cmocka_unit_test(what_has_neither_mass_nor_joint_stays_or_is_refused),
+    cmocka_unit_test(a_coordinate_without_mass_and_joint_stays_or_is_refused),
     cmocka_unit_test(projection_returns_to_the_constraints_from_nearby),
     cmocka_unit_test(projection_moves_a_consistent_state_by_rounding_only),
     cmocka_unit_test(projection_of_velocities_is_least_in_the_metric_of_the_masses),
-    cmocka_unit_test(what_cannot_be_met_is_not_projected_and_the_state_stays),
+    cmocka_unit_test(contradicting_constraints_are_not_projected_and_the_state_stays),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solver by blocks by itself, against quadruple precision, and in both builds. Its structure is
- * in test_block_structure.c, mechanisms by chance are in tests/physics/test_random_mechanisms.c.
- */
+/* The block solver alone, compared with quadruple precision, with both builds of its loops. Its
+ * structure is tested in test_block_structure.c, random mechanisms in
+ * tests/physics/test_random_mechanisms.c. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 
 enum { MOST_UNKNOWNS = 400, MOST_BODIES = 60 };
 
-/* The two tables of the arithmetic that is not of pins. */
+/* The function tables of the block solver, without that of pins. */
 typedef struct tables {
   const baum_i_block_sides_kernel *sides;
   const baum_i_block_kernel *solution;
@@ -29,7 +29,7 @@ typedef struct tables {
 
 static const tables plain = {&baum_i_block_sides_kernel_plain, &baum_i_block_kernel_plain};
 
-/* Those that this processor is given. */
+/* The tables that are chosen for this processor. */
 static tables own_tables(void)
 {
   model m;
@@ -68,7 +68,7 @@ static void unmake(equations *x)
   free(x);
 }
 
-/* Bodies of three velocities get the mass matrix of a body in the plane. */
+/* Gives every body with three velocities the mass matrix of a planar body. */
 static void make_planar(equations *x)
 {
   for (int i = 0; i < x->s.structure.mass_block_count; i++) {
@@ -146,7 +146,7 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* Of the largest of its kind. */
+/* The tolerance is relative to the largest acceleration, or multiplier. */
 static void assert_solution(const equations *x, const double *want, double tolerance)
 {
   int nv = x->s.structure.nv;
@@ -158,8 +158,8 @@ static void assert_solution(const equations *x, const double *want, double toler
   }
 }
 
-/* Unrefined, as most evaluations are, and refined. S has the square of the condition that its
- * halves have, up to 1e5 here. */
+/* Tests without refinement, as in most evaluations, and with it. S has the square of the condition
+ * number of its factors, which is up to 1e5 here. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -197,7 +197,7 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
   }
 }
 
-/* Every fourth row is omitted, so that rows pair differently and some nodes have no row at all. */
+/* Omits every fourth row: rows are paired differently, and some nodes have no row. */
 static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
@@ -206,7 +206,7 @@ static void omitted_rows_have_no_influence(void **state)
     saddle_use_omitted(&x->s);
     for (int i = 0; i < x->s.structure.nc; i += 4) {
       x->s.omitted[i] = 1;
-      x->s.r[i] = 1e30; /* nobody reads it */
+      x->s.r[i] = 1e30; /* is never read */
     }
     assert_solved(x);
     memset(x->s.omitted, 1, (size_t)x->s.structure.nc);
@@ -215,7 +215,8 @@ static void omitted_rows_have_no_influence(void **state)
   }
 }
 
-/* A body at rest is as good as ground: its columns of J and its force might be zeros. */
+/* A fixed body is treated as ground: the result is the same with its columns of J and its force set
+ * to zero. */
 static void bodies_at_rest_are_ground(void **state)
 {
   (void)state;
@@ -280,7 +281,7 @@ static void both_builds_agree(void **state)
 
 /* ---- pivots ---- */
 
-/* One body, two rows that differ by `apart`. */
+/* One body with two rows that differ by `apart`. */
 static equations *make_close_rows(double apart)
 {
   equations *x = calloc(1, sizeof *x);
@@ -326,12 +327,12 @@ static void refinement_brings_back_what_weak_pivots_lose(void **state)
   solve(x, &plain, 0);
   double lost = fabs(x->s.lambda[0] - want[3]) / fabs(want[3]);
   solve(x, &plain, 2);
-  assert_true(lost > 1e-12); /* otherwise this tests nothing */
+  assert_true(lost > 1e-12); /* otherwise the test shows nothing */
   assert_solution(x, want, 1e-14);
   unmake(x);
 }
 
-static void masses_that_are_not_positive_are_told(void **state)
+static void masses_that_are_not_positive_are_reported(void **state)
 {
   (void)state;
   baum_i_block *b = NULL;
@@ -339,7 +340,7 @@ static void masses_that_are_not_positive_are_told(void **state)
   const baum_i_mass_block *body = &x->s.structure.mass_blocks[1];
   assert_int_equal(create(x, NULL, &b), BAUM_OK);
   assert_true(baum_i_block_factor_dense(b, x->s.mass));
-  x->s.mass[body->value + body->size + 1] = 0.0; /* on the diagonal, not off it */
+  x->s.mass[body->value + body->size + 1] = 0.0; /* changes the diagonal entry only */
   assert_false(baum_i_block_factor_dense(b, x->s.mass));
   baum_i_block_destroy(b);
   unmake(x);
@@ -363,8 +364,8 @@ static void use_plain(baum_workspace *w)
   w->point.kernel = &baum_i_frames_kernel_plain;
 }
 
-/* Relative to the largest of `want`, or to `scale` where they are what is left of larger
- * numbers. */
+/* The tolerance is relative to the largest of `want` or to `scale`, the size of terms that
+ * cancel. */
 static void assert_near_all(const double *got, const double *want, int count, double tolerance,
                             double scale)
 {
@@ -374,8 +375,8 @@ static void assert_near_all(const double *got, const double *want, int count, do
   }
 }
 
-/* One mechanism in its design configuration, with both builds and with the solver of the whole
- * system. */
+/* Compares a mechanism in its design configuration with both builds and with the solver of the
+ * whole system. */
 static void compare(const baum_mechanism *m, double tolerance)
 {
   baum_workspace *w[3];
@@ -397,7 +398,7 @@ static void compare(const baum_mechanism *m, double tolerance)
   for (int k = 0; k < 3; k++) {
     assert_int_equal(baum_i_acceleration(w[k], 0.0, q, v, 5.0, 7.0), BAUM_OK);
     assert_near_all(w[k]->a, w[0]->a, m->nv, tolerance, 0.0);
-    /* A mechanism at rest may have multipliers of rounding only. */
+    /* Multipliers of a mechanism at rest may be rounding. */
     double force = largest_of(w[0]->force, m->nv);
     assert_near_all(w[k]->lambda, w[0]->lambda, m->nc, tolerance, force);
   }
@@ -462,8 +463,8 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
 }
 
-/* The second one has a row to spare, so that a pin and half a pin couple by both bodies; a third
- * one in the same point has both. */
+/* Two pins between the same bodies have one redundant row, so that a row without partner couples
+ * both bodies; a third pin at the same point has two redundant rows. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;
@@ -492,7 +493,7 @@ int main(void)
     cmocka_unit_test(both_builds_agree),
     cmocka_unit_test(pivots_tell_how_close_to_singular_a_system_is),
     cmocka_unit_test(refinement_brings_back_what_weak_pivots_lose),
-    cmocka_unit_test(masses_that_are_not_positive_are_told),
+    cmocka_unit_test(masses_that_are_not_positive_are_reported),
     cmocka_unit_test(mechanisms_are_the_same_in_both_builds),
     cmocka_unit_test(several_pins_between_the_same_bodies),
   };

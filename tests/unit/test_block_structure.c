@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What couples what in the solver by blocks, and which structures it refuses. */
+/* Couplings in the block solver, and structures that it refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 /* ---- nets ---- */
 
-/* Bodies of three velocities, and rows between two of them, two at a time. */
+/* Bodies with three velocities and pairs of rows, each between two bodies. */
 typedef struct net {
   baum_i_kkt_structure structure;
   baum_i_mass_block *masses;
@@ -79,7 +79,7 @@ static net make_star(int arms)
 {
   net n = make_net(arms + 1, arms);
   for (int k = 0; k < arms; k++) {
-    join(&n, 3, k < 3 ? k : k + 1); /* body 3 is the hub */
+    join(&n, 3, k < 3 ? k : k + 1); /* body 3 is the hub: all joints involve it */
   }
   return n;
 }
@@ -97,10 +97,10 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  assert_int_equal(b->first_count, BODIES - 2); /* no pins here */
+  assert_int_equal(b->first_count, BODIES - 2); /* there are no pins */
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
-  assert_int_equal(b->entry_count, 0); /* sides come from J as a whole */
+  assert_int_equal(b->entry_count, 0); /* all sides are read from J */
   for (int i = 0; i < b->side_count; i++) {
     assert_int_equal(b->side_from[2 * i], 12 * (i / 2) + 3 * (i % 2));
   }
@@ -108,7 +108,7 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   free_net(&n);
 }
 
-/* Two joints between the same bodies have one coupling, by two bodies. */
+/* Two joints between the same bodies have a common coupling. */
 static void two_joints_of_the_same_bodies_share_a_block(void **state)
 {
   (void)state;
@@ -139,7 +139,7 @@ static void hubs_are_refused_and_named(void **state)
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_null(b);
   assert_int_equal(hub, 3);
-  many.diagonal[1] = 0; /* other numbers of body_blocks */
+  many.diagonal[1] = 0; /* changes the numbering of body_blocks */
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_int_equal(hub, 3);
   many.diagonal[3] = 0;
@@ -154,7 +154,7 @@ static void hubs_are_refused_and_named(void **state)
   free_net(&many);
 }
 
-/* A cube of bodies: no body has many joints, but elimination fills whole planes. */
+/* A cube of bodies: each body has few joints, but elimination couples all bodies of a plane. */
 static void dense_nets_are_refused(void **state)
 {
   (void)state;

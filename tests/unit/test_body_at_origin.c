@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body designed at the origin has coordinates that are small compared with the arms of its
- * joints: rounding is measured by the arms. */
+/* A body with its design position at the origin has coordinates that are small against the arms of
+ * its joints. Rounding is judged by the arms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-/* A swing of 0.3 m on the ground, at rest. */
+/* A body at rest on a pin at a distance of 0.3 m. */
 static baum_mechanism *make_swing(double gravity)
 {
   baum_mechanism *m = NULL;

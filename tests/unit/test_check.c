@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checking of given derivatives: what is wrong is named. */
+/* The check of given derivatives names wrong ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,9 +14,9 @@
 
 #include "user_check.h"
 
-/* A model with one entry of one function wrong by a ten thousandth. */
+/* A model in which one entry of one function is wrong by 1e-4 of its value. */
 typedef struct spoiled {
-  user_model model; /* first: what the model's own functions are given */
+  user_model model; /* first member, because the model's functions expect it */
   const user_kind *kind;
   int entry;
 } spoiled;
@@ -88,7 +88,7 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Right in the design configuration only: where y = -0.8. */
+/* Right only in the design configuration, where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -107,7 +107,7 @@ static int slightly_wrong_jacobian(double t, const double *q, double *out, void 
   return 0;
 }
 
-/* No length in it, as the functions of this file have no `user`. */
+/* The circle of radius 1; functions of this file have no `user`. */
 static int unit_circle_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -203,7 +203,7 @@ static int right_gamma(double t, const double *q, const double *v, double *out, 
   return 0;
 }
 
-/* It is zero in the design configuration, at t = 0. */
+/* gamma is zero in the design configuration at t = 0, so that only another time shows the error. */
 static void a_forgotten_gamma_is_found_at_another_time(void **state)
 {
   (void)state;
@@ -212,7 +212,7 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
                  -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
-  /* Second differences are good for seven digits here. */
+  /* Second differences give seven digits here. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,
@@ -331,7 +331,7 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
-/* A mass of q + user: below zero in the design configuration, or beside it only. */
+/* A mass of q + user, which is negative in the design configuration, or only near it. */
 static int linear_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -361,7 +361,7 @@ static void a_mass_below_zero_in_the_design_configuration_is_refused(void **stat
   }
 }
 
-/* A law that is known from t = 0 on: differences around t = 0 cannot be had. */
+/* A constraint that is defined from t = 0 on, so that no central differences exist there. */
 static int late_phi(double t, const double *q, double *out, void *user)
 {
   (void)driven_phi(t, q, out, user);
@@ -381,7 +381,7 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
                    message);
 }
 
-/* Law 0 is right; 1 has a wrong rate, 2 a wrong acceleration, 3 ends before it has begun. */
+/* Law 0 is right, 1 has a wrong rate, 2 a wrong acceleration, 3 fails at the start. */
 static int driver_law(double t, double s[3], void *user)
 {
   int which = *(const int *)user;
@@ -434,7 +434,7 @@ static void the_mechanism_must_be_there_and_frozen(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void what_has_no_user_functions_passes(void **state)
+static void a_mechanism_without_user_functions_passes(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = user_make_empty();
@@ -459,7 +459,7 @@ int main(void)
     cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
     cmocka_unit_test(wrong_derivatives_of_a_law_of_a_driver_are_named),
     cmocka_unit_test(the_mechanism_must_be_there_and_frozen),
-    cmocka_unit_test(what_has_no_user_functions_passes),
+    cmocka_unit_test(a_mechanism_without_user_functions_passes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

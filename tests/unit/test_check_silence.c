@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checking of given derivatives: what is right, or cannot be judged, raises no alarm. */
+/* The check of given derivatives reports nothing if they are right or cannot be judged. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,8 @@ static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
   }
 }
 
-/* A lever of 1e-6 m and an angle, both of scale 1: the announced scale is wrong by a million. */
+/* A lever of 1e-6 m and an angle, both with the scale 1, which is wrong by a factor of a million
+ * for the lever. */
 static int lever_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -50,7 +51,7 @@ static void a_scale_that_is_wrong_by_a_million_raises_no_alarm(void **state)
   user_check_right(user_make_constraint(lever_phi, lever_jacobian, NULL, NULL, 1.0));
 }
 
-/* Rounding of 1e-4 in sums of 1e12, beside which an entry of 1e-3 disappears. */
+/* Sums of 1e12 have a rounding of 1e-4, which hides an entry of 1e-3. */
 static int faint_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -68,7 +69,7 @@ static int faint_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void what_rounding_hides_raises_no_alarm(void **state)
+static void errors_hidden_by_rounding_raise_no_alarm(void **state)
 {
   (void)state;
   user_check_right(user_make_constraint(faint_phi, faint_jacobian, NULL, NULL, 1.0));
@@ -101,7 +102,7 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
   return 0;
 }
 
-/* Such as projection leaves at rest: no step in time moves q by it. */
+/* Velocities as projection leaves them at rest: so small that no time step changes q. */
 static void velocities_that_are_rounding_raise_no_alarm(void **state)
 {
   (void)state;
@@ -115,7 +116,7 @@ static void velocities_that_are_rounding_raise_no_alarm(void **state)
   user_check_right(m);
 }
 
-/* Contact that just touches, dry friction at rest. */
+/* A contact that just touches, and dry friction at rest: both have a kink here. */
 static int kinked_force(double t, const double *q, const double *v, const double *inputs,
                         double *out, void *user)
 {
@@ -206,7 +207,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(right_derivatives_pass_in_any_unit_and_at_any_rate),
     cmocka_unit_test(a_scale_that_is_wrong_by_a_million_raises_no_alarm),
-    cmocka_unit_test(what_rounding_hides_raises_no_alarm),
+    cmocka_unit_test(errors_hidden_by_rounding_raise_no_alarm),
     cmocka_unit_test(velocities_that_are_rounding_raise_no_alarm),
     cmocka_unit_test(a_kink_in_the_design_configuration_raises_no_alarm),
     cmocka_unit_test(refused_configurations_raise_no_alarm),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of whole runs: the pilot run behind the rule `auto`, the cap of the step, what counters
- * tell. */
+/* Gains of whole runs: the pilot run of the rule `auto`, the limit of the step, and what counters
+ * report. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include "assert_near.h"
 #include "models.h"
 
-enum { PILOT_EVALUATIONS = 14 }; /* 5 steps of 3, of which the start is known */
+enum { PILOT_EVALUATIONS = 14 }; /* 5 steps of 3 evaluations; that at the start is known */
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
                               double step, baum_gains gains)
@@ -44,7 +44,7 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
   return alpha;
 }
 
-/* Point of 1 kg on a rod of 1 m, at rest at an angle from the upward vertical. */
+/* A particle of 1 kg on a rod of 1 m, at rest at an angle from the upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
   baum_mechanism *m = NULL;
@@ -72,19 +72,19 @@ static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *forc
 
 /* ---- the pilot run ---- */
 
-static void it_sees_more_than_the_start(void **state)
+static void auto_uses_the_rate_after_the_start_too(void **state)
 {
   (void)state;
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
-  /* The crank starts at rest under 0.033 N m; max(|v|/L, sqrt(|a|/L)) is 119 1/s at the start and
-   * 336 1/s in the mean over the first 3.75 rad of an exact motion. Five steps tell the latter
-   * within a fifth. */
+  /* The crank starts at rest under 0.033 N m. The rate max(|v|/L, sqrt(|a|/L)) is 119 1/s at the
+   * start, and 336 1/s as a mean over the first 3.75 rad of an exact motion. Five steps give the
+   * mean within a fifth. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
 
-static void it_costs_14_evaluations_and_is_counted(void **state)
+static void the_pilot_run_costs_14_evaluations_which_are_counted(void **state)
 {
   (void)state;
   model m;
@@ -102,7 +102,7 @@ static void it_costs_14_evaluations_and_is_counted(void **state)
   model_destroy(&m);
 }
 
-static void it_gives_the_same_each_time(void **state)
+static void auto_gives_the_same_gains_each_time(void **state)
 {
   (void)state;
   model m;
@@ -116,21 +116,21 @@ static void it_gives_the_same_each_time(void **state)
   model_destroy(&m);
 }
 
-static void it_does_not_depend_on_units(void **state)
+static void auto_does_not_depend_on_units(void **state)
 {
   (void)state;
   model si;
   model milli;
   assert_int_equal(model_four_bar(&si), BAUM_OK);
   assert_int_equal(model_four_bar_in(&MODEL_MILLI, &milli), BAUM_OK);
-  /* Rounding of data in other units, through 5 steps. */
+  /* Rounding of the data in other units, after 5 steps. */
   ASSERT_NEAR(auto_alpha(milli.mechanism, baum_rk8()) * MODEL_MILLI.time,
               auto_alpha(si.mechanism, baum_rk8()), 1e-9, 0.0);
   model_destroy(&si);
   model_destroy(&milli);
 }
 
-static void a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it(void **state)
+static void at_a_slow_start_auto_uses_at_least_the_rate_of_gravity(void **state)
 {
   (void)state;
   static const double angles[] = {1e-2, 1e-4, 1e-7, 0.0};
@@ -138,7 +138,7 @@ static void a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it(vo
     baum_mechanism *m = pendulum_at(angles[k], NULL);
     double alpha = auto_alpha(m, baum_rk8());
     assert_true(alpha >= 0.1 * sqrt(9.81) * (1.0 - 1e-12));
-    assert_true(alpha <= 0.1 * 1.5 * sqrt(9.81)); /* its mean rate is less from there */
+    assert_true(alpha <= 0.1 * 1.5 * sqrt(9.81)); /* the mean rate is lower */
     baum_mechanism_destroy(m);
   }
 }
@@ -151,8 +151,8 @@ static int fail_later(double t, const double *q, const double *v, const double *
   return t > *(const double *)user ? -1 : 0;
 }
 
-/* A force that fails where the pilot run comes first is none of the run's failures yet. */
-static void what_fails_later_does_not_fail_at_creation(void **state)
+/* A force that fails only in the pilot run does not make the creation of the run fail. */
+static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
 {
   (void)state;
   static double limit = 0.3;
@@ -211,7 +211,7 @@ static void counters_tell_the_effective_damping(void **state)
   baum_mechanism *m = pendulum_at(1.6, NULL);
   baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
   baum_counters c = count(run);
-  /* A double root -alpha: exp(-alpha h), but for (alpha h)^5 / 120. */
+  /* A double root -alpha: exp(-alpha h) except for (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
@@ -228,7 +228,7 @@ static void counters_tell_the_effective_damping(void **state)
 
 /* ---- rows with gains of their own ---- */
 
-/* Two points at rest at 1.1 m on rods of 1 m, without gravity. */
+/* Two particles at rest at 1.1 m on rods of 1 m, without gravity. */
 static baum_mechanism *two_long_rods(void)
 {
   baum_mechanism *m = NULL;
@@ -273,18 +273,20 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     baum_simulation_options o = with_factors(factors, 2, solvers[k]);
     baum_simulation *run = NULL;
     assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-    /* a = -(beta f)^2 Phi along the rod, Phi = (1.1^2 - 1)/2 / 1 or 0.1 as rows are scaled: only
-     * the ratio of both is known, and that nothing else moves. */
+    /* a = -(beta f)^2 Phi along the rod, with Phi = (1.1^2 - 1)/2 over 1 or 0.1, depending on the
+     * scale of the rows. So only the ratio of both velocities is known, and that the other two are
+     * zero. */
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     const double *v = baum_simulation_v(run);
     assert_true(v[0] < 0.0);
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
-    /* Second step, a' = -2 alpha f Phi' - (beta f)^2 Phi: the ratio of the first parts is 27. */
+    /* In the second step a' = -2 alpha f Phi' - (beta f)^2 Phi: the damping terms have the ratio
+     * 27. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);
-    /* q is as it was at the second evaluation but for h v, of 1e-3 x 0.04 or 0.36 of 0.1 m. */
+    /* At the second evaluation q has changed by h v only, 1e-3 x 0.04 or 0.36 of 0.1 m. */
     for (int i = 0; i < 2; i++) {
       double damped = v[3 * i] - 2.0 * first[i];
       double want = -2.0 * 10.0 * factors[i] * 1e-3 * first[i];
@@ -296,7 +298,7 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Pins, whose rows the solver by blocks sets by itself, and a guide, which it takes from J. */
+/* The block solver computes the rows of pins itself and reads those of a guide from J. */
 static void solvers_agree_on_factors(void **state)
 {
   (void)state;
@@ -316,7 +318,7 @@ static void solvers_agree_on_factors(void **state)
     baum_simulation_destroy(run);
   }
   for (int i = 0; i < 9; i++) {
-    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* of up to 150 */
+    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* velocities up to 150 */
   }
   model_destroy(&m);
 }
@@ -358,12 +360,12 @@ static void factors_that_make_no_sense_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(it_sees_more_than_the_start),
-    cmocka_unit_test(it_costs_14_evaluations_and_is_counted),
-    cmocka_unit_test(it_gives_the_same_each_time),
-    cmocka_unit_test(it_does_not_depend_on_units),
-    cmocka_unit_test(a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it),
-    cmocka_unit_test(what_fails_later_does_not_fail_at_creation),
+    cmocka_unit_test(auto_uses_the_rate_after_the_start_too),
+    cmocka_unit_test(the_pilot_run_costs_14_evaluations_which_are_counted),
+    cmocka_unit_test(auto_gives_the_same_gains_each_time),
+    cmocka_unit_test(auto_does_not_depend_on_units),
+    cmocka_unit_test(at_a_slow_start_auto_uses_at_least_the_rate_of_gravity),
+    cmocka_unit_test(a_failure_in_the_pilot_run_does_not_fail_the_creation),
     cmocka_unit_test(drivers_that_take_all_degrees_of_freedom_allow_more),
     cmocka_unit_test(steps_of_explicit_methods_stay_inside_of_the_region),
     cmocka_unit_test(counters_tell_the_effective_damping),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes along the constraint forces of one configuration: what they solve, by whichever solver,
+/* Changes along the constraint forces of a fixed configuration: what they solve with each solver,
  * and what they refuse. */
 #include <math.h>
 #include <setjmp.h>
@@ -45,7 +45,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* J = (c, s) of the first configuration; Phi = (|q|^2 - 1) / 2 of the second. */
+/* J = (c, s) of the first configuration, Phi = (|q|^2 - 1) / 2 of the second. */
 static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
 {
   (void)state;
@@ -63,7 +63,7 @@ static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **
   }
 }
 
-/* Along the rod a takes Phi' away, across it is weight alone. */
+/* Along the rod the acceleration a removes Phi'; across it, a is due to the weight only. */
 static void rates_are_held_and_the_rest_is_free(void **state)
 {
   (void)state;
@@ -71,14 +71,14 @@ static void rates_are_held_and_the_rest_is_free(void **state)
     baum_workspace *w = bob_on_rods(1, CHOICES[k]);
     const double q[2] = {0.6, 0.8};
     const double v[2] = {0.3, 0.5};
-    check(baum_i_hold_velocities(w, 0.0, q, v, 10.0));
+    check(baum_i_hold_velocities(w, 0.0, q, v, NULL, 10.0));
     ASSERT_NEAR(0.6 * w->a[0] + 0.8 * w->a[1], -10.0 * (0.6 * 0.3 + 0.8 * 0.5), 1e-14, 0.0);
     ASSERT_NEAR(-0.8 * w->a[0] + 0.6 * w->a[1], -0.6 * 9.81, 1e-14, 0.0);
     baum_workspace_destroy(w);
   }
 }
 
-/* In line both rods pull along one line, and ask for other changes beside it. */
+/* Two rods in line have the same direction, so most changes of both are impossible. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;
@@ -88,7 +88,7 @@ static void rods_in_line_are_singular(void **state)
     baum_workspace *w = bob_on_rods(2, CHOICES[k]);
     baum_i_chord chord;
     baum_status status = baum_i_chord_begin(w, 0.25, in_line, &chord);
-    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* which sees it at once */
+    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* the others find the singularity here */
       check(status);
       status = baum_i_chord_change(w, &chord, 0.25, beside);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The companion of a run: the error it estimates, when it warns, when it costs nothing, and when it
- * is given up. */
+/* The companion of a run: the error that it estimates, its warnings, when it costs nothing, and
+ * when it is given up. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,9 +13,9 @@
 #include "assert_near.h"
 #include "models.h"
 
-static const double SPAN = 2.0; /* [s], a swing of A01 */
+static const double SPAN = 2.0; /* [s] one swing of A01 */
 
-/* Warnings that say "is too long"; the step that the last of them advises. */
+/* Counts the warnings "is too long" and reads the step that the last of them advises. */
 static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
 {
   model m;
@@ -43,7 +43,7 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
   return found;
 }
 
-/* Half a radian a step is too long for low orders and good for order 4 and more. */
+/* Half a radian per step is too long for low orders and good for order 4 and higher. */
 static void steps_are_judged_by_the_order(void **state)
 {
   (void)state;
@@ -64,14 +64,14 @@ static void the_advised_step_is_not_too_long(void **state)
     double again = 0.0;
     assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
     assert_true(advised > 0.0 && advised < 0.2);
-    /* The advice came early in the run and holds for the motion up to there. */
+    /* The advice came early in the run and is valid up to there only, hence a tenth of it. */
     assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
   }
 }
 
-/* ---- how far the estimate is right ---- */
+/* ---- accuracy of the estimate ---- */
 
-/* A run of the pendulum, a particle on a rod, to SPAN; *error: the largest of its positions at 40
+/* Runs the pendulum, a particle on a rod, to SPAN; *error receives the largest position error at 40
  * times. */
 static baum_counters run_pendulum(baum_simulation_options o, double *error)
 {
@@ -116,7 +116,7 @@ static void estimates_are_the_error(void **state)
     o.step = steps[k];
     o.error_check = true;
     baum_counters c = run_pendulum(o, &error);
-    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* the companion is off by its own tolerance */
+    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* 2e-4: tolerance of the companion */
     assert_int_equal(c.doubts, c.error_estimate > 0.03);
   }
 }
@@ -150,8 +150,8 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
-/* A run reverses inside a step, which restarts it there. */
-static void estimates_go_on_from_inside_a_step(void **state)
+/* A run reverses inside a step, where it restarts. */
+static void estimates_continue_after_a_restart_inside_a_step(void **state)
 {
   (void)state;
   enum { TURNS = 50 };
@@ -179,9 +179,10 @@ static void estimates_go_on_from_inside_a_step(void **state)
   }
 }
 
-/* ---- events that steps miss ---- */
+/* ---- events between steps ---- */
 
-/* A light rod that comes taut: at 1 ms rk4 ended 0.64 m off, and gained 2.9 of 2.2 J. */
+/* A light rod that comes taut. With rk4 at 1 ms its end is wrong by 0.64 m, and its energy grows
+ * from 2.2 J by 2.9 J. */
 static baum_mechanism *make_taut_rod(void)
 {
   const double mass = 0.0014776077955897843;
@@ -221,7 +222,7 @@ static baum_mechanism *make_taut_rod(void)
   return m;
 }
 
-static void runs_that_miss_a_short_event_doubt_the_motion(void **state)
+static void runs_that_miss_a_short_event_warn(void **state)
 {
   (void)state;
   static const double steps[] = {2e-3, 1.5e-3, 1e-3, 9e-4, 8e-4, 7e-4};
@@ -246,7 +247,7 @@ static void runs_that_miss_a_short_event_doubt_the_motion(void **state)
 
 /* ---- drivers with corners ---- */
 
-/* Rotates by 3 rad, then rests. */
+/* A law that rotates by 3 rad, then rests. */
 static int ramp(double t, double s[3], void *user)
 {
   (void)user;
@@ -256,7 +257,8 @@ static int ramp(double t, double s[3], void *user)
   return 0;
 }
 
-/* Accelerations say nothing of where the velocity of a driver jumps. */
+/* Where the velocity of a driver jumps, accelerations do not show it, and it must not count as an
+ * error. */
 static void corners_of_drivers_are_no_error(void **state)
 {
   (void)state;
@@ -292,7 +294,7 @@ static void corners_of_drivers_are_no_error(void **state)
 
 /* ---- given up ---- */
 
-/* A damper of rate 1e6 1/s, which rk8 could only follow by steps of a microsecond. */
+/* A damper with a rate of 1e6 1/s, which forces rk8 to steps of a microsecond. */
 static void stiff_runs_give_their_companion_up(void **state)
 {
   (void)state;
@@ -350,8 +352,8 @@ int main(void)
     cmocka_unit_test(estimates_are_the_error),
     cmocka_unit_test(accurate_runs_have_no_companion),
     cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
-    cmocka_unit_test(estimates_go_on_from_inside_a_step),
-    cmocka_unit_test(runs_that_miss_a_short_event_doubt_the_motion),
+    cmocka_unit_test(estimates_continue_after_a_restart_inside_a_step),
+    cmocka_unit_test(runs_that_miss_a_short_event_warn),
     cmocka_unit_test(corners_of_drivers_are_no_error),
     cmocka_unit_test(stiff_runs_give_their_companion_up),
     cmocka_unit_test(kinds_of_warnings_have_names),

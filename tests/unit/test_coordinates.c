@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies of user coordinates. The example has, with c = cos t,
+/* Bodies of user coordinates. The example, with c = cos t:
  *
  *   M = [ 4 + cos q1   sin q0  ]      g = ( -q0^3 + q1 v1 + c,  -sin(q0 q1) - v0^2 )
  *       [ sin q0       3 + q0^2]
@@ -20,7 +20,7 @@
 
 /* ---- the example ---- */
 
-/* What its functions answer. */
+/* Return value and error of its functions. */
 typedef struct arm {
   int answer;
   double spoil; /* added to mass()[0][1] and force()[1] */
@@ -110,7 +110,7 @@ static baum_mechanism *empty(void)
   return mechanism;
 }
 
-/* After another body, so that it does not start at 0. */
+/* Adds the body after another one, so that its columns do not begin at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};
@@ -153,7 +153,7 @@ static void the_design_is_the_start(void **state)
   test_point_close(&p);
 }
 
-static void what_is_not_designed_is_zero_free_and_of_scale_one(void **state)
+static void missing_design_values_are_zero_positions_free_velocities_and_scale_one(void **state)
 {
   (void)state;
   arm a = {0};
@@ -226,7 +226,7 @@ static void check_blocks(const baum_coordinates_def *def, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of sixth order: measured 1e-12. */
+/* Differences of order 6 have a measured error of 1e-12. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;
@@ -420,7 +420,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_design_is_the_start),
-    cmocka_unit_test(what_is_not_designed_is_zero_free_and_of_scale_one),
+    cmocka_unit_test(missing_design_values_are_zero_positions_free_velocities_and_scale_one),
     cmocka_unit_test(mass_force_and_potential_are_those_given),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),

@@ -27,7 +27,7 @@ static int cam(double x, double f[3], void *user)
   return 0;
 }
 
-/* The same with an error in one entry, or an answer. */
+/* The law with an error in one entry, or with another return value. */
 typedef struct fault {
   int entry;
   double error;
@@ -42,7 +42,7 @@ static int faulty(double x, double f[3], void *user)
   return wrong->answer;
 }
 
-/* Sets nothing, and fails unless all is zero already. */
+/* Fails unless `f` is zero at the call; sets nothing. */
 static int nothing(double x, double f[3], void *user)
 {
   (void)x;
@@ -104,7 +104,7 @@ static baum_body_id add_arm(planar_scene *scene)
   return id;
 }
 
-/* Four bodies (three where one is ground), of which one is a particle. */
+/* Four different bodies (three and ground), one of them a particle. */
 static void add_on_other_bodies(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -113,7 +113,7 @@ static void add_on_other_bodies(planar_scene *scene, baum_body_id a, baum_body_i
   couple(scene, slot, pin, NULL);
 }
 
-/* Three bodies: one is in both joints, once as the first and once as the second. */
+/* Three bodies: one belongs to both joints, as body_b of the first and body_a of the second. */
 static void add_on_a_chain(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -126,7 +126,7 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_coupling(mechanism, def, NULL);
 }
 
-/* Joint 1 a pin, joint 2 a slot, both of link and crank, and a definition that couples them. */
+/* Joint 1 is a pin, joint 2 a slot, both between link and crank; the definition couples them. */
 static baum_coupling_def good(planar_scene *scene)
 {
   baum_coupling_def def = baum_coupling_def_default();
@@ -164,7 +164,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_on_a_chain, false, check_rows_balance);
 }
 
-/* What the sparse matrices rely on. */
+/* Every column occurs once in a row; the sparse matrices rely on this. */
 static void check_columns(test_point *p)
 {
   for (int k = 0; k < p->mechanism->joint_count; k++) {
@@ -177,7 +177,7 @@ static void check_columns(test_point *p)
   }
 }
 
-static void no_column_is_there_twice(void **state)
+static void no_column_occurs_twice(void **state)
 {
   (void)state;
   for_each_planar_pair(add_on_same_bodies, false, check_columns);
@@ -189,7 +189,7 @@ static double coordinate_of(const test_point *p, int joint)
 {
   const baum_i_joint *j = p->mechanism->joints[joint];
   baum_i_coordinate c;
-  j->type->coordinate(j, &p->point, &c);
+  j->type->coordinate(j, 0, &p->point, &c);
   return c.value;
 }
 
@@ -231,7 +231,7 @@ static void the_offset_follows_from_the_design_unless_given(void **state)
   test_point_close(&p);
 }
 
-/* All functions that need the law fail alike. */
+/* All functions that call the law fail with the same status and message. */
 static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[3 * 6 + 6];
@@ -324,7 +324,8 @@ static void joints_that_cannot_be_coupled_are_refused(void **state)
   baum_joint_id pin = def.joint_a;
   def.joint_a = def.joint_b;
   check_refused(scene.mechanism, add, &def,
-                "joint 3 \"C\": joint_a and joint_b are both joint 2 \"slot\"");
+                "joint 3 \"C\": joint_a and joint_b are both joint 2 \"slot\", with the same "
+                "coordinate");
   def.joint_a = (baum_joint_id){0, 0};
   check_refused(scene.mechanism, add, &def, "joint 3 \"C\": joint_a is none, must be given");
   def.joint_a = add_pin(&scene, scene.link, scene.ball);
@@ -378,7 +379,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
-    cmocka_unit_test(no_column_is_there_twice),
+    cmocka_unit_test(no_column_occurs_twice),
     cmocka_unit_test(the_row_is_the_one_coordinate_less_a_function_of_the_other),
     cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(a_failing_law_is_named),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic splines against GSL's. */
+/* Cubic splines compared with those of GSL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 enum { MOST = 200 };
 
-/* Intervals between 0.01 and 1, so that bends may be 1e5 where values are 1. */
+/* Intervals are between 0.01 and 1, so second derivatives may be 1e5 for values of 1. */
 static void draw_places(int32_t count, uint64_t *seed, double *times, double *values)
 {
   for (int32_t i = 0; i < count; i++) {
@@ -24,7 +24,7 @@ static void draw_places(int32_t count, uint64_t *seed, double *times, double *va
   }
 }
 
-/* Over the whole of it and at the places themselves. */
+/* Compares over the whole range and at the knots. */
 static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *want)
 {
   double length = spline->times[spline->count - 1] - spline->times[0];
@@ -39,7 +39,7 @@ static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *w
     assert_int_equal(gsl_interp_eval_e(want, x, y, t, NULL, &s_want[0]), 0);
     assert_int_equal(gsl_interp_eval_deriv_e(want, x, y, t, NULL, &s_want[1]), 0);
     assert_int_equal(gsl_interp_eval_deriv2_e(want, x, y, t, NULL, &s_want[2]), 0);
-    /* Rounding of slopes of 100 over intervals of 0.01. */
+    /* Rounding of slopes of about 100 over intervals of 0.01. */
     ASSERT_NEAR(s[0], s_want[0], 0.0, 1e-13);
     ASSERT_NEAR(s[1], s_want[1], 0.0, 1e-11);
     ASSERT_NEAR(s[2], s_want[2], 0.0, 1e-9);
@@ -65,13 +65,13 @@ static void check_splines(const gsl_interp_type *type, int32_t least, bool perio
   }
 }
 
-static void natural_ones_are_those_of_gsl(void **state)
+static void natural_splines_are_those_of_gsl(void **state)
 {
   (void)state;
   check_splines(gsl_interp_cspline, 3, false);
 }
 
-static void so_are_periodic_ones(void **state)
+static void periodic_splines_are_those_of_gsl(void **state)
 {
   (void)state;
   check_splines(gsl_interp_cspline_periodic, 3, true);
@@ -80,8 +80,8 @@ static void so_are_periodic_ones(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(natural_ones_are_those_of_gsl),
-    cmocka_unit_test(so_are_periodic_ones),
+    cmocka_unit_test(natural_splines_are_those_of_gsl),
+    cmocka_unit_test(periodic_splines_are_those_of_gsl),
   };
   return cmocka_run_group_tests_name("cubic_spline", tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@
 
 /* ---- curves ---- */
 
-/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y), of which no derivative vanishes. */
+/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y), whose derivatives are all nonzero. */
 static int bent(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -35,7 +35,7 @@ static int bent(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* The same with an error in one entry, or an answer; what is set is from the user. */
+/* The curve with an error in one entry, or with another return value. */
 typedef struct fault {
   int entry;
   double error;
@@ -50,7 +50,7 @@ static int faulty(const double xy[2], double out[6], void *user)
   return f->answer;
 }
 
-/* Sets nothing, and fails unless all is zero already. */
+/* Fails unless `out` is zero at the call; sets nothing. */
 static int nothing(const double xy[2], double out[6], void *user)
 {
   (void)xy;
@@ -63,7 +63,7 @@ static int nothing(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* Distance from the unit circle about the curve's origin, not defined at its centre. */
+/* Distance from the unit circle; undefined at its centre. */
 static int circle(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -86,7 +86,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* Whatever the order of a pair, its body has the curve; of two particles one goes on link's. */
+/* If one body of the pair is a particle, the other has the curve; with two particles the link has
+ * it. */
 static void add_curve(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_curve_def def = baum_planar_curve_def_default();
@@ -151,7 +152,7 @@ static void a_circle_is_a_rod(void **state)
   assert_int_equal(baum_mechanism_add_planar_distance(scene.mechanism, &rod, NULL), BAUM_OK);
   test_point p;
   test_point_open(&p, scene.mechanism);
-  /* Link turned by 0.4 about (1, 0.5); the bead put at the rod's length from its point. */
+  /* The link is turned by 0.4 about (1, 0.5); the bead is at the rod's length from its point. */
   double *bead = p.q + p.mechanism->bodies[scene.bead.index1]->q;
   bead[0] = 1.0 + 0.3 * cos(0.4) + 0.2 * sin(0.4) + 0.6;
   bead[1] = 0.5 + 0.3 * sin(0.4) - 0.2 * cos(0.4) - 0.8;
@@ -168,7 +169,7 @@ static void a_circle_is_a_rod(void **state)
   for (int i = 0; i < 5; i++) {
     ASSERT_NEAR(blocks[i], blocks[5 + i], 0.0, 1e-15);
   }
-  /* (r^2 - 1) / 2 has gamma - r'^2 more than r - 1, on the circle. */
+  /* On the circle, (r^2 - 1) / 2 has a gamma that is larger by -r'^2 than that of r - 1. */
   assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
   double rate = 0.0;
   const baum_i_span *span = &p.mechanism->joints[0]->span;
@@ -195,7 +196,7 @@ static void a_function_that_sets_nothing_is_zero(void **state)
   test_point_close(&p);
 }
 
-/* All functions that need the curve fail alike. */
+/* All functions that call the curve fail with the same status and message. */
 static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[6];
@@ -239,7 +240,7 @@ static void right_derivatives_raise_no_alarm(void **state)
   user_check_right(make_with(nothing, NULL));
 }
 
-/* Which entry is wrong, or which two do not fit, is told by what stands after curve(). */
+/* The message names the wrong entry, or the two inconsistent ones, after curve(). */
 static void wrong_derivatives_are_named(void **state)
 {
   (void)state;

@@ -18,8 +18,8 @@
 
 /* ---- accuracy ---- */
 
-/* Adams' order rises with the tolerance; BDF's ends at 5, with an error like rtol^(5/6): 6.8 for
- * each decade. */
+/* The order of Adams rises with the tolerance. BDF has at most order 5 and an error like
+ * rtol^(5/6): a factor of 6.8 per decade. */
 static void error_falls_with_the_tolerance(void **state)
 {
   (void)state;
@@ -37,7 +37,7 @@ static void error_falls_with_the_tolerance(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The slider-crank driven at 150 rad/s for a revolution: the crank's angle is known. */
+/* The slider-crank driven at 150 rad/s for one revolution, with the known angle of the crank. */
 static void a_driven_slider_crank_follows_its_driver(void **state)
 {
   (void)state;
@@ -79,8 +79,8 @@ static int64_t evaluations_of(baum_mechanism *mechanism, const baum_integrator *
   return evaluations;
 }
 
-/* Rates of 1e4 1/s bind an explicit method to steps of some 1e-4 s, also without any constraint. */
-static void bdf_takes_stiff_forces_in_its_stride(void **state)
+/* A rate of 1e4 1/s limits explicit methods to steps of about 1e-4 s, even without constraints. */
+static void bdf_needs_few_steps_for_stiff_forces(void **state)
 {
   (void)state;
   need_sundials();
@@ -92,7 +92,8 @@ static void bdf_takes_stiff_forces_in_its_stride(void **state)
   if (!(bdf < 1000 && adams > 10 * bdf)) {
     fail_msg("evaluations: %ld and %ld", (long)adams, (long)bdf);
   }
-  /* Errors of BDF at rtol 1e-6 add up to 1e-4 in the second, of Adams' short steps to far less. */
+  /* Errors of BDF at rtol 1e-6 add up to 1e-4 in a second; those of Adams' short steps are much
+   * smaller. */
   ASSERT_NEAR(bdf_q[0], adams_q[0], 0.0, 1e-3);
   ASSERT_NEAR(bdf_q[1], adams_q[1], 0.0, 1e-3);
   baum_mechanism_destroy(mechanism);
@@ -113,9 +114,9 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
   return evaluations;
 }
 
-/* With fixed-point iteration, gains of 2000 times the rate of the pendulum took some 34000
- * evaluations, for steps were bound to 1 / gain. Newton's iteration on their part of the Jacobian
- * needs some 5000; what is left comes from the error test, which sees the rounding of large
+/* Gains of 2000 times the rate of the pendulum. With fixed-point iteration steps were limited to 1
+ * / gain, which took 34000 evaluations. Newton's iteration with the gains' part of the Jacobian
+ * takes about 5000. The rest is due to the error test, which is affected by the rounding of large
  * gains. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
@@ -136,7 +137,7 @@ static void high_gains_do_not_bind_the_steps(void **state)
 /* ---- projection ---- */
 
 typedef struct projected {
-  double phi;      /* [m] largest at the end of a step */
+  double phi;      /* [m] largest at the ends of steps */
   double phi_rate; /* [m/s] likewise */
 } projected;
 
@@ -159,7 +160,7 @@ static projected swing(baum_mechanism *mechanism, baum_formulation formulation, 
 }
 
 /* Every step ends on the constraints: Phi to 1e-13 of the length, Phi' to 1e-13 of |J| |v|, which
- * is 4.43 m/s at most. */
+ * is at most 4.43 m/s. */
 static void projected_steps_end_on_the_constraints(void **state)
 {
   (void)state;
@@ -171,12 +172,12 @@ static void projected_steps_end_on_the_constraints(void **state)
     print_message("projected: %.1e m, %.1e m/s; not stabilized: %.1e m, %.1e m/s\n", p.phi,
                   p.phi_rate, u.phi, u.phi_rate);
     assert_true(p.phi <= 1e-13 && p.phi_rate <= 4.5e-13);
-    assert_true(u.phi > 1e-9); /* what there was to do */
+    assert_true(u.phi > 1e-9); /* confirms that projection has an effect */
   }
   baum_mechanism_destroy(mechanism);
 }
 
-/* Geometric mean over rtol 1e-4 to 1e-9 of the error after 10 s, some 5 swings. */
+/* Geometric mean over rtol 1e-4 to 1e-9 of the error after 10 s, about 5 swings. */
 static double mean_error(baum_mechanism *mechanism, baum_formulation formulation, double gain)
 {
   integrator_setup setup = integrator_setup_make(mechanism, baum_cvode_bdf(), formulation);
@@ -197,8 +198,8 @@ static double mean_error(baum_mechanism *mechanism, baum_formulation formulation
   return exp(sum / count);
 }
 
-/* Gains of twice the rate are what the rule `auto` is about. A single pendulum may be lucky with
- * other ones, as the table shows; means of 21 runs scatter by a factor of 1.3. */
+/* Gains of twice the rate are similar to those of the rule `auto`. For a single pendulum other
+ * gains may by chance be better, as the table shows; means of 21 runs vary by a factor of 1.3. */
 static void projection_is_as_good_as_gains(void **state)
 {
   (void)state;
@@ -215,7 +216,7 @@ static void projection_is_as_good_as_gains(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* x = 0, and from 0.5 s on e^x = 0, which has a derivative and no solution. */
+/* x = 0, and from 0.5 s on e^x = 0, which has a derivative but no solution. */
 static int vanish(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -270,8 +271,8 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
   baum_simulation_destroy(run);
 }
 
-/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of these steps; nothing here depends on
- * it. */
+/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of a step. The mechanism does not depend
+ * on time, so the result must not change. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -289,7 +290,7 @@ static void a_late_start_costs_no_digits(void **state)
   }
 }
 
-/* ---- what it says ---- */
+/* ---- statistics and messages ---- */
 
 static void statistics_add_up(void **state)
 {
@@ -318,7 +319,7 @@ static void statistics_add_up(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force 2 / (0.1 - t)^3, whose motion 1 / (0.1 - t) ends at 0.1 s. */
+/* A force 2 / (0.1 - t)^3, with the motion 1 / (0.1 - t), which becomes infinite at 0.1 s. */
 static int burst(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -351,7 +352,7 @@ static baum_mechanism *make_bursting(void)
   return mechanism;
 }
 
-static void a_motion_that_ends_is_told_in_a_sentence_with_time_and_step(void **state)
+static void a_motion_that_ends_is_reported_with_time_and_step(void **state)
 {
   (void)state;
   need_sundials();
@@ -375,7 +376,7 @@ static void a_motion_that_ends_is_told_in_a_sentence_with_time_and_step(void **s
   }
 }
 
-/* Standard error goes to a file while everything that fails is made to fail. */
+/* Redirects standard error to a file during a run that fails; the file must stay empty. */
 static void sundials_never_prints(void **state)
 {
   need_sundials();
@@ -384,7 +385,7 @@ static void sundials_never_prints(void **state)
   (void)fflush(stderr);
   int kept = dup(STDERR_FILENO);
   assert_true(kept >= 0 && dup2(fileno(file), STDERR_FILENO) >= 0);
-  a_motion_that_ends_is_told_in_a_sentence_with_time_and_step(state);
+  a_motion_that_ends_is_reported_with_time_and_step(state);
   (void)fflush(stderr);
   assert_true(dup2(kept, STDERR_FILENO) >= 0);
   (void)close(kept);
@@ -397,14 +398,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(error_falls_with_the_tolerance),
     cmocka_unit_test(a_driven_slider_crank_follows_its_driver),
-    cmocka_unit_test(bdf_takes_stiff_forces_in_its_stride),
+    cmocka_unit_test(bdf_needs_few_steps_for_stiff_forces),
     cmocka_unit_test(high_gains_do_not_bind_the_steps),
     cmocka_unit_test(projected_steps_end_on_the_constraints),
     cmocka_unit_test(projection_is_as_good_as_gains),
     cmocka_unit_test(a_projection_that_finds_no_configuration_is_reported),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(statistics_add_up),
-    cmocka_unit_test(a_motion_that_ends_is_told_in_a_sentence_with_time_and_step),
+    cmocka_unit_test(a_motion_that_ends_is_reported_with_time_and_step),
     cmocka_unit_test(sundials_never_prints),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a): what the sparse matrix
- * gives for random right sides is put back, with the derivative of f along x by central
- * differences.
- */
+/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a). Solves with the sparse
+ * matrix for random right sides, and inserts x, with the derivative of f along x by central
+ * differences. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,23 +19,24 @@
 
 #if BAUM_HAVE_SUNDIALS
 #include "integrate/cvode_newton.h"
+#include "mechanism/manifold.h"
 
 enum { SIZE = 160, STATES = 5, MECHANISMS = 40 };
 
-/* A run that is only asked for solutions. */
+/* A problem that is only used to solve these linear systems. */
 typedef struct solver {
   baum_workspace *workspace;
   baum_i_problem problem;
   baum_i_sundials sundials;
   baum_i_cvode_newton newton;
-  int n;             /* nq, nv */
-  double unit[SIZE]; /* of y: scale, and scale per second */
+  int n;             /* nv */
+  double unit[SIZE]; /* of displacements and velocities: scale, and scale per second */
 } solver;
 
 static void open_solver(solver *s, const baum_mechanism *m, baum_formulation formulation)
 {
   *s = (solver){.n = m->nv};
-  assert_true(2 * m->nv <= SIZE);
+  assert_true(m->nq + m->nv <= SIZE);
   assert_int_equal(baum_workspace_create(m, &s->workspace), BAUM_OK);
   s->problem = (baum_i_problem){.workspace = s->workspace,
                                 .formulation = formulation,
@@ -65,7 +65,17 @@ static void close_solver(solver *s)
   baum_workspace_destroy(s->workspace);
 }
 
-/* The x of (I - gamma df/dy) x = r at y = (q, v), as CVODE BDF solves it. */
+/* What belongs to y, as displacements and velocities (2 nv). */
+static void to_tangent(const solver *s, const double *q, const double *y, double *out)
+{
+  const baum_mechanism *m = s->workspace->mechanism;
+  double room[3 * SIZE];
+  memcpy(out, baum_i_tangent(m, q, y, room), (size_t)s->n * sizeof *out);
+  memcpy(out + s->n, y + m->nq, (size_t)s->n * sizeof *out);
+}
+
+/* The x of (I - gamma df/dy) x = r at y = (q, v), as CVODE BDF solves it; x and r as displacements
+ * and velocities. */
 static baum_status solve_newton(solver *s, double t, const double *y, double gamma, const double *r,
                                 double *x)
 {
@@ -73,21 +83,26 @@ static baum_status solve_newton(solver *s, double t, const double *y, double gam
   N_Vector right = s->sundials.vectors[0];
   N_Vector solution = s->sundials.vectors[1];
   BAUM_I_TRY(baum_i_cvode_newton_fill(&s->newton, t, y, gamma));
-  memcpy(N_VGetArrayPointer(right), r, 2 * (size_t)s->n * sizeof *r);
+  const baum_mechanism *m = s->workspace->mechanism;
+  baum_i_rate(m, y, r, N_VGetArrayPointer(right));
+  memcpy(N_VGetArrayPointer(right) + m->nq, r + s->n, (size_t)s->n * sizeof *r);
   bool solved =
     SUNLinSolSetup(front, NULL) == 0 && SUNLinSolSolve(front, NULL, solution, right, 0.0) == 0;
-  memcpy(x, N_VGetArrayPointer(solution), 2 * (size_t)s->n * sizeof *x);
+  to_tangent(s, y, N_VGetArrayPointer(solution), x);
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* f (nq + nv); false where the configuration is singular. */
-static bool evaluate(const solver *s, double t, const double *y, double *f)
+/* f as a displacement from q, and accelerations; false where the configuration is singular. */
+static bool evaluate(const solver *s, double t, const double *q, const double *y, double *f)
 {
+  const baum_mechanism *m = s->workspace->mechanism;
+  double rate[SIZE];
   int64_t before = s->workspace->near_singular;
-  baum_status status = baum_i_problem_acceleration(&s->problem, t, y, y + s->n);
+  baum_status status = baum_i_problem_acceleration(&s->problem, t, y, y + m->nq);
   assert_true(status == BAUM_OK || status == BAUM_ERR_SINGULAR);
-  memcpy(f, y + s->n, (size_t)s->n * sizeof *f);
-  memcpy(f + s->n, s->workspace->a, (size_t)s->n * sizeof *f);
+  baum_i_rate(m, y, y + m->nq, rate);
+  memcpy(rate + m->nq, s->workspace->a, (size_t)s->n * sizeof *rate);
+  to_tangent(s, q, rate, f);
   return status == BAUM_OK && s->workspace->near_singular == before;
 }
 
@@ -101,22 +116,24 @@ static double size_of(const solver *s, const double *x)
   return largest;
 }
 
-/* (df/dy) x by a central difference of fourth order: its truncation and rounding are about 1e-12
- * of f. False in a singular configuration. */
+/* (df/dy) x by a central difference of fourth order, with an error of about 1e-12 of f. Returns
+ * false in a singular configuration. */
 static bool differentiate(const solver *s, double t, const double *y, const double *x, double *out)
 {
   static const double places[4] = {-2.0, -1.0, 1.0, 2.0};
   static const double weights[4] = {1.0 / 12.0, -2.0 / 3.0, 2.0 / 3.0, -1.0 / 12.0};
   double step = 1e-3 / size_of(s, x);
+  const baum_mechanism *m = s->workspace->mechanism;
   bool regular = true;
   memset(out, 0, 2 * (size_t)s->n * sizeof *out);
   for (int k = 0; k < 4; k++) {
     double moved[SIZE];
     double f[SIZE];
-    for (int i = 0; i < 2 * s->n; i++) {
-      moved[i] = y[i] + places[k] * step * x[i];
+    baum_i_move_from(m, y, places[k] * step, x, moved);
+    for (int i = 0; i < s->n; i++) {
+      moved[m->nq + i] = y[m->nq + i] + places[k] * step * x[s->n + i];
     }
-    regular = evaluate(s, t, moved, f) && regular;
+    regular = evaluate(s, t, y, moved, f) && regular;
     for (int i = 0; i < 2 * s->n; i++) {
       out[i] += weights[k] * f[i] / step;
     }
@@ -124,14 +141,14 @@ static bool differentiate(const solver *s, double t, const double *y, const doub
   return regular;
 }
 
-/* |x - gamma df x - r| against the largest of these three vectors; NaN near a singular
+/* |x - gamma df x - r| relative to the largest of these three vectors; NaN near a singular
  * configuration. */
 static double defect_of(solver *s, double t, const double *y, double gamma, const double *r)
 {
   double x[SIZE];
   double change[SIZE];
   double defect[SIZE];
-  if (!evaluate(s, t, y, change)) {
+  if (!evaluate(s, t, y, y, change)) {
     return (double)NAN;
   }
   assert_int_equal(solve_newton(s, t, y, gamma, r, x), BAUM_OK);
@@ -144,31 +161,31 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
   return regular ? size_of(s, defect) / size : (double)NAN;
 }
 
-/* A term that is wrong or missing is of size 1e-3; measured are 4e-12 in the middle, at worst 4e-8
- * where all derivatives are given, and 1e-5 where the matrix has differences of user functions and
- * the configuration is not far from a singular one. */
+/* Limits of the defect. A wrong or missing term causes 1e-3. Measured: 4e-12 as a median; at most
+ * 4e-8 with all derivatives given, and 1e-5 if the matrix has differences of user functions and the
+ * configuration is near a singular one. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
-/* At random states near the design configuration, which need not be consistent. Returns how many
- * were checked. */
+/* Checks random states near the design configuration, which need not be consistent. Returns the
+ * number of states checked. */
 static int check_states(solver *s, double tolerance, chance *c)
 {
   const double gammas[] = {1e-3, -1e-2, 0.1};
   int checked = 0;
   for (int k = 0; k < STATES; k++) {
+    const baum_mechanism *m = s->workspace->mechanism;
+    double x[SIZE];
     double y[SIZE];
     double r[SIZE];
     for (int i = 0; i < 2 * s->n; i++) {
-      y[i] = s->unit[i] * chance_number(c, -1.0, 1.0);
+      x[i] = s->unit[i] * chance_number(c, -1.0, 1.0);
       r[i] = s->unit[i] * chance_number(c, -1.0, 1.0);
     }
-    for (int i = 0; i < s->n; i++) {
-      y[i] = s->workspace->mechanism->design_q[i] + 0.02 * y[i];
-    }
-    const baum_mechanism *m = s->workspace->mechanism;
+    baum_i_move_from(m, m->design_q, 0.02, x, y);
+    memcpy(y + m->nq, x + s->n, (size_t)s->n * sizeof *y);
     baum_i_place_fixed_bodies(m, y);
-    baum_i_rest_fixed_bodies(m, y + s->n);
+    baum_i_rest_fixed_bodies(m, y + m->nq);
     baum_i_rest_fixed_bodies(m, r);
     baum_i_rest_fixed_bodies(m, r + s->n);
     double defect = defect_of(s, 0.1 * k, y, gammas[k % 3], r);
@@ -180,7 +197,7 @@ static int check_states(solver *s, double tolerance, chance *c)
   return checked;
 }
 
-/* With gains of rows from 0.1 to 10 times the others, where there are any: of every second one. */
+/* Also checks gains of rows: every second row has a factor between 0.1 and 10. */
 static int check_mechanism(const baum_mechanism *mechanism, baum_formulation formulation,
                            double tolerance, chance *c)
 {
@@ -229,12 +246,12 @@ static void models_by_functions_with_and_without_derivatives(void **state)
   check_model(model_car_axis(false, &m), BY_DIFFERENCES, &m);
 }
 
-/* Springs and dampers by numbers and by functions, drivers, inputs, constraints and forces of the
- * user. */
+/* Springs and dampers by numbers and by functions, drivers, inputs, user constraints and user
+ * forces. */
 static void one_of_every_element(void **state)
 {
   (void)state;
-  every_element parts = every_element_make_planar();
+  every_element parts = every_element_make(NULL);
   chance c = chance_of(3);
   assert_int_equal(check_mechanism(parts.mechanism, BAUM_FORMULATION_BAUMGARTE, BY_DIFFERENCES, &c),
                    STATES);

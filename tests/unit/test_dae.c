@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual forms and their Jacobian: against differences, and zero at the solution of (7). */
+/* Residual forms: their Jacobians agree with differences, and the residuals are zero at the
+ * solution of the stabilized system (7). */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,31 +15,36 @@
 #include "dynamics/dynamics.h"
 #include "every_element.h"
 #include "joint_scenes.h"
+#include "mechanism/manifold.h"
 #include "models.h"
 
-enum { SIZE_MAX_DAE = 100, STATES = 5 };
+enum { SIZE_MAX_DAE = 260, STATES = 5 };
 
 static const baum_residual FORMS[] = {BAUM_RESIDUAL_INDEX1, BAUM_RESIDUAL_INDEX2,
                                       BAUM_RESIDUAL_INDEX3, BAUM_RESIDUAL_GGL};
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
-/* Deterministic numbers in [-1, 1]. */
+/* Returns the k-th of reproducible numbers in [-1, 1]. */
 static double scatter(int k)
 {
   double x = 0.6180339887498949 * (k + 1);
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
+/* y and y' of a residual. The columns of its Jacobian are displacements of q, then v and the
+ * multipliers. */
 typedef struct point {
+  const baum_mechanism *mechanism;
   double y[SIZE_MAX_DAE];
   double dy[SIZE_MAX_DAE];
-  double scale[SIZE_MAX_DAE]; /* of y */
-  int size;
+  double scale[SIZE_MAX_DAE]; /* of columns */
+  int size;                   /* number of columns */
+  int shift; /* nq - nv: an entry of y after q has an index larger by this than its column */
 } point;
 
-/* Scales of y, so that units make no difference: those of the coordinates, at 1/s, and for
- * multipliers the largest inertia at that rate over the displacement of the row; those of mu are by
- * a second larger. */
+/* Scales of y, so that results do not depend on units. Coordinates have their scales, velocities
+ * these per second. A multiplier has the largest m scale^2 / s^2, divided by the displacement of
+ * its row; mu has this times a second. */
 static void take_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
@@ -56,46 +62,72 @@ static void take_scales(baum_workspace *w, point *p)
   }
 }
 
-/* A state near the design configuration with velocities, accelerations and multipliers of the
+/* A state near the design configuration whose velocities, accelerations and multipliers have the
  * size of their scales. */
 static point random_point(baum_workspace *w, baum_residual index, int seed)
 {
   const baum_mechanism *m = w->mechanism;
-  point p = {.size = baum_i_residual_size(m, index)};
-  assert_true(p.size <= SIZE_MAX_DAE);
+  point p = {.mechanism = m, .shift = m->nq - m->nv};
+  double moved[SIZE_MAX_DAE];
+  double rate[SIZE_MAX_DAE];
+  p.size = baum_i_residual_size(m, index) - p.shift;
+  assert_true(p.size + p.shift <= SIZE_MAX_DAE);
   take_scales(w, &p);
   for (int i = 0; i < p.size; i++) {
-    p.y[i] = p.scale[i] * scatter(seed + i);
-    p.dy[i] = p.scale[i] * scatter(seed + 1000 + i);
+    moved[i] = 0.1 * p.scale[i] * scatter(seed + i);
+    rate[i] = p.scale[i] * scatter(seed + 1000 + i);
+    if (i >= m->nv) {
+      p.y[i + p.shift] = p.scale[i] * scatter(seed + i);
+      p.dy[i + p.shift] = rate[i];
+    }
   }
-  for (int i = 0; i < m->nq; i++) {
-    p.y[i] = m->design_q[i] + 0.1 * m->scale[i] * scatter(seed + i);
-  }
+  baum_i_move_from(m, m->design_q, 1.0, moved, p.y);
+  baum_i_rate(m, p.y, rate, p.dy);
   return p;
 }
 
-/* Column j of dF/dy + c dF/dy', by central differences of the residual along (e_j, c e_j). */
-static void difference_column(baum_workspace *w, const baum_dae *dae, double c, point p, int j,
-                              double *column)
+/* Moves y along column j, and y' by c times as much. */
+static void move_along(point *p, double c, int j, double step)
 {
-  double high[SIZE_MAX_DAE];
-  double low[SIZE_MAX_DAE];
-  double step = 1e-5 * p.scale[j];
-  double y = p.y[j];
-  double dy = p.dy[j];
-  p.y[j] = y + step;
-  p.dy[j] = dy + c * step;
-  assert_int_equal(baum_i_residual(w, dae, 0.3, p.y, p.dy, high), BAUM_OK);
-  p.y[j] = y - step;
-  p.dy[j] = dy - c * step;
-  assert_int_equal(baum_i_residual(w, dae, 0.3, p.y, p.dy, low), BAUM_OK);
-  for (int i = 0; i < p.size; i++) {
-    column[i] = (high[i] - low[i]) / (2.0 * step);
+  const baum_mechanism *m = p->mechanism;
+  if (j >= m->nv) {
+    p->y[j + p->shift] += step;
+    p->dy[j + p->shift] += c * step;
+    return;
+  }
+  double unit[SIZE_MAX_DAE] = {0.0};
+  double from[SIZE_MAX_DAE];
+  unit[j] = 1.0;
+  memcpy(from, p->y, sizeof from);
+  baum_i_move(m, step, unit, p->y);
+  for (int i = 0; i < m->nq; i++) {
+    p->dy[i] += c * (p->y[i] - from[i]);
   }
 }
 
+/* Computes column j of dF/dy + c dF/dy' by central differences of the residual along (e_j, c e_j).
+ * The nq rows of q' - N v are multiplied by N^+. */
+static void difference_column(baum_workspace *w, const baum_dae *dae, double c, const point *p,
+                              int j, double *column)
+{
+  const baum_mechanism *m = p->mechanism;
+  double residuals[2][SIZE_MAX_DAE];
+  double room[3 * SIZE_MAX_DAE];
+  double step = 1e-5 * p->scale[j];
+  for (int k = 0; k < 2; k++) {
+    point moved = *p;
+    move_along(&moved, c, j, k == 0 ? -step : step);
+    assert_int_equal(baum_i_residual(w, dae, 0.3, moved.y, moved.dy, residuals[k]), BAUM_OK);
+  }
+  for (int i = 0; i < p->size + p->shift; i++) {
+    residuals[1][i] = (residuals[1][i] - residuals[0][i]) / (2.0 * step);
+  }
+  memcpy(column, baum_i_tangent(m, p->y, residuals[1], room), (size_t)m->nv * sizeof *column);
+  memcpy(column + m->nv, residuals[1] + m->nq, (size_t)(p->size - m->nv) * sizeof *column);
+}
+
 typedef struct square {
-  double at[SIZE_MAX_DAE][SIZE_MAX_DAE]; /* row by row */
+  double at[SIZE_MAX_DAE][SIZE_MAX_DAE]; /* row-major */
 } square;
 
 static void difference_all(baum_workspace *w, const baum_dae *dae, double c, const point *p,
@@ -103,7 +135,7 @@ static void difference_all(baum_workspace *w, const baum_dae *dae, double c, con
 {
   for (int j = 0; j < p->size; j++) {
     double column[SIZE_MAX_DAE];
-    difference_column(w, dae, c, *p, j, column);
+    difference_column(w, dae, c, p, j, column);
     for (int i = 0; i < p->size; i++) {
       out->at[i][j] = column[i];
     }
@@ -113,8 +145,8 @@ static void difference_all(baum_workspace *w, const baum_dae *dae, double c, con
 static void spread(const baum_i_residual_matrix *matrix, const double *values, int size,
                    square *out)
 {
-  const int32_t *columns = baum_i_residual_matrix_columns(matrix);
-  const int32_t *rows = baum_i_residual_matrix_rows(matrix);
+  const int32_t *columns = baum_i_residual_matrix_pattern(matrix)->start;
+  const int32_t *rows = baum_i_residual_matrix_pattern(matrix)->row;
   memset(out, 0, sizeof *out);
   for (int j = 0; j < size; j++) {
     for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
@@ -124,8 +156,7 @@ static void spread(const baum_i_residual_matrix *matrix, const double *values, i
   }
 }
 
-/* Largest difference of entries, each times the scale of its column, over the largest of its
- * row. */
+/* Returns the largest difference of scaled entries, relative to the largest entry of their row. */
 static double largest_difference(const square *got, const square *want, const point *p)
 {
   double worst = 0.0;
@@ -151,7 +182,8 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   double worst = 0.0;
   baum_i_residual_matrix *matrix = NULL;
   assert_int_equal(baum_i_residual_matrix_create(w, index, &matrix), BAUM_OK);
-  double *values = malloc((size_t)baum_i_residual_matrix_nonzeros(matrix) * sizeof *values);
+  const baum_i_compressed *pattern = baum_i_residual_matrix_pattern(matrix);
+  double *values = malloc((size_t)pattern->start[pattern->n] * sizeof *values);
   for (int k = 0; k < STATES; k++) {
     point p = random_point(w, index, 97 * k);
     assert_int_equal(baum_i_residual_matrix_fill(matrix, w, &dae, c, 0.3, p.y, p.dy, values),
@@ -165,8 +197,9 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* The truncation of a central difference with step 1e-5 of the scale, 1e-10, and its rounding; the
- * Jacobian of user functions is itself a difference. A wrong term is a share of 1e-3 or more. */
+/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10, and
+ * rounding. Jacobians of user functions are differences, too. A wrong term would cause 1e-3 or
+ * more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
   for (int f = 0; f < FORM_COUNT; f++) {
@@ -181,7 +214,7 @@ static void check_all_forms(const char *name, const baum_mechanism *mechanism)
   }
 }
 
-/* Index 1 with gains of rows from 0.1 to 10 times those of all. */
+/* Checks index 1 with factors on the gains of the rows from 0.1 to 10. */
 static void check_row_gains(const char *name, const baum_mechanism *mechanism)
 {
   double factors[SIZE_MAX_DAE];
@@ -225,7 +258,7 @@ static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **
               model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m), &m);
 }
 
-/* A body without mass, whose share in W is the least one. */
+/* One body has no mass; its entry of the metric W is the lower bound. */
 static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **state)
 {
   (void)state;
@@ -236,7 +269,7 @@ static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **s
 static void the_jacobian_is_that_of_differences_for_every_element(void **state)
 {
   (void)state;
-  every_element parts = every_element_make_planar();
+  every_element parts = every_element_make(NULL);
   check_all_forms("every element", parts.mechanism);
   check_row_gains("every element", parts.mechanism);
   baum_mechanism_destroy(parts.mechanism);
@@ -298,7 +331,7 @@ static void check_index_1_at_the_solution(const double *row_gains)
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < 2 * nv + nc; i++) {
-    /* rounding of sums whose terms are of that size */
+    /* rounding of sums with terms of this size */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   baum_workspace_destroy(w);
@@ -316,8 +349,8 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   check_index_1_at_the_solution(factors);
 }
 
-/* At the solution of (5) on the constraints, with mu = 0, everything vanishes; mu moves the
- * positions alone, by W^-1 J^T mu. */
+/* At the solution of (5) on the constraints the residual is zero for mu = 0. A nonzero mu changes
+ * only the first nv rows, by W^-1 J^T mu. */
 static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **state)
 {
   (void)state;
@@ -343,7 +376,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < p.size; i++) {
-    /* rounding of sums whose terms are of that size */
+    /* rounding of sums with terms of this size */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   p.y[2 * nv + nc] = 0.5;
@@ -351,7 +384,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   assert_int_equal(baum_workspace_jacobian(w, 0.0, p.y, jacobian), BAUM_OK);
   assert_int_equal(baum_workspace_mass(w, 0.0, p.y, mass), BAUM_OK);
   for (int i = 0; i < nv; i++) {
-    /* M of planar bodies is diagonal and none of theirs is a millionth of the others' */
+    /* M of planar bodies is diagonal, and no entry is at the lower bound of W */
     ASSERT_NEAR(residual[i], 0.5 * jacobian[i] / mass[i * nv + i], 1e-13, 1e-13 * size);
   }
   baum_workspace_destroy(w);

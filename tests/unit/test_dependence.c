@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE names the elements that it is not for: forces of velocity, masses that vary. */
+/* RATTLE names the elements that it does not support: velocity-dependent forces and variable
+ * masses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +12,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "manifold_scenes.h"
 #include "message.h"
 
 /* ---- a bar on a pin, and what acts on it ---- */
@@ -38,7 +40,7 @@ static scene make_bar(void)
   return s;
 }
 
-/* Freezes and starts; the mechanism is destroyed. */
+/* Freezes the mechanism, starts a run and destroys the mechanism. */
 static baum_status start(const scene *s, baum_simulation **run)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -126,7 +128,7 @@ static void add_torsion_spring(const scene *s, double damping)
   check(baum_mechanism_add_planar_torsion_spring(s->mechanism, &spring, NULL));
 }
 
-static void springs_are_taken_and_dampers_are_not(void **state)
+static void springs_are_supported_and_dampers_are_refused(void **state)
 {
   (void)state;
   double tiny = 1e-6;
@@ -153,10 +155,10 @@ static void springs_are_taken_and_dampers_are_not(void **state)
 /* ---- functions of the user ---- */
 
 typedef struct behaviour {
-  double drag;    /* force - drag v */
-  bool by_time;   /* cos t */
-  bool claims;    /* that neither force nor mass depends on what it must not */
-  double inertia; /* mass 1 + inertia x^2 */
+  double drag;    /* the force is -drag v */
+  bool by_time;   /* the force depends on cos t */
+  bool claims;    /* declares that force and mass are independent of velocity and position */
+  double inertia; /* the mass is 1 + inertia x^2 */
 } behaviour;
 
 static int act(double t, const double *q, const double *v, const double *inputs, double *out,
@@ -205,7 +207,46 @@ static void add_coordinate(const scene *s, behaviour *b)
   check(baum_mechanism_add_coordinates(s->mechanism, &def, NULL));
 }
 
-static void functions_of_time_and_position_are_taken(void **state)
+/* In space, where the moments of rigid bodies are of their motion and no forces. */
+static void a_damper_in_space_is_refused(void **state)
+{
+  (void)state;
+  for (int damped_too = 0; damped_too < 2; damped_too++) {
+    scene s = {.mechanism = NULL};
+    baum_spatial_body_def body = baum_spatial_body_def_default();
+    baum_spatial_spring_def spring = baum_spatial_spring_def_default();
+    check(baum_mechanism_create(&s.mechanism));
+    body.inertia[0] = 2.0;
+    body.angular_velocity[1] = 1.0;
+    check(baum_mechanism_add_spatial_body(s.mechanism, &body, &spring.body_b));
+    spring.name = "strut";
+    spring.body_a = BAUM_GROUND;
+    spring.point_a[0] = 2.0;
+    spring.point_a[1] = spring.point_a[2] = 0.0;
+    spring.point_b[1] = 0.5;
+    spring.point_b[0] = spring.point_b[2] = 0.0;
+    spring.stiffness = 3.0;
+    spring.damping = damped_too ? 1e-9 : 0.0;
+    check(baum_mechanism_add_spatial_spring(s.mechanism, &spring, NULL));
+    if (damped_too) {
+      expect_refusal(&s, "force 1 \"strut\" depends on velocities");
+    } else {
+      expect_run(&s);
+    }
+  }
+}
+
+/* There is no rule for the momenta of a manifold that is not known. */
+static void gyroscopic_moments_of_the_user_are_refused(void **state)
+{
+  (void)state;
+  scene s = {.mechanism = NULL};
+  check(baum_mechanism_create(&s.mechanism));
+  manifold_scene_find("free top")->build(s.mechanism);
+  expect_refusal(&s, "body 1|depends on velocities, or does not set depends_on_velocity = false");
+}
+
+static void functions_of_time_and_position_are_supported(void **state)
 {
   (void)state;
   behaviour b = {.by_time = true, .claims = true};
@@ -215,7 +256,7 @@ static void functions_of_time_and_position_are_taken(void **state)
   expect_run(&s);
 }
 
-static void functions_that_say_nothing_are_named(void **state)
+static void functions_without_a_declaration_are_refused_by_name(void **state)
 {
   (void)state;
   behaviour calm = {.claims = true};
@@ -230,7 +271,7 @@ static void functions_that_say_nothing_are_named(void **state)
   expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
-/* Said of a mechanism, with any integrator. */
+/* Expects the refusal from the mechanism, whatever the integrator. */
 static void expect_denial(const scene *s, const char *parts)
 {
   check(baum_mechanism_freeze(s->mechanism));
@@ -238,7 +279,7 @@ static void expect_denial(const scene *s, const char *parts)
   baum_mechanism_destroy(s->mechanism);
 }
 
-static void false_claims_are_found(void **state)
+static void false_declarations_are_found(void **state)
 {
   (void)state;
   double tiny = 1e-6;
@@ -282,10 +323,12 @@ static void only_index_3_without_gains_is_offered(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(springs_are_taken_and_dampers_are_not),
-    cmocka_unit_test(functions_of_time_and_position_are_taken),
-    cmocka_unit_test(functions_that_say_nothing_are_named),
-    cmocka_unit_test(false_claims_are_found),
+    cmocka_unit_test(springs_are_supported_and_dampers_are_refused),
+    cmocka_unit_test(a_damper_in_space_is_refused),
+    cmocka_unit_test(gyroscopic_moments_of_the_user_are_refused),
+    cmocka_unit_test(functions_of_time_and_position_are_supported),
+    cmocka_unit_test(functions_without_a_declaration_are_refused_by_name),
+    cmocka_unit_test(false_declarations_are_found),
     cmocka_unit_test(only_index_3_without_gains_is_offered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

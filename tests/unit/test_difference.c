@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences against derivatives that are known. Errors are relative to the size of the function
- * in one relevant change, which is 1 in most tests.
- */
+/* Differences compared with known derivatives. Errors are relative to the size of the function for
+ * a change of one scale, which is 1 in most tests. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,12 +15,12 @@
 #include "point.h"
 #include "user_models.h"
 
-/* A function of one coordinate, for q[0]; calls are counted. */
+/* A function of the coordinate q[0] that counts its calls. */
 typedef struct curve {
   double (*value)(double x);
   int calls;
   double edge; /* refused below */
-  int answer;  /* of the refusal, as of a user function */
+  int answer;  /* return value of a refusal, as of a user function */
   double noise;
 } curve;
 
@@ -37,7 +36,7 @@ static baum_status curve_field(const void *context, const baum_i_local *at, doub
   return BAUM_OK;
 }
 
-/* A place with one moving coordinate. */
+/* A state with one moving coordinate. */
 typedef struct stage {
   user_model model;
   test_point p;
@@ -121,7 +120,7 @@ static double constant(double x)
   return 12345.678;
 }
 
-/* Changes within a millionth, then hardly any more: looks like |x| from afar. */
+/* Changes slope within 1e-6, so that it looks like |x| from a distance. */
 static double tiny_circle(double x)
 {
   return sqrt(x * x + 1e-12);
@@ -148,7 +147,7 @@ static void second_derivatives_are_good_to_2e_11(void **state)
     ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
     ASSERT_NEAR(derivative_at(exp, x, 1.0, 2), exp(x), 2e-11, 0.0);
     ASSERT_NEAR(derivative_at(fifth_power, x, 1.0, 2), 20.0 * x * x * x, 2e-11, 2e-11);
-    /* Truncation is 3^6 = 729 times that of sin(x). */
+    /* The truncation error is 3^6 = 729 times that of sin(x). */
     ASSERT_NEAR(derivative_at(three_times_as_fast, x, 1.0, 2), -9.0 * sin(3.0 * x), 0.0, 4e-10);
   }
 }
@@ -160,7 +159,7 @@ static void derivatives_of_a_constant_are_exactly_zero(void **state)
   ASSERT_NEAR(derivative_at(constant, 0.3, 1.0, 2), 0.0, 0.0, 0.0);
 }
 
-static void a_scale_a_million_times_too_large_costs_time_not_truth(void **state)
+static void a_scale_a_million_times_too_large_costs_time_but_no_accuracy(void **state)
 {
   (void)state;
   for (double x = -2e-6; x < 2e-6; x += 0.37e-6) {
@@ -175,7 +174,7 @@ static void a_scale_a_million_times_too_large_costs_time_not_truth(void **state)
   }
 }
 
-/* Rounding, 1e-16, over a step that is a thousand times too small. */
+/* Rounding of 1e-16 over a step that is a thousand times too small. */
 static void a_scale_a_thousand_times_too_small_costs_three_digits(void **state)
 {
   (void)state;
@@ -203,8 +202,8 @@ static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolution
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* The direction is rounded to 7e-12 / (v / 64), some 1e-9; steps that were not would leave
-   * 1e-7. */
+  /* The direction is rounded to 7e-12 / (v / 64), about 1e-9. Without rounding of the steps the
+   * error would be 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }
@@ -262,7 +261,7 @@ static void steps_shrink_near_the_edge_of_where_a_function_is_defined(void **sta
   close_stage(&s);
 }
 
-static void at_the_edge_itself_there_is_no_difference_and_a_retry(void **state)
+static void at_the_edge_of_its_domain_a_function_asks_for_a_retry(void **state)
 {
   (void)state;
   stage s;
@@ -274,7 +273,7 @@ static void at_the_edge_itself_there_is_no_difference_and_a_retry(void **state)
   close_stage(&s);
 }
 
-static void a_stop_is_final(void **state)
+static void a_function_that_returns_stop_is_not_called_again(void **state)
 {
   (void)state;
   stage s;
@@ -289,7 +288,7 @@ static void a_stop_is_final(void **state)
 
 /* ---- columns ---- */
 
-/* x^2 y, sin(x + y), x vx vy. */
+/* The functions x^2 y, sin(x + y) and x vx vy. */
 static baum_status mixed_field(const void *context, const baum_i_local *at, double *out)
 {
   (void)context;
@@ -328,15 +327,15 @@ int main(void)
     cmocka_unit_test(first_derivatives_are_good_to_1e_12),
     cmocka_unit_test(second_derivatives_are_good_to_2e_11),
     cmocka_unit_test(derivatives_of_a_constant_are_exactly_zero),
-    cmocka_unit_test(a_scale_a_million_times_too_large_costs_time_not_truth),
+    cmocka_unit_test(a_scale_a_million_times_too_large_costs_time_but_no_accuracy),
     cmocka_unit_test(a_scale_a_thousand_times_too_small_costs_three_digits),
     cmocka_unit_test(ten_thousand_revolutions_do_not_spoil_the_steps),
     cmocka_unit_test(a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolutions),
     cmocka_unit_test(a_good_scale_takes_six_or_seven_evaluations),
     cmocka_unit_test(a_noisy_function_is_not_asked_again_and_again),
     cmocka_unit_test(steps_shrink_near_the_edge_of_where_a_function_is_defined),
-    cmocka_unit_test(at_the_edge_itself_there_is_no_difference_and_a_retry),
-    cmocka_unit_test(a_stop_is_final),
+    cmocka_unit_test(at_the_edge_of_its_domain_a_function_asks_for_a_retry),
+    cmocka_unit_test(a_function_that_returns_stop_is_not_called_again),
     cmocka_unit_test(columns_are_derivatives_by_positions_and_by_velocities),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,7 +26,7 @@ static int swing(double t, double s[3], void *user)
 
 static double fast = 1.7;
 
-/* Returns the number it is given. */
+/* Returns the number that `user` points to. */
 static int answer(double t, double s[3], void *user)
 {
   (void)t;
@@ -45,7 +45,7 @@ static int copy(double t, double s[3], void *user)
   return 0;
 }
 
-/* Sets nothing, and fails unless all is zero already. */
+/* Fails unless `s` is zero at the call; sets nothing. */
 static int nothing(double t, double s[3], void *user)
 {
   (void)t;
@@ -103,7 +103,7 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_driver(mechanism, def, NULL);
 }
 
-/* A pin with a driver "motor" as joint 2, open at the design configuration. */
+/* A pin with the driver "motor" as joint 2, in the design configuration. */
 static void open_motor(test_point *p, baum_law_fn *law, void *user, bool slider)
 {
   planar_scene scene = planar_scene_make();
@@ -149,7 +149,7 @@ static void the_row_is_coordinate_minus_law(void **state)
   test_point_close(&p);
 }
 
-static void its_place_is_that_of_the_joint(void **state)
+static void the_driver_is_at_the_place_of_its_joint(void **state)
 {
   (void)state;
   test_point p;
@@ -179,7 +179,7 @@ static void a_law_that_sets_nothing_is_zero(void **state)
   test_point_close(&p);
 }
 
-/* All three functions that need the law fail alike. */
+/* All three functions that call the law fail with the same status and message. */
 static void check_law_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[4];
@@ -317,7 +317,7 @@ int main(void)
     cmocka_unit_test(derivatives_on_a_pin_agree_with_differences),
     cmocka_unit_test(derivatives_on_a_slider_agree_with_differences),
     cmocka_unit_test(the_row_is_coordinate_minus_law),
-    cmocka_unit_test(its_place_is_that_of_the_joint),
+    cmocka_unit_test(the_driver_is_at_the_place_of_its_joint),
     cmocka_unit_test(a_law_that_sets_nothing_is_zero),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(a_law_that_is_not_finite_is_named),

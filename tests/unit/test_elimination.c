@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Orders of elimination against the same elimination done on a full matrix of couplings. */
+/* Orders of elimination compared with elimination on a full matrix of couplings. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,7 +97,7 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Neighbours from the last to the first: their order shall not matter. */
+/* Passes the neighbours in decreasing order; their order must not matter. */
 static baum_status order(graph *g, int most, baum_i_elimination *out)
 {
   int32_t at = 0;
@@ -127,7 +127,8 @@ static int count_edges(const graph *g)
 
 /* ---- elimination on a full matrix ---- */
 
-/* The neighbours of `node` couple, and it goes. Returns how many there were. */
+/* Couples all neighbours of `node` with each other and removes it. Returns the number of
+ * neighbours. */
 static int take_out(graph *g, int node)
 {
   int degree = 0;
@@ -146,7 +147,7 @@ static int take_out(graph *g, int node)
   return degree;
 }
 
-/* Each place couples with exactly what is left around its node. */
+/* Each place couples with exactly the remaining neighbours of its node. */
 static void assert_elimination(const graph *given, const baum_i_elimination *found)
 {
   graph g = *given;
@@ -179,7 +180,7 @@ static int couplings_in_order(const graph *given)
   return sum;
 }
 
-/* Always one of the smallest degree. */
+/* Always eliminates a node with the fewest neighbours. */
 static int couplings_by_greed(const graph *given)
 {
   graph g = *given;
@@ -230,7 +231,7 @@ static void graphs_without_rings_have_no_fill(void **state)
   }
 }
 
-/* So that two steps that do not wait for each other stand side by side. */
+/* The two ends alternate, so that neighbouring steps are independent of each other. */
 static void chains_are_eliminated_from_both_ends_in_turn(void **state)
 {
   (void)state;
@@ -247,7 +248,7 @@ static void chains_are_eliminated_from_both_ends_in_turn(void **state)
   baum_i_elimination_clear(&found);
 }
 
-/* A ring of n becomes one of n - 1 with every node, by one new coupling, down to three. */
+/* Each elimination shortens a ring by one node with one new coupling, down to three nodes. */
 static void rings_have_the_fill_that_cannot_be_avoided(void **state)
 {
   (void)state;
@@ -275,8 +276,8 @@ static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
   assert_int_equal(check(&alone), 0);
 }
 
-/* Rounds may take a few more couplings than one node at a time, but nothing like no order at
- * all. */
+/* Elimination in rounds may cause a few more couplings than one node at a time, but far fewer than
+ * an arbitrary order. */
 static void random_graphs_have_little_more_fill_than_by_greed(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers that overflow are told of where they arise, with the joint or the body, and never handed
- * out with success. */
+/* Overflow is reported where it occurs, with the joint or the body; infinite results are never
+ * returned with BAUM_OK. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 
 #include "message.h"
 
-/* A rigid body "big" on a rod "rod" of some length from the origin, and a wheel without a joint. */
+/* A rigid body "big" on a rod "rod" from the origin, and a wheel without a joint. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_workspace *workspace;
@@ -53,7 +53,7 @@ static void close_scene(scene *s)
   baum_mechanism_destroy(s->mechanism);
 }
 
-/* Weight and kinetic energy of a body of the largest mass there is. */
+/* Weight and kinetic energy overflow for a body with the largest possible mass. */
 static void forces_and_energies_that_overflow_are_refused(void **state)
 {
   (void)state;
@@ -81,8 +81,8 @@ static void gamma_that_overflows_is_refused(void **state)
   close_scene(&s);
 }
 
-/* An arm of 1e200 m over the root of an inertia of 1e-300 kg m^2: each is a number, the size of the
- * row is none. */
+/* An arm of 1e200 m and an inertia of 1e-300 kg m^2: both are finite, but arm / sqrt(inertia), the
+ * size of the row, overflows. */
 static void rows_whose_size_overflows_are_refused(void **state)
 {
   (void)state;
@@ -100,7 +100,7 @@ static void rows_whose_size_overflows_are_refused(void **state)
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   ASSERT_SAYS(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_ERR_NOT_FINITE,
-              "numbers of the equations are too large for double precision");
+              "numbers in the equations of motion are too large for double precision");
   baum_mechanism_destroy(m);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed bodies: welded to ground, and not part of a run's motion. */
+/* Fixed bodies: they are welded to ground and omitted from the motion. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,7 +65,8 @@ static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
   return id;
 }
 
-/* Two frames, one welded to the other and this to the ground, that carry a double pendulum. */
+/* Two frames that carry a double pendulum; the first is welded to ground, the second to the
+ * first. */
 enum { FRAMES = 2, BODIES = 4 };
 
 typedef struct mounted {
@@ -111,7 +112,7 @@ static int left_out(const baum_simulation *run)
   return path ? path->fixed_count : 0;
 }
 
-/* By the solver of the whole system. */
+/* With the solver of the whole system, which does not omit fixed bodies. */
 static baum_simulation *start_whole(const baum_mechanism *m, baum_simulation_options o)
 {
   o.solver = BAUM_SOLVER_KLU;
@@ -127,7 +128,7 @@ static void assert_same(const baum_simulation *run, const baum_simulation *want,
   }
 }
 
-/* Run both ways for 0.5 s and compare. */
+/* Runs for 0.5 s with and without omitting fixed bodies, and compares. */
 static void assert_same_motion(const baum_mechanism *m, int count)
 {
   baum_simulation_options o = fixed_step();
@@ -157,7 +158,7 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* A triangle on the ground is rigid without a weld. */
+/* A triangle on the ground is rigid without a weld, and is not omitted. */
 static void rigid_islands_are_solved_for(void **state)
 {
   (void)state;
@@ -174,12 +175,12 @@ static void rigid_islands_are_solved_for(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* In whatever order welds are added, and from whichever side. */
+/* The order of the welds and of their bodies does not matter. */
 static void chains_of_welds_are_fixed_in_any_order(void **state)
 {
   (void)state;
   enum { CHAIN = 7 };
-  for (int step = 1; step < CHAIN; step++) { /* 7 is prime: every step comes by all bodies */
+  for (int step = 1; step < CHAIN; step++) { /* reaches every body */
     baum_mechanism *m = begin();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {
@@ -198,8 +199,8 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   }
 }
 
-/* What carries more joints than blocks are good for does not matter when it stands still. */
-static void a_hub_at_rest_is_no_hub(void **state)
+/* A fixed body with more joints than the block solver can handle does not matter. */
+static void a_fixed_body_may_have_any_number_of_joints(void **state)
 {
   (void)state;
   enum { ARMS = 60 };
@@ -221,7 +222,7 @@ static void a_hub_at_rest_is_no_hub(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void nothing_but_frames_is_nothing_to_solve(void **state)
+static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -231,7 +232,7 @@ static void nothing_but_frames_is_nothing_to_solve(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- what is not ---- */
+/* ---- bodies that are not fixed ---- */
 
 static void a_body_held_by_a_driver_is_not_fixed(void **state)
 {
@@ -246,8 +247,8 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as
- * redundant as one of the cranks' own, but what fixes a body is kept. */
+/* Three parallel cranks, one of them on a frame. A row of the frame's weld, which is added last, is
+ * as redundant as rows of the cranks, but rows that fix a body are never omitted. */
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
@@ -274,7 +275,7 @@ static void rows_that_fix_a_body_are_kept(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- they stay where they are ---- */
+/* ---- fixed bodies do not move ---- */
 
 static void fixed_bodies_do_not_move_by_a_digit(void **state)
 {
@@ -305,7 +306,7 @@ static void fixed_bodies_do_not_move_by_a_digit(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* ---- what is reported is of the whole ---- */
+/* ---- results include fixed bodies ---- */
 
 static void reactions_of_fixed_bodies_are_right(void **state)
 {
@@ -329,10 +330,10 @@ static void reactions_of_fixed_bodies_are_right(void **state)
   check(baum_simulation_get(run, channels, 6, got));
   check(baum_simulation_get(whole, channels, 6, want));
   for (int i = 0; i < width; i++) {
-    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions apart by 1e-12, forces up to 1e2 N */
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions differ by 1e-12, forces are up to 1e2 N */
   }
-  assert_true(want[1] > 10.0);                 /* the foot carries something */
-  check(baum_simulation_advance_to(run, 0.4)); /* a look at the whole changes nothing */
+  assert_true(want[1] > 10.0);                 /* the foot carries a load */
+  check(baum_simulation_advance_to(run, 0.4)); /* reading results changes nothing */
   check(baum_simulation_advance_to(whole, 0.4));
   assert_same(run, whole, 1e-11);
   baum_simulation_destroy(run);
@@ -348,7 +349,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
   baum_simulation *run = start(it.mechanism, &o);
   check(baum_simulation_advance_to(run, 0.2));
   for (int i = 0; i < 3 * FRAMES; i++) {
-    /* What assembly left: some rounding of lengths of about 1. */
+    /* Assembly leaves a rounding of lengths of about 1 m. */
     assert_true(fabs(run->workspace->phi[i]) < 1e-14);
     assert_true(run->workspace->phi_rate[i] == 0.0);
     assert_true(run->workspace->gamma[i] == 0.0);
@@ -357,7 +358,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* ---- states that have them elsewhere ---- */
+/* ---- states with other positions of fixed bodies ---- */
 
 static void frames_out_of_place_are_put_back(void **state)
 {
@@ -421,7 +422,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   q[0] -= 1e-3;
   v[0] = 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
-  /* Its violations are not those of the steps that follow. */
+  /* The violations of the refused state are not counted in the next step. */
   check(baum_simulation_step(run, 1));
   baum_counters counters;
   check(baum_simulation_counters(run, &counters, sizeof counters));
@@ -437,8 +438,8 @@ int main(void)
     cmocka_unit_test(welded_frames_are_fixed_and_the_motion_is_the_same),
     cmocka_unit_test(rigid_islands_are_solved_for),
     cmocka_unit_test(chains_of_welds_are_fixed_in_any_order),
-    cmocka_unit_test(a_hub_at_rest_is_no_hub),
-    cmocka_unit_test(nothing_but_frames_is_nothing_to_solve),
+    cmocka_unit_test(a_fixed_body_may_have_any_number_of_joints),
+    cmocka_unit_test(a_mechanism_of_fixed_bodies_only_can_be_run),
     cmocka_unit_test(a_body_held_by_a_driver_is_not_fixed),
     cmocka_unit_test(rows_that_fix_a_body_are_kept),
     cmocka_unit_test(fixed_bodies_do_not_move_by_a_digit),

@@ -63,7 +63,7 @@ static void has(const char *text, const char *part)
   assert_non_null(strstr(text, part));
 }
 
-/* Refused with a message that says each of the parts, and nothing written. */
+/* Expects a refusal whose message contains both parts, and an unchanged result. */
 static void refused(baum_gains gains, baum_i_gain_context context, baum_status want,
                     const char *part, const char *other_part)
 {
@@ -161,7 +161,7 @@ static void best_damping_is_nowhere_worse_than_its_neighbours(void **state)
     double B = (c.beta * H) * (c.beta * H);
     for (int k = 0; k < 4; k++) {
       double beside = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
-      /* AB2's best points are a line along B: equal but for rounding. */
+      /* AB2's best points form a line parallel to B, where values differ by rounding. */
       assert_true(beside > c.amplification.spectral_radius - 1e-9);
     }
   }
@@ -193,7 +193,7 @@ static void the_default_is_what_the_integrator_says(void **state)
   assert_int_equal(chosen(zero, variable_step()).rule, BAUM_GAINS_AUTO);
 }
 
-static void no_gains_at_all_are_marginal_and_allowed(void **state)
+static void zero_gains_are_marginal_and_allowed(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_fixed(0.0, 0.0), fixed_step(RK4));
@@ -214,7 +214,7 @@ static void gains_that_do_not_damp_are_warned_of(void **state)
 
 /* ---- Auto ----------------------------------------------------------------- */
 
-static void auto_is_a_share_of_the_rate(void **state)
+static void auto_is_a_fraction_of_the_rate(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_auto(), fixed_step(RK4));
@@ -249,7 +249,7 @@ static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
   has(c.why, "(40 x 40 1/s, a rate; no freedom is left); variable step");
 }
 
-/* With a fixed step. */
+/* Share of the rate that `auto` takes with a fixed step. */
 static double share_of(const baum_i_method *method)
 {
   if (method->kind != BAUM_I_METHOD_ONE_STEP || method->degree == 1) {
@@ -274,7 +274,7 @@ static void auto_is_capped_and_always_stable(void **state)
   }
 }
 
-/* R of a method whose diagonal ends at 0.4: explicit Euler with the step taken five times. */
+/* A method whose stable diagonal ends at 0.4: explicit Euler with five times the step. */
 static void auto_keeps_inside_a_small_region(void **state)
 {
   (void)state;
@@ -323,8 +323,8 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 static void stable_pairs_near_the_edge_are_warned_of(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* alpha = beta up to 2 */
-                                   {EULER, 1e-3, 1.9e-3},      /* 2 alpha h is the edge */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* stable for alpha = beta up to 2 */
+                                   {EULER, 1e-3, 1.9e-3},      /* the boundary is at 2 alpha h */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
                                    {AB4, 0.298, 0.298 * 0.298}};
@@ -337,7 +337,7 @@ static void stable_pairs_near_the_edge_are_warned_of(void **state)
   }
 }
 
-/* Small gains damp little because they are small, which is no reason to warn. */
+/* Small gains damp weakly because they are small; this is no reason for a warning. */
 static void small_or_usual_gains_are_not_warned_of(void **state)
 {
   (void)state;
@@ -354,9 +354,9 @@ static void small_or_usual_gains_are_not_warned_of(void **state)
   }
 }
 
-/* ---- Explicit methods that choose their step ------------------------------- */
+/* ---- Explicit methods with variable steps ------------------------------- */
 
-static void their_step_is_kept_inside_of_the_region(void **state)
+static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
 {
   (void)state;
   static const double pairs[][2] = {{100.0, 100.0}, {50.0, 500.0}, {400.0, 20.0}, {7.0, 0.0}};
@@ -366,7 +366,7 @@ static void their_step_is_kept_inside_of_the_region(void **state)
     double alpha = pairs[k][0];
     double beta = pairs[k][1];
     double h = chosen(baum_gains_fixed(alpha, beta), rk4).max_step;
-    /* A little inside, and out of it at the other side of the limit: 0.9 of it are taken. */
+    /* The step is 0.9 of the limit: inside the region; 1 / 0.89 of the step is outside. */
     double in = amplification_at(RK4, alpha * h, beta * h * beta * h).spectral_radius;
     double out =
       amplification_at(RK4, alpha * h / 0.89, beta * h * beta * h / (0.89 * 0.89)).spectral_radius;
@@ -419,7 +419,7 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
   has(chosen(baum_gains_fixed(2.0, 0.0), variable_step()).why, "warning: beta = 0");
 }
 
-/* The error test of explicit and Adams methods keeps to where violations decay, if slowly. */
+/* The error test of explicit and Adams methods keeps steps so short that violations decay. */
 static void weak_damping_is_a_matter_of_bdf(void **state)
 {
   (void)state;
@@ -547,7 +547,7 @@ static void unstable_gains_run_when_allowed_and_say_so(void **state)
   has(c.why, "spectral radius 2.41421, UNSTABLE, violations grow");
 }
 
-static void the_longest_sentences_are_whole(void **state)
+static void the_longest_explanations_are_complete(void **state)
 {
   (void)state;
   baum_i_gain_context context = fixed_step(SEMI_IMPLICIT_EULER);
@@ -572,9 +572,9 @@ int main(void)
     cmocka_unit_test(best_damping_is_nowhere_worse_than_its_neighbours),
     cmocka_unit_test(deadbeat_is_refused_where_there_is_none_with_the_best_point),
     cmocka_unit_test(the_default_is_what_the_integrator_says),
-    cmocka_unit_test(no_gains_at_all_are_marginal_and_allowed),
+    cmocka_unit_test(zero_gains_are_marginal_and_allowed),
     cmocka_unit_test(gains_that_do_not_damp_are_warned_of),
-    cmocka_unit_test(auto_is_a_share_of_the_rate),
+    cmocka_unit_test(auto_is_a_fraction_of_the_rate),
     cmocka_unit_test(auto_is_more_if_drivers_take_all_degrees_of_freedom),
     cmocka_unit_test(auto_is_capped_and_always_stable),
     cmocka_unit_test(auto_keeps_inside_a_small_region),
@@ -582,7 +582,7 @@ int main(void)
     cmocka_unit_test(auto_refuses_a_rate_that_is_no_number),
     cmocka_unit_test(stable_pairs_near_the_edge_are_warned_of),
     cmocka_unit_test(small_or_usual_gains_are_not_warned_of),
-    cmocka_unit_test(their_step_is_kept_inside_of_the_region),
+    cmocka_unit_test(the_longest_step_is_inside_of_the_region_of_the_gains),
     cmocka_unit_test(rules_of_the_step_are_refused_without_one),
     cmocka_unit_test(variable_steps_have_no_radius),
     cmocka_unit_test(weak_damping_is_warned_of_with_variable_steps),
@@ -594,7 +594,7 @@ int main(void)
     cmocka_unit_test(unstable_gains_are_refused_with_numbers_and_a_remedy),
     cmocka_unit_test(the_pair_that_a_refusal_offers_is_accepted),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_say_so),
-    cmocka_unit_test(the_longest_sentences_are_whole),
+    cmocka_unit_test(the_longest_explanations_are_complete),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static baum_body_id add_arm(planar_scene *scene, double angle)
   return id;
 }
 
-/* On an arm of its own, and on the ground where that is neither wheel. */
+/* Adds gears on an arm; the arm is ground if neither wheel is ground. */
 static void add_gears(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_gear_def def = baum_planar_gear_def_default();
@@ -67,8 +67,9 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_gears, false, check_rows_balance);
 }
 
-/* Sun, planet and fixed ring, with 20, 35 and 90 teeth: the arm rotates 1 + 90 / 20 times slower
- * than the sun (Willis), and the planet against it by -20 / 35 of what the sun does. */
+/* Sun, planet and fixed ring with 20, 35 and 90 teeth. The arm rotates 1 + 90 / 20 times slower
+ * than the sun (Willis), and relative to the arm the planet rotates -20 / 35 times as fast as the
+ * sun. */
 static void a_planetary_gear_follows_willis(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized-alpha: order of all unknowns, damping of what is not resolved, stiff forces,
- * redundant rows, and steps of other lengths. */
+/* Generalized-alpha: order of all unknowns, damping of fast modes, stiff forces, redundant rows,
+ * and shortened steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,14 +65,15 @@ static int pull(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* From rest at x = 1. */
+/* Starts from rest at x = 1. */
 static baum_mechanism *make_oscillating(oscillator *o)
 {
   return one_coordinate(1.0, 0.0, pull, o, NULL);
 }
 
-/* w h = 1e4, for which all three roots are -rho but for some 1e-4: sizes fall as k^2 rho^k. */
-static void what_is_too_fast_falls_by_rho_in_a_step(void **state)
+/* With w h = 1e4 all three roots are -rho within about 1e-4, so the amplitude decays as k^2
+ * rho^k. */
+static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
 {
   (void)state;
   oscillator o = {.w = 1e6};
@@ -82,16 +83,16 @@ static void what_is_too_fast_falls_by_rho_in_a_step(void **state)
   check(baum_simulation_step(run, 100));
   double before = baum_simulation_q(run)[0];
   check(baum_simulation_step(run, 1));
-  /* terms of 1 / 100^2, and what the roots are off by */
+  /* terms of 1 / 100^2, and the deviation of the roots */
   ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 2e-3, 0.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost. The spring's slow
- * motion, x = exp(-w t / (2 d)) for d far above 1, is followed closely. What stays is the error of
- * the first steps, which do not resolve how the damper leads from rest to the slow motion: a part
- * of (w h)^2 = 1e-2, measured 3e-4. */
+/* Damping of 1e4 1/s with steps of 10 ms, which explicit methods cannot follow. The slow motion x =
+ * exp(-w t / (2 d)), for d far above 1, is accurate. The remaining error comes from the first
+ * steps, which do not resolve the transition from rest to the slow motion: a fraction of (w h)^2 =
+ * 1e-2, measured 3e-4. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
@@ -108,8 +109,9 @@ static void a_stiff_damper_needs_no_small_steps(void **state)
 
 /* ---- order ---- */
 
-/* Multiplier of the pendulum's rod, of length 1 and 1 kg, in its own units: against that of (5) at
- * the exact motion. */
+/* Returns the error of the position of a pendulum (1 m, 1 kg) at the end, and sets those of its
+ * velocity and of the multiplier of its rod. The exact multiplier follows from equation (5) of
+ * docs/theory/formulations.md at the exact motion. */
 static double errors_at(double step, double *velocity, double *multiplier)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -147,8 +149,8 @@ static void positions_velocities_and_multipliers_are_of_order_2(void **state)
   }
 }
 
-/* After five steps: where a begins as the acceleration itself, multipliers are of order 1 at
- * first. */
+/* After five steps. If the method started with the present acceleration, multipliers would have
+ * order 1 at first. */
 static void multipliers_are_of_order_2_from_the_start(void **state)
 {
   (void)state;
@@ -187,9 +189,9 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   baum_simulation *run = start(m.mechanism, &options);
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
-  assert_true(c.max_phi <= 1e-14);     /* roundings of 1 m and of revolutions */
+  assert_true(c.max_phi <= 1e-14);     /* rounding of 1 m and of revolutions */
   assert_true(c.max_phi_rate > 1e-9);  /* of order h^2 */
-  assert_true(c.max_phi_rate <= 1e-2); /* of 45 m/s */
+  assert_true(c.max_phi_rate <= 1e-2); /* relative to 45 m/s */
   assert_int_equal(c.rejected, 0);
   assert_int_equal(c.warnings, 0);
   assert_true(c.nonlinear_iterations >= 1000 && c.nonlinear_iterations <= 4000);
@@ -206,7 +208,7 @@ static void end_of(const model *m, baum_simulation_options *options, double *q)
   baum_simulation_destroy(run);
 }
 
-/* The matrix differs, the motion by the share at which iterations end only. */
+/* Only the matrix differs, so the motion differs by the tolerance of the iteration. */
 static void redundant_rows_alter_nothing(void **state)
 {
   (void)state;
@@ -224,8 +226,8 @@ static void redundant_rows_alter_nothing(void **state)
   model_destroy(&doubled);
 }
 
-/* A centimetre off the circle at the start, and with a velocity along the rod: gone after one step,
- * and the motion goes on with what the projection has left. */
+/* The start is 0.01 m off the circle and has a velocity along the rod. One step removes both, and
+ * the motion continues with the projected velocity. */
 static void a_start_off_the_constraints_is_projected(void **state)
 {
   (void)state;
@@ -244,7 +246,7 @@ static void a_start_off_the_constraints_is_projected(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A third into every step; they alter nothing and are as exact. */
+/* Samples at a third of every step do not change the motion and are as accurate as grid points. */
 static void samples_beside_the_grid_alter_nothing(void **state)
 {
   (void)state;
@@ -275,7 +277,8 @@ static void samples_beside_the_grid_alter_nothing(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Back and forth over the place where the force jumps, by thousands of metres. */
+/* A force that jumps with the position, by so much that iterations jump back and forth by thousands
+ * of metres. */
 static int jump(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -339,7 +342,7 @@ static void only_index_3_without_gains_is_offered(void **state)
 
 /* ---- a small stiff coordinate on a large one ---- */
 
-/* u = x - 0.4 of a link, of unit mass on a spring of k. */
+/* u = x - 0.4 of a link is a coordinate of unit mass on a spring of stiffness k. */
 static int unit(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -403,7 +406,7 @@ static baum_mechanism *link_with_gauge(double *k)
   return m;
 }
 
-/* A last digit of x is 1e-11 of the scale of u, and no smaller step makes it less. */
+/* The rounding of x is 1e-11 of the scale of u, and a smaller step does not reduce it. */
 static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **state)
 {
   (void)state;
@@ -426,7 +429,7 @@ static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **sta
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_is_too_fast_falls_by_rho_in_a_step),
+    cmocka_unit_test(modes_that_are_too_fast_decay_by_rho_per_step),
     cmocka_unit_test(a_stiff_damper_needs_no_small_steps),
     cmocka_unit_test(positions_velocities_and_multipliers_are_of_order_2),
     cmocka_unit_test(multipliers_are_of_order_2_from_the_start),

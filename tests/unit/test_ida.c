@@ -34,8 +34,8 @@ static void error_falls_with_the_tolerance(void **state)
     setup.formulation = FORMS[f];
     double factor = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
     print_message("%-10s %.2f\n", baum_formulation_name(FORMS[f]), factor);
-    /* Orders end at 5, where the factor is 10^(5/6) = 6.8, and a single motion has its luck. At
-     * index 3 velocities are not tested. */
+    /* At order 5 the factor is 10^(5/6) = 6.8; a single motion may deviate. At index 3 the error
+     * test omits velocities. */
     if (!(factor >= (FORMS[f] == BAUM_FORMULATION_INDEX3 ? 4.0 : 6.0))) {
       fail_msg("%s: factor %.2f", baum_formulation_name(FORMS[f]), factor);
     }
@@ -68,10 +68,9 @@ static violation largest_violation(baum_formulation formulation, double t)
   return largest;
 }
 
-/* What is among the equations holds to the accuracy of Newton's iteration, about the tolerance, and
- * does not grow: Phi of index 3, Phi' of index 2, both of GGL. Phi of index 2 drifts, at most as
- * long as it runs, and more slowly than where Phi' drifts too. Index 1 has only the second
- * derivative. */
+/* Constraints that are among the equations hold within the tolerance of Newton's iteration: Phi at
+ * index 3, Phi' at index 2, both with GGL. At index 2 Phi drifts, but more slowly than at index 1,
+ * where Phi' drifts too. */
 static void violation_is_as_the_formulation_says(void **state)
 {
   (void)state;
@@ -107,7 +106,7 @@ typedef struct cost {
   double q[RUN_SIZE_MAX];
 } cost;
 
-/* IDA's own multipliers at the end of the last step (nc). */
+/* IDA's multipliers (nc) at the end of the last step. */
 static const double *multipliers_of(const integrator_run *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -133,9 +132,9 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* The exact Jacobian may not need more than the dense one from IDA's own differences, which
- * knows nothing of ours, but for the luck of other digits, 15 % so far. A missing term or a
- * wrong sign costs 2 to 40 times as much. */
+/* Runs with the exact Jacobian may need no more work than with a dense Jacobian by IDA's own
+ * differences, except for differences due to rounding, so far 15 %. A missing term or a wrong sign
+ * costs 2 to 40 times as much. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {
@@ -189,8 +188,8 @@ static void the_exact_jacobian_is_as_good_as_differences(void **state)
 
 /* ---- multipliers ---- */
 
-/* Largest error of IDA's own multipliers at the end of a step up to t, over the largest of those
- * that the accelerations have. */
+/* Largest error of IDA's multipliers at the ends of steps up to t, relative to the largest exact
+ * one. */
 static double multiplier_error(const model *scene, baum_formulation formulation, double gain,
                                double rtol, double t)
 {
@@ -218,9 +217,9 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
   return worst;
 }
 
-/* They are in no error test: nothing but Newton's iteration holds them, to 1e-2 of the largest in
- * the sizes of its rows, which differ by less than 10. What it does not look at grows, to 1e14
- * times what it should be. */
+/* At most 0.1. No error test includes the multipliers; only Newton's iteration determines them, to
+ * 1e-2 of the largest, relative to the sizes of the rows, which differ by less than 10. Without
+ * this control they would grow to 1e14 times their value. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -242,7 +241,7 @@ static void check_multipliers_of(baum_formulation formulation)
   }
 }
 
-static void the_multipliers_stay(void **state)
+static void the_multipliers_stay_accurate(void **state)
 {
   (void)state;
   check_multipliers_of(BAUM_FORMULATION_BAUMGARTE);
@@ -274,8 +273,8 @@ static baum_mechanism *make_sledge(void)
   return mechanism;
 }
 
-/* A weightless sledge on a rail: its multipliers are rounding alone, which is never a small share
- * of themselves. */
+/* A body that slides freely on a rail: the multipliers are only rounding, for which no relative
+ * accuracy is possible. */
 static void multipliers_may_vanish(void **state)
 {
   (void)state;
@@ -288,9 +287,9 @@ static void multipliers_may_vanish(void **state)
       setup.rtol = pow(10.0, -k);
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
       assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
-      /* No step has an error, so that each is twice the last, from sqrt(rtol) s on. */
+      /* No step has an error, so each is twice the last, beginning with sqrt(rtol) s. */
       assert_true(run.steps < 100);
-      for (int i = 0; i < 2; i++) { /* some steps, each with some rounding of 10 m */
+      for (int i = 0; i < 2; i++) { /* some steps, each with a rounding of 10 m */
         ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
       }
       integrator_run_close(&run);
@@ -301,8 +300,8 @@ static void multipliers_may_vanish(void **state)
 
 /* ---- units ---- */
 
-/* Free swing of a point of m kg: the multipliers are m times as large, the motion is the same, and
- * so are the steps. */
+/* Number of steps of a free swing of m kg: multipliers are m times as large, motion and steps are
+ * the same. */
 static int64_t steps_with_mass(baum_formulation formulation, double mass)
 {
   baum_mechanism *mechanism = NULL;
@@ -341,7 +340,7 @@ static void the_unit_of_mass_makes_no_difference(void **state)
 
 /* ---- multipliers in the error test ---- */
 
-/* Largest error of IDA's multipliers up to t, over the largest of them, with a factor on their
+/* Largest error of IDA's multipliers up to t, relative to the largest one, with a factor on their
  * tolerance. */
 static double tested_multiplier_error(const model *scene, baum_formulation formulation,
                                       double factor, int64_t *steps)
@@ -373,9 +372,9 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
   return error / largest;
 }
 
-/* Without a tolerance the multipliers are as wrong as it happens; with one their error is at most
- * 10 times that, as the errors of other unknowns are (measured 3.5), and steps are more, as the
- * order says: at order 2 and more not fivefold for each decade, but for noise. */
+/* Without a tolerance the error of the multipliers is arbitrary. With one it is at most 10 times
+ * the tolerance, as for other unknowns (measured 3.5). At order 2 and higher the steps grow less
+ * than fivefold per decade. */
 static void multipliers_are_tested_as_their_factor_says(void **state)
 {
   (void)state;
@@ -406,8 +405,8 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* Where Phi and Phi' are among the equations, a state that violates them is left in the first step;
- * index 2 has only Phi'. The pendulum is put 1e-2 m and 0.3 m/s off. */
+/* If Phi and Phi' are among the equations, the first step moves a violated state onto the
+ * constraints; index 2 includes only Phi'. The pendulum starts 1e-2 m and 0.3 m/s off. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
@@ -421,23 +420,23 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
     const double v[2] = {0.3, -1.0};
     assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
     assert_int_equal(integrator_run_restart(&run, 0.0, q, v, 1.0), BAUM_OK);
-    assert_memory_equal(run.state_q, q, sizeof q); /* the state itself stays */
+    assert_memory_equal(run.state_q, q, sizeof q); /* create does not change the state */
     assert_int_equal(integrator_run_step(&run), BAUM_OK);
     const double *end = run.state_q;
     double length = hypot(end[0], end[1]);
     double rate = (end[0] * run.state_v[0] + end[1] * run.state_v[1]) / length;
-    /* The tolerance is 1e-6 in 1 m, and that times the rate. */
+    /* The tolerance is 1e-6 of 1 m, and this times the rate. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* what was tangential */
+    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* the tangential part */
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
   }
 }
 
-/* A consistent start and a given first step: no rejected step among the first ten, at any
- * tolerance; at index 2 one, by bad luck, at index 3 two, because a smaller first step would be
- * worse. */
+/* With a consistent start and the chosen first step, no step among the first ten is rejected, at
+ * any tolerance. Exceptions: one at index 2, by chance, and two at index 3, where a shorter first
+ * step would be worse. */
 static void the_start_is_smooth(void **state)
 {
   (void)state;
@@ -469,8 +468,8 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line: two rows are redundant, and read lambda_i = mu_i = 0. The motion
- * is the same to the error of either, about 100 rtol after a turn. */
+/* A second guide on the same line: two rows are redundant and become lambda_i = mu_i = 0. The
+ * motions differ by their errors, about 100 rtol after a revolution. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;
@@ -494,9 +493,9 @@ static void redundant_rows_make_no_difference(void **state)
   }
 }
 
-/* Nothing here depends on time, and IDA is told that since the start: a billion seconds, of which a
- * double holds no more than tenths of microseconds, change no digit. Inside of the step t itself is
- * rounded so. */
+/* The mechanism does not depend on time, and IDA measures time from the start. So a start at 1e9 s,
+ * where a double has a rounding of 1e-7 s, changes no digit at the ends of steps. Inside a step, t
+ * itself is rounded. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -529,7 +528,7 @@ static void a_late_start_costs_no_digits(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Create evaluates the start; what fails there is told, and nothing is left behind. */
+/* create evaluates the start. A failure is reported, and nothing is left behind. */
 static void a_start_that_cannot_be_evaluated_is_refused(void **state)
 {
   (void)state;
@@ -547,7 +546,7 @@ static void a_start_that_cannot_be_evaluated_is_refused(void **state)
   assert_non_null(strstr(baum_message(), "faulty"));
   assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
   run.state.t = 0.0;
-  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts by itself */
+  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts automatically */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
@@ -558,7 +557,7 @@ int main(void)
     cmocka_unit_test(error_falls_with_the_tolerance),
     cmocka_unit_test(violation_is_as_the_formulation_says),
     cmocka_unit_test(the_exact_jacobian_is_as_good_as_differences),
-    cmocka_unit_test(the_multipliers_stay),
+    cmocka_unit_test(the_multipliers_stay_accurate),
     cmocka_unit_test(multipliers_may_vanish),
     cmocka_unit_test(the_unit_of_mass_makes_no_difference),
     cmocka_unit_test(multipliers_are_tested_as_their_factor_says),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs: who receives them, who holds them, and what a change does to a run. The run is a particle
- * of 2 kg on the x axis, pushed by a load of 4 N times an input u, so that
- * x'' = 2 u as long as u is held. */
+/* Inputs: which functions receive them, where their values are stored, and how a change affects a
+ * run. The run is a particle of 2 kg on the x axis with a load of 4 N times an input u, so that x''
+ * = 2 u while u is constant. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,11 +14,11 @@
 #include "assert_near.h"
 #include "step_mode.h"
 
-/* ---- functions that look at their inputs ---- */
+/* ---- functions that record their inputs ---- */
 
 typedef struct witness {
   int calls;
-  bool none; /* was passed NULL */
+  bool none; /* the inputs were NULL */
   double seen[2];
   double fails_at; /* value of the first input at which force() fails */
 } witness;
@@ -44,7 +44,7 @@ static int force(double t, const double *q, const double *v, const double *input
   return look(inputs, user);
 }
 
-/* No derivative, but a sight of the inputs. */
+/* Records the inputs; the derivative is zero. */
 static int force_q(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -89,7 +89,7 @@ static scene empty_scene(bool with_inputs)
   return s;
 }
 
-/* Pushed by a load, u = 0.5 at first. */
+/* A particle with a load; u = 0.5 at first. */
 static scene pushed_scene(void)
 {
   scene s = empty_scene(true);
@@ -102,7 +102,7 @@ static scene pushed_scene(void)
   return s;
 }
 
-/* Pushed by a user force of the same size. */
+/* The same with a user force instead of the load. */
 static scene user_scene(witness *w, bool with_inputs)
 {
   scene s = empty_scene(with_inputs);
@@ -152,7 +152,7 @@ static void copies_have_the_same_inputs_and_their_own_values(void **state)
   assert_int_equal(baum_mechanism_get_input(copy, s.push, &value), BAUM_OK);
   assert_true(value == 9.0);
   baum_mechanism_destroy(s.mechanism);
-  /* The load of the copy still finds its input. */
+  /* The load of the copy refers to the copy's input. */
   baum_workspace *w = NULL;
   const double q[2] = {0.0, 0.0};
   double g[2];
@@ -211,7 +211,7 @@ static void force_functions_receive_the_present_values_in_order(void **state)
   check_seen(&seen, w, 0.5);
   assert_int_equal(baum_workspace_set_input(w, s.push, 2.0), BAUM_OK);
   check_seen(&seen, w, 2.0);
-  /* Derivatives too: force_q is asked last. */
+  /* Derivatives receive inputs too; force_q() is called last. */
   baum_sparse sparse = {NULL, NULL, NULL, 0};
   const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
   const double y[4] = {0.0, 0.0, 0.0, 0.0};
@@ -242,7 +242,7 @@ static void without_inputs_functions_receive_null(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void user_coordinates_receive_them_too_and_so_does_their_check(void **state)
+static void user_coordinates_and_their_check_receive_inputs(void **state)
 {
   (void)state;
   witness seen = {.fails_at = 1e9};
@@ -279,7 +279,7 @@ static baum_simulation *start_in(const baum_mechanism *mechanism, step_mode mode
   return run;
 }
 
-/* With a fixed step where there is one. */
+/* With a fixed step if the integrator has one. */
 static baum_simulation *start(const baum_mechanism *mechanism, const baum_integrator *integrator)
 {
   return start_in(mechanism, (step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
@@ -292,9 +292,9 @@ static int64_t restarts_of(baum_simulation *run)
   return c.restarts;
 }
 
-/* Of order 1: h |x''| T / 2 with |x''| <= 6, h = 1e-3, T = 1. Of order 2 and more: the motion
- * between changes is a parabola, so rounding. Variable step: 100 times rtol and the motion's
- * size. */
+/* Order 1: h |x''| T / 2 with |x''| <= 6, h = 1e-3, T = 1. Order 2 and higher: rounding, because
+ * the motion between changes is a parabola. Variable step: 100 times rtol and the size of the
+ * motion. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -303,7 +303,7 @@ static double allowed(step_mode mode)
   return baum_integrator_order(mode.integrator) == 1 ? 3e-3 : 1e-12;
 }
 
-/* Advance to t, which is h after (x, v), with the acceleration a since then. */
+/* Advances to t and compares with the motion from (x, v) during h with the acceleration a. */
 static void check_motion(baum_simulation *run, double t, double h, double a, double x, double v,
                          double off)
 {
@@ -316,8 +316,8 @@ enum { CHANGES = 3 };
 
 static void check_run(step_mode mode)
 {
-  /* Off the grid of no step, and inside of the steps of variable-step methods, which would make one
-   * of it all. */
+  /* The times are on the grid of fixed steps, and inside the steps of variable-step methods, which
+   * would otherwise take one step over the whole time. */
   static const double until[CHANGES + 1] = {0.25, 0.375, 0.75, 1.0};
   static const double inputs[CHANGES + 1] = {0.5, -3.0, 0.0, 1.25};
   scene s = pushed_scene();
@@ -332,7 +332,7 @@ static void check_run(step_mode mode)
     assert_true(baum_simulation_input(run, s.push) == inputs[k]);
     assert_true(baum_simulation_time(run) == t);
     assert_true(baum_simulation_q(run)[0] == before[0] && baum_simulation_v(run)[0] == before[1]);
-    /* A little further first, where the step before the change would have gone too. */
+    /* First advances a little, to a time that the step before the change may already include. */
     check_motion(run, t + 1e-3, 1e-3, 2.0 * inputs[k], x, v, allowed(mode));
     double h = until[k] - t;
     check_motion(run, until[k], h, 2.0 * inputs[k], x, v, allowed(mode));
@@ -340,11 +340,11 @@ static void check_run(step_mode mode)
     v += 2.0 * h * inputs[k];
     t = until[k];
   }
-  /* The first value is the initial one and changes nothing. */
+  /* The first value equals the initial one, so it is no change. */
   int64_t changes = step_mode_remembers(mode) ? CHANGES : 0;
   assert_true(restarts_of(run) >= changes);
   assert_true(step_mode_is_adams(mode) ||
-              restarts_of(run) == changes); /* whose short steps restart too */
+              restarts_of(run) == changes); /* Adams methods also restart after short steps */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
@@ -354,7 +354,7 @@ static void a_change_acts_from_the_present_time_on(void **state)
   (void)state;
   int count = 0;
   for (int k = 0; step_mode_at(k).integrator; k++) {
-    /* Index 3 runs with a warning. */
+    /* IDA at index 3 is excluded, because it gives a warning. */
     if (baum_integrator_offers(step_mode_at(k).integrator, BAUM_FORMULATION_BAUMGARTE)) {
       check_run(step_mode_at(k));
       count++;
@@ -373,7 +373,7 @@ static void each_run_has_values_of_its_own(void **state)
   assert_int_equal(baum_simulation_set_input(one, s.push, -1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(one, 1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(two, 1.0), BAUM_OK);
-  /* x = u t^2 by a method that is exact for it; sums of 1000 steps. */
+  /* x = u t^2, which the method solves exactly; rounding of 1000 steps. */
   ASSERT_NEAR(baum_simulation_q(one)[0], -1.0, 1e-12, 0.0);
   ASSERT_NEAR(baum_simulation_q(two)[0], 0.5, 1e-12, 0.0);
   assert_int_equal(baum_mechanism_get_input(s.mechanism, s.push, &initial), BAUM_OK);
@@ -399,8 +399,8 @@ static void a_state_that_is_set_keeps_the_inputs(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* IDA evaluates where it restarts, so that there a change may fail. */
-static void a_change_that_fails_is_none(void **state)
+/* IDA evaluates at a restart, so a change can fail. */
+static void a_change_of_an_input_that_fails_is_undone(void **state)
 {
   (void)state;
   if (!baum_has("sundials")) {
@@ -416,7 +416,7 @@ static void a_change_that_fails_is_none(void **state)
   assert_true(baum_simulation_input(run, s.push) == 0.5);
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
-  /* Close behind: at first nothing but an interpolation, had the step before been kept. */
+  /* The first times would be interpolated if the step before the change were kept. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,
@@ -434,11 +434,11 @@ int main(void)
     cmocka_unit_test(a_workspace_holds_values_of_its_own),
     cmocka_unit_test(force_functions_receive_the_present_values_in_order),
     cmocka_unit_test(without_inputs_functions_receive_null),
-    cmocka_unit_test(user_coordinates_receive_them_too_and_so_does_their_check),
+    cmocka_unit_test(user_coordinates_and_their_check_receive_inputs),
     cmocka_unit_test(a_change_acts_from_the_present_time_on),
     cmocka_unit_test(each_run_has_values_of_its_own),
     cmocka_unit_test(a_state_that_is_set_keeps_the_inputs),
-    cmocka_unit_test(a_change_that_fails_is_none),
+    cmocka_unit_test(a_change_of_an_input_that_fails_is_undone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

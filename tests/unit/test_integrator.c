@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What integrators tell about themselves, and what all of them work with. */
+/* Properties of integrators, and what all of them use. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include "assert_near.h"
 #include "integrator_run.h"
 
-/* ---- facts ---- */
+/* ---- properties ---- */
 
 typedef struct facts {
   const char *name;
@@ -98,7 +98,7 @@ static void only_pairs_take_a_step_or_a_tolerance(void **state)
   assert_false(baum_integrator_has_variable_step(NULL));
 }
 
-static void no_integrator_has_no_facts(void **state)
+static void null_is_accepted_as_no_integrator(void **state)
 {
   (void)state;
   assert_null(baum_integrator_name(NULL));
@@ -143,7 +143,7 @@ static void formulations_have_names(void **state)
   assert_null(baum_formulation_name((baum_formulation)-1));
 }
 
-/* ---- what they work with ---- */
+/* ---- common parts ---- */
 
 static void tolerances_grow_with_scale_and_speed_only(void **state)
 {
@@ -171,8 +171,8 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* On the rod's line, away from the circle: Phi and Phi' are not zero, and lambda tells the
- * gains. */
+/* On the line of the rod but off the circle, so that Phi and Phi' are nonzero and the acceleration
+ * depends on the gains. */
 static void gains_follow_formulation_and_direction(void **state)
 {
   (void)state;
@@ -200,13 +200,13 @@ static void gains_follow_formulation_and_direction(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* ---- stability from outside ---- */
+/* ---- stability through the public interface ---- */
 
 static void stability_comes_from_the_integrators_own_description(void **state)
 {
   (void)state;
   baum_amplification out;
-  /* The Taylor choice with explicit Euler: z^2 + 1 = 0; with semi-implicit Euler z^2 + 2 z - 1. */
+  /* Taylor's gains: z^2 + 1 = 0 with explicit Euler, z^2 + 2 z - 1 = 0 with semi-implicit Euler. */
   assert_int_equal(baum_stability_at(baum_euler(), 1.0, 2.0, &out, sizeof out), BAUM_OK);
   assert_int_equal(out.stability, BAUM_MARGINAL);
   ASSERT_NEAR(out.spectral_radius, 1.0, 1e-15, 0.0);
@@ -220,7 +220,7 @@ static void stability_comes_from_the_integrators_own_description(void **state)
   assert_true(isnan(out.spectral_radius));
   double limit = 0.0;
   assert_int_equal(baum_stability_limit(baum_rk4(), 1.0, &limit), BAUM_OK);
-  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* real limit of the classical method */
+  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* on the real axis */
   double good[2];
   assert_int_equal(baum_stability_deadbeat(baum_semi_implicit_euler(), &good[0], &good[1]),
                    BAUM_OK);
@@ -301,7 +301,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(integrators_tell_name_order_and_step),
     cmocka_unit_test(only_pairs_take_a_step_or_a_tolerance),
-    cmocka_unit_test(no_integrator_has_no_facts),
+    cmocka_unit_test(null_is_accepted_as_no_integrator),
     cmocka_unit_test(integrators_offer_their_formulations_default_first),
     cmocka_unit_test(formulations_have_names),
     cmocka_unit_test(tolerances_grow_with_scale_and_speed_only),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same battery for every integrator of this build with each of its formulations. */
+/* The same tests for every integrator of this build with each of its formulations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,9 +10,9 @@
 #include "assert_near.h"
 #include "integrator_run.h"
 
-/* ---- the battery ---- */
+/* ---- the common tests ---- */
 
-/* An integrator in one of its ways. */
+/* An integrator with a formulation and a kind of step. */
 typedef struct method {
   const baum_integrator *integrator;
   baum_formulation formulation;
@@ -33,8 +33,7 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const method *m)
   return setup;
 }
 
-/* Every integrator of this build with each of its formulations, with steps of one length and of its
- * own choice. */
+/* Calls a test for every integrator of this build with each formulation and kind of step. */
 static void for_each(battery_fn *test)
 {
   for (int k = 0; baum_integrator_at(k); k++) {
@@ -50,7 +49,7 @@ static void for_each(battery_fn *test)
   }
 }
 
-/* Error at t, forward or backward. */
+/* Error at t or -t, depending on the direction. */
 static double error_at(baum_mechanism *mechanism, const integrator_setup *setup, double t,
                        motion_fn *motion, double rate)
 {
@@ -68,14 +67,13 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
   return error;
 }
 
-/* What an integrator may be off after some time with rtol = 1e-6 or h = 1e-3; the motions here have
- * rates of 2 to 6
- * 1/s, and index 3 is known to be far off. */
+/* Largest error with rtol = 1e-6 or h = 1e-3 for motions with rates of 2 to 6 1/s. Index 3 is known
+ * to be inaccurate. */
 static double allowed(const integrator_setup *setup)
 {
-  /* Of order 5 and more what is left is rounding, of 2000 steps and of the reference. */
+  /* At order 5 and higher: rounding of 2000 steps and of the reference. */
   static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
-  /* The error constants of Adams' explicit methods are 5/12, 3/8 and 251/720, of Runge-Kutta's
+  /* The error constants of Adams methods are 5/12, 3/8 and 251/720, those of Runge-Kutta methods
    * about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
@@ -113,7 +111,7 @@ static void swing(const method *m)
   check_motion(make_pendulum(), m, pendulum_motion, 4.43);
 }
 
-static void a_thrown_point_falls_as_galileo_says(void **state)
+static void a_thrown_particle_moves_on_its_parabola(void **state)
 {
   (void)state;
   for_each(throw_it);
@@ -131,7 +129,7 @@ static void a_pendulum_swings_forward_and_backward_in_time(void **state)
   for_each(swing);
 }
 
-/* Stops at once, or asks for smaller steps for ever; the state is that of the last good step. */
+/* The function stops, or always requests smaller steps; the state is that of the last good step. */
 static void meet_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
@@ -162,7 +160,7 @@ static void a_failing_function_leaves_the_last_good_step(void **state)
   for_each(meet_fault);
 }
 
-/* A function that stops is not called again in that step. */
+/* A function that returns "stop" is not called again in that step. */
 static void stop_at_once(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
@@ -173,7 +171,7 @@ static void stop_at_once(const method *m)
   while (integrator_run_step(&run) == BAUM_OK) {
     fault.calls = 0;
   }
-  assert_true(fault.calls <= 16); /* of the failing step, most of them before the fault */
+  assert_true(fault.calls <= 16); /* calls of the failing step, most of them successful */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
@@ -184,7 +182,7 @@ static void a_function_that_stops_is_left_alone(void **state)
   for_each(stop_at_once);
 }
 
-/* restarting after a failure, elsewhere in time, and turning round. */
+/* Restarts after a failure, at another time, and in the other direction. */
 static void begin_anew(const method *m)
 {
   if (m->fixed || !m->integrator->restart) {
@@ -225,7 +223,7 @@ static void a_restart_works_after_a_failure_and_backwards(void **state)
   for_each(begin_anew);
 }
 
-/* The next step after a failure goes on from the last good one. */
+/* The step after a failure continues from the last good state. */
 static void go_on(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
@@ -251,7 +249,7 @@ static void a_run_goes_on_when_what_failed_is_mended(void **state)
   for_each(go_on);
 }
 
-/* Inside the last step and at its ends; outside it is refused. */
+/* Interpolates in the last step and at its ends; other times are refused. */
 static void look_inside(const method *m)
 {
   if (m->fixed) {
@@ -288,7 +286,7 @@ static void positions_inside_the_last_step_are_interpolated(void **state)
   for_each(look_inside);
 }
 
-/* More digits than there are: refused as a matter of step size, at the start, with the advice. */
+/* A tolerance below rounding is refused at the start, as a step that is too short, with advice. */
 static void ask_too_much(const method *m)
 {
   if (m->fixed) {
@@ -312,7 +310,7 @@ static void too_small_tolerances_are_an_error_of_the_step(void **state)
   for_each(ask_too_much);
 }
 
-/* At 1e15 s neighbouring times are 0.125 s apart. */
+/* At 1e15 s adjacent doubles are 0.125 s apart. */
 static void lose_the_step(const method *m)
 {
   if (m->fixed) {
@@ -349,15 +347,16 @@ static double error_with_step(const method *m, double step)
   integrator_setup setup = setup_of(mechanism, m);
   setup.step = step;
   if (m->integrator->gains == BAUM_GAINS_DEADBEAT) {
-    setup.gain = 0.5 / step; /* stable with both Eulers */
+    setup.gain = 0.5 / step; /* stable with both Euler methods */
   }
   double error = error_at(mechanism, &setup, 1.6, pendulum_motion, 4.43);
   baum_mechanism_destroy(mechanism);
   return error;
 }
 
-/* Halving the step three times; coarse enough that rounding (1e-13) is far, fine enough for the
- * leading term. Orders 5 and 8 reach rounding before terms of the next order have gone. */
+/* The largest step is halved three times. It is short enough for the leading error term, and errors
+ * stay far above rounding (1e-13). Orders 5 and 8 reach rounding before terms of the next order are
+ * small. */
 static void observe_order(const method *m)
 {
   static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};
@@ -383,7 +382,8 @@ static void fixed_step_methods_have_their_order(void **state)
 
 /* ---- tolerances ---- */
 
-/* Down to 1e-13, below which steps only become many; the rest are rounding. */
+/* A fraction of rtol down to 1e-13. Below that, steps only become more numerous, and the error is
+ * rounding. */
 static void bdf_is_given_a_portion_of_rtol(void **state)
 {
   (void)state;
@@ -402,7 +402,7 @@ static void bdf_is_given_a_portion_of_rtol(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_thrown_point_falls_as_galileo_says),
+    cmocka_unit_test(a_thrown_particle_moves_on_its_parabola),
     cmocka_unit_test(an_oscillator_keeps_time),
     cmocka_unit_test(a_pendulum_swings_forward_and_backward_in_time),
     cmocka_unit_test(a_failing_function_leaves_the_last_good_step),

@@ -58,7 +58,7 @@ static void drive(baum_mechanism *m, baum_joint_id joint)
   assert_int_equal(baum_mechanism_add_driver(m, &def, NULL), BAUM_OK);
 }
 
-/* Freezes and releases the mechanism. */
+/* Freezes the mechanism, counts its islands and destroys it. */
 static baum_i_island count(baum_mechanism *m, int want)
 {
   int got = -1;
@@ -92,12 +92,12 @@ static void ground_holds_no_island_together(void **state)
   assert_island(count(m, 3), 2, 3, 5);
 }
 
-/* A row of bodies, joined to their neighbours in a mixed order. */
+/* A row of bodies whose joints are added in a mixed order. */
 static void joints_in_any_order_make_one_island(void **state)
 {
   (void)state;
   enum { BODIES = 41 };
-  for (int step = 1; step < BODIES; step++) { /* 41 is prime: every step comes by all bodies */
+  for (int step = 1; step < BODIES; step++) { /* 41 is prime, so every body is reached */
     baum_mechanism *m = begin();
     baum_body_id bodies[BODIES];
     for (int k = 0; k < BODIES; k++) {
@@ -119,11 +119,11 @@ static void a_welded_frame_holds_no_island_together(void **state)
   baum_body_id frame = add_body(m, 0.0, 0.0);
   baum_body_id right = add_body(m, 2.0, -1.0);
   baum_body_id plate = add_body(m, 1.0, 0.0);
-  baum_body_id hand = add_body(m, 2.0, -2.0); /* welded too, but to what swings */
+  baum_body_id hand = add_body(m, 2.0, -2.0); /* welded too, but to a moving body */
   pin(m, frame, left, 0.0, 0.0);
   weld(m, plate, frame);
   weld(m, frame, BAUM_GROUND);
-  weld(m, frame, BAUM_GROUND); /* twice is no different */
+  weld(m, frame, BAUM_GROUND); /* a second weld changes nothing */
   pin(m, plate, right, 2.0, 0.0);
   weld(m, right, hand);
   assert_island(count(m, 2), 2, 2, 5);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: the motion of mechanisms without degrees of freedom, on its branch and to
- * rounding. */
+/* Kinematics: mechanisms without degrees of freedom stay on their branch, with positions accurate
+ * to rounding. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Configurations are solved until Phi is rounding, so what is left is that of a few operations on
+/* Configurations are solved until Phi is rounding: the error is that of a few operations with
  * lengths up to 5 m. */
 static const double EXACT = 1e-13;
 
@@ -60,8 +60,8 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 
 /* ---- branches ---- */
 
-/* Any configuration farther than a few hundredths from a lock-up, on either branch, with 0.01 to
- * 100 rad/s in both directions. */
+/* A random configuration more than a few hundredths of a radian from a lock-up, on either branch,
+ * with 0.01 to 100 rad/s in either direction. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -82,7 +82,7 @@ typedef struct tally {
   int64_t evaluations;
 } tally;
 
-/* 20 outputs, each `gap` rad of the crank after the one before. */
+/* Samples 20 times; the crank rotates by `gap` rad in between. */
 static void follow(const slider_crank *data, double gap, tally *all)
 {
   baum_mechanism *mechanism = slider_crank_make(data);
@@ -102,7 +102,7 @@ static void follow(const slider_crank *data, double gap, tally *all)
   close_run(run, mechanism);
 }
 
-/* The branches are apart by 2 D, D >= sqrt(l^2 - (r + e)^2): 0.11 m, 0.011 m, and 0.0011 m. */
+/* Branches differ by 2 D with D >= sqrt(l^2 - (r + e)^2): 0.11 m, 0.011 m and 0.0011 m. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;
@@ -117,14 +117,13 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
     printf("rod %.6f m: error %.1e m, Phi %.1e; per output %.1f steps, %.1f factorizations of J\n",
            rods[i], all.error, all.phi, (double)all.steps / (double)all.outputs,
            (double)all.evaluations / (double)all.outputs);
-    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times the velocity ratio of up to
-     * 200. */
+    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times a velocity ratio of up to 200. */
     assert_true(all.error <= 1e-11);
     assert_true(all.phi <= 1e-13);
   }
 }
 
-/* Outputs 3 rad apart over many revolutions: no error accumulates. */
+/* Outputs every 3 rad over many revolutions: errors do not accumulate. */
 static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 {
   (void)state;
@@ -134,7 +133,7 @@ static void a_thousand_revolutions_end_where_the_crank_says(void **state)
   double x[3];
   advance(run, 1000.0 * PI);
   slider_crank_motion(&data, data.drive.angle + data.drive.rate * baum_simulation_time(run), x);
-  /* The angle of 6e3 rad is rounded to 1e-12. */
+  /* An angle of 6e3 rad has a rounding of 1e-12. */
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-11);
   assert_int_equal(counters_of(run).warnings, 0);
   close_run(run, mechanism);
@@ -142,7 +141,7 @@ static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 
 enum { LOOPS = 8 };
 
-/* Many loops at once, each with its own crank: what is near its other branch may be any of them. */
+/* Many loops at once, each with its own crank, any of which may be near its other branch. */
 static void no_loop_of_many_leaves_its_branch(void **state)
 {
   (void)state;
@@ -171,7 +170,7 @@ static void no_loop_of_many_leaves_its_branch(void **state)
   }
 }
 
-/* ---- what comes out ---- */
+/* ---- results ---- */
 
 static void positions_velocities_accelerations_are_those_of_the_closed_form(void **state)
 {
@@ -197,7 +196,7 @@ static void positions_velocities_accelerations_are_those_of_the_closed_form(void
   close_run(run, mechanism);
 }
 
-/* Torque of the motor: by virtual power, sum of (m a - f) v over the bodies, divided by its
+/* The torque of the motor equals the virtual power, sum of (m a - f) v over the bodies, over its
  * rate. */
 static void the_multiplier_of_the_driver_is_its_torque(void **state)
 {
@@ -219,7 +218,7 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
       double weight = i % 3 == 1 ? -9.81 * mass[i] : 0.0;
       power += (mass[i] * row[SLIDER_NV + i] - weight) * row[i];
     }
-    /* J of the driver is 1 on the crank, and M a + J^T lambda = f. Powers here are about 10 W. */
+    /* J of the driver is 1 for the crank, and M a + J^T lambda = f. Powers are about 10 W. */
     ASSERT_NEAR(-row[2 * SLIDER_NV + MOTOR_ROW], power / -20.0, 1e-11, 1e-12);
   }
   close_run(run, mechanism);
@@ -234,15 +233,15 @@ static void a_driven_four_bar_follows_its_crank_for_many_revolutions(void **stat
   for (int k = 1; k <= 100; k++) {
     advance(run, 0.9 * k);
     double off = baum_simulation_q(run)[ROCKER_ANGLE] - four_bar_rocker(1.0 + 2.7 * k);
-    /* 270 rad are rounded to 6e-14. */
+    /* An angle of 270 rad has a rounding of 6e-14. */
     ASSERT_NEAR(remainder(off, 2.0 * PI), 0.0, 0.0, 2e-13);
   }
   assert_true(counters_of(run).max_phi <= 1e-13 * 5.0);
   close_run(run, mechanism);
 }
 
-/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, back and forth between its flat
- * configurations. */
+/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, between the flat configurations at 0 and
+ * pi. */
 static int swing(double t, double s[3], void *user)
 {
   (void)user;
@@ -265,11 +264,11 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     double t = 0.31 * k;
     double s[3];
     baum_status status = baum_simulation_advance_to(run, t);
-    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* of the redundant row */
+    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* a redundant row */
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* 1 / sin of the crank is up to 3 */
+    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* 1 / sin(angle) is up to 3 */
     ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);
     for (int i = 0; i < 3; i++) {
@@ -312,7 +311,7 @@ static void backward_in_time_is_the_same_motion(void **state)
     double x[3];
     advance(run, times[k]);
     slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
-    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* 28 rad, velocity ratio 20 */
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* 28 rad; velocity ratio 20 */
     ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
   }
   assert_int_equal(counters_of(run).restarts, 3);
@@ -338,7 +337,7 @@ static void a_crank_at_rest_stays_for_any_time(void **state)
   close_run(run, mechanism);
 }
 
-/* At rest but for 0.2 s from 5 s on, in which the crank goes 2 rad out and back. */
+/* The crank is at rest, except for 0.2 s after t = 5 s, when it rotates by 2 rad and back. */
 static int bump(double t, double s[3], void *user)
 {
   (void)user;
@@ -350,7 +349,7 @@ static int bump(double t, double s[3], void *user)
   return 0;
 }
 
-/* Whether or not a step has seen the motion, an output inside is on the branch. */
+/* Whether or not a step end falls into the motion, outputs during the motion are right. */
 static void outputs_inside_a_motion_that_steps_may_pass_over_are_right(void **state)
 {
   (void)state;
@@ -396,7 +395,7 @@ static void targets_do_not_alter_the_steps(void **state)
   close_run(often, mechanism);
 }
 
-/* In millimetres, grams, milliseconds: the same steps, the same motion. */
+/* Millimetres, grams and milliseconds give the same steps and the same motion. */
 static void units_do_not_matter(void **state)
 {
   (void)state;
@@ -418,7 +417,7 @@ static void units_do_not_matter(void **state)
   assert_int_equal(steps[1], steps[0]);
 }
 
-/* The other branch is a configuration as good as this one: a run that is put there stays there. */
+/* The other branch is equally valid: a run whose state is set there stays there. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
   (void)state;
@@ -441,7 +440,7 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
-/* The driver continues at another speed, and then from a little ahead of the crank. */
+/* The driver continues with another speed, and then from an angle slightly ahead of the crank. */
 static void a_driver_can_be_set_in_a_run(void **state)
 {
   (void)state;
@@ -461,7 +460,8 @@ static void a_driver_can_be_set_in_a_run(void **state)
   slider_crank_motion(&data, -0.1, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
   ASSERT_SAYS(baum_simulation_set_driver(run, motor, 1.5, 2.0, 0.0), BAUM_ERR_INCONSISTENT,
-              "t = 5 s: kinematics: no configuration|let drivers continue from where they are");
+              "t = 5 s: kinematics: no configuration|let the laws of drivers start at the present "
+              "coordinates");
   advance(run, 6.0);
   slider_crank_motion(&data, 1.9, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
@@ -484,7 +484,7 @@ static baum_counters cost_of(const baum_mechanism *mechanism, const baum_integra
   return counters;
 }
 
-static void it_is_cheaper_than_integration(void **state)
+static void kinematics_are_cheaper_than_integration(void **state)
 {
   (void)state;
   if (!baum_has("sundials")) {
@@ -521,7 +521,7 @@ int main(void)
     cmocka_unit_test(units_do_not_matter),
     cmocka_unit_test(a_state_of_the_other_branch_can_be_set),
     cmocka_unit_test(a_driver_can_be_set_in_a_run),
-    cmocka_unit_test(it_is_cheaper_than_integration),
+    cmocka_unit_test(kinematics_are_cheaper_than_integration),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

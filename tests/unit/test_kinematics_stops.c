@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: what is refused, and where a run stops rather than jump. */
+/* Kinematics: what is refused, and where a run stops instead of jumping to another branch. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -62,8 +62,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   baum_simulation *run = open_run(mechanism);
   double end = 10.0 / fabs(data->drive.rate);
   ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
-              "t = |kinematics: the mechanism locks up here: |\"motor\" demands more than|above "
-              "all joint ");
+              "t = |kinematics: the mechanism locks up here: |satisfies|\"motor\" and the other "
+              "constraints|above all joint ");
   double t = baum_simulation_time(run);
   double angle = data->drive.angle + data->drive.rate * t;
   double x[3];
@@ -73,7 +73,7 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   worst->error = fmax(worst->error, fabs(baum_simulation_q(run)[SLIDER_X] - x[0]));
   (void)snprintf(when, sizeof when, "t = %.9g s: ", t);
   assert_non_null(strstr(baum_simulation_message(run), when));
-  /* And again, and back. */
+  /* A second attempt fails too, and the run can return. */
   ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR, "locks up");
   assert_true(baum_simulation_time(run) >= t);
   assert_true(baum_simulation_advance_to(run, 0.0) >= BAUM_OK);
@@ -82,8 +82,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   close_run(run, mechanism);
 }
 
-/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64
- * and -116 degrees there is no configuration. */
+/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: there is no
+ * configuration between -64 and -116 degrees. */
 static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
 {
   (void)state;
@@ -100,14 +100,14 @@ static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
   }
   printf("stopped at most %.1e rad from the lock-up, %.1e m off the branch\n", worst.to_lock,
          worst.error);
-  /* Shortest steps are 1e-10 of 1/rate; at 1e-9 rad rounding of the angle is amplified 1e4
-   * times. */
+  /* The shortest steps are 1e-10 / rate; at 1e-9 rad from the lock-up, rounding of the angle is
+   * amplified 1e4 times. */
   assert_true(worst.to_lock <= 1e-6);
   assert_true(worst.error <= 1e-9);
 }
 
-/* Steps may pass no lock-up however far the output is, and stop before it, from where the run can
- * go on. */
+/* Steps do not pass a lock-up, however far the next output is, and stop where the run can still
+ * continue. */
 static void outputs_up_to_the_lock_up_are_given(void **state)
 {
   (void)state;
@@ -130,8 +130,8 @@ static void outputs_up_to_the_lock_up_are_given(void **state)
   close_run(run, mechanism);
 }
 
-/* A parallelogram that flattens may become an antiparallelogram: J says so, the driver does not
- * choose. */
+/* A flat parallelogram can continue as an antiparallelogram: J is singular, and the driver does not
+ * determine the branch. */
 static void where_branches_cross_a_run_stops(void **state)
 {
   (void)state;
@@ -149,7 +149,7 @@ static void where_branches_cross_a_run_stops(void **state)
   }
 }
 
-/* Rows 1 and 3 are the same until 0.5 s, and contradict each other from then on. */
+/* Rows 1 and 3 are equal until 0.5 s and contradict each other afterwards. */
 static int part(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -179,7 +179,7 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
   baum_simulation *run = open_run(mechanism);
   ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
               "kinematics: a row of |\"rows\" that was omitted as redundant no longer");
-  /* A violation of 1e-6 passes for none. */
+  /* A violation of 1e-6 is tolerated. */
   ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
   close_run(run, mechanism);
 }
@@ -188,7 +188,7 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
 
 typedef struct fault {
   double after; /* [s] */
-  int answer;   /* 0: NaN; 9: a jump */
+  int answer;   /* 0: gives NaN; 9: jumps */
   int64_t calls;
 } fault;
 
@@ -251,7 +251,7 @@ static void a_law_that_stops_is_left_alone(void **state)
   f.after = -1.0;
   f.calls = 0;
   assert_int_equal(baum_simulation_step(run, 1), BAUM_ERR_CALLBACK);
-  assert_true(f.calls <= 3); /* the step, and the look of the run at where it stands */
+  assert_true(f.calls <= 3); /* one call by the step, others for the present state */
   close_run(run, mechanism);
 }
 
@@ -306,7 +306,7 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A design configuration is solved like any other configuration; one that is far off is refused. */
+/* A start off the constraints is solved like any configuration; one that is far off is refused. */
 static void a_start_off_the_constraints_is_solved_or_refused(void **state)
 {
   (void)state;
@@ -363,7 +363,8 @@ static void a_restart_that_fails_changes_nothing(void **state)
   close_run(run, mechanism);
 }
 
-/* Flat at 0.8 s: the state is one of the motion, but nobody knows how to go on. */
+/* The configuration is flat at 0.8 s: it belongs to the motion, but the branch to continue on is
+ * not determined. */
 static void a_singular_state_cannot_be_set(void **state)
 {
   (void)state;
@@ -400,7 +401,7 @@ static void a_singular_start_is_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* ---- words ---- */
+/* ---- explanations and advice ---- */
 
 static void a_run_explains_itself_and_others_suggest_it(void **state)
 {
@@ -424,7 +425,7 @@ static void a_run_explains_itself_and_others_suggest_it(void **state)
   close_run(run, mechanism);
 }
 
-/* At both ends of the last step and inside; outside of it nothing is known. */
+/* Valid at both ends of the last step and inside; other times are refused. */
 static void configurations_are_returned_inside_the_last_step_only(void **state)
 {
   (void)state;

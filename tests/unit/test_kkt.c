@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems: products, solutions, what is refused. */
+/* Saddle-point systems: products, solutions, refusals. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -68,8 +68,8 @@ static void random_systems_are_solved_to_rounding_by_every_backend(void **state)
     for (uint64_t seed = 1; seed <= 40; seed++) {
       saddle system = saddle_make_random(seed, 2 + (int)seed);
       baum_i_kkt *kkt = make_solver(&system, choices[k]);
-      solve_and_compare(kkt, &system, 1e-10);              /* condition up to about 1e5 */
-      assert_true(saddle_backward_error(&system) < 3e-14); /* the limit of the test is 2.2e-14 */
+      solve_and_compare(kkt, &system, 1e-10);              /* condition number: about 1e5 */
+      assert_true(saddle_backward_error(&system) < 3e-14); /* the solver's own limit is 2.2e-14 */
       assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
       assert_string_equal(baum_i_kkt_backend(kkt), names[k]);
       baum_i_kkt_destroy(kkt);
@@ -107,7 +107,7 @@ static void omitted_rows_have_no_multiplier_and_no_influence(void **state)
     baum_i_kkt *kkt = make_solver(&system, choices[k]);
     for (int i = 0; i < system.structure.nc; i += 4) {
       system.omitted[i] = 1;
-      system.r[i] = 1e30; /* nobody reads it */
+      system.r[i] = 1e30; /* is never read */
     }
     solve_and_compare(kkt, &system, 1e-10);
     for (int i = 0; i < system.structure.nc; i += 4) {

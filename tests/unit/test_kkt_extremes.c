@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems at their limits: units, sizes, bodies without mass, singular positions. */
+/* Saddle-point systems at their limits: units, sizes, bodies without mass, singular
+ * configurations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +19,8 @@
 
 /* ---- size and units ---- */
 
-/* Lengths in units of 1 / per_metre: rotations j % 3 == 2 keep their unit, all else is a length; so
- * are all rows. */
+/* Changes the unit of length to 1 / per_metre: rotations (j % 3 == 2) keep their unit, all other
+ * coordinates and all rows are lengths. */
 static void change_unit(saddle *system, double per_metre)
 {
   for (int b = 0; b < system->structure.mass_block_count; b++) {
@@ -53,7 +54,7 @@ static saddle make_pose(int loops, double angle)
   return system;
 }
 
-/* Solve at one configuration in two units; compare in metres. Returns the worse of the two
+/* Solves in metres and in another unit and compares in metres. Returns the worse of the two
  * qualities. */
 static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
 {
@@ -78,7 +79,7 @@ static baum_i_kkt_quality compare_units(double angle, double per_metre, double t
   for (int j = 0; j < 15; j++) {
     ASSERT_NEAR(a[1][j], a[0][j], 0.0, tolerance);
   }
-  /* Powers of two follow a unit to a factor of two in each d_j and e_i. */
+  /* Powers of two approximate a change of unit within a factor of two in each d_j and e_i. */
   assert_true(rcond[0] <= 64.0 * rcond[1] && rcond[1] <= 64.0 * rcond[0]);
   return worst;
 }
@@ -89,7 +90,7 @@ static void the_unit_of_length_does_not_matter(void **state)
   const double units[] = {1e3, 1e-3, 39.37, 1e9, 1e-9};
   for (int k = 0; k < 5; k++) {
     assert_int_equal(compare_units(1.0, units[k], 1e-14), BAUM_I_KKT_GOOD);
-    /* Rounding over the distance from the singular position. */
+    /* Rounding over the distance from the singular configuration. */
     assert_int_equal(compare_units(1e-4, units[k], 1e-10), BAUM_I_KKT_GOOD);
   }
 }
@@ -97,7 +98,7 @@ static void the_unit_of_length_does_not_matter(void **state)
 static void masses_of_very_different_size_are_all_accurate(void **state)
 {
   (void)state;
-  /* Every other body, from a picogram beside a megaton to the reverse and beyond. */
+  /* Every other body is between 1e-27 and 1e21 times as heavy as the others. */
   for (int exponent = -27; exponent <= 21; exponent += 3) {
     saddle system = make_pose(3, 1.0);
     double want[MOST_UNKNOWNS];
@@ -111,7 +112,7 @@ static void masses_of_very_different_size_are_all_accurate(void **state)
     assert_int_equal(solve(kkt, &system), BAUM_OK);
     saddle_solve(&system, want);
     for (int j = 0; j < system.structure.nv; j++) {
-      ASSERT_NEAR(system.a[j], want[j], 1e-11, 1e-11); /* all are of size 1 */
+      ASSERT_NEAR(system.a[j], want[j], 1e-11, 1e-11); /* accelerations are about 1 */
     }
     if (abs(exponent) <= 18) {
       assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
@@ -212,7 +213,7 @@ static void scales_spread_along_bodies_without_mass(void **state)
   saddle system = make_massless_row(6);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   solve_and_compare(kkt, &system, 1e-15);
-  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* the sum of f over the mass */
+  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* the sum of the forces over the mass */
   assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
   baum_i_kkt_destroy(kkt);
   saddle_free(&system);
@@ -222,7 +223,7 @@ static void a_free_body_without_mass_is_singular_under_load(void **state)
 {
   (void)state;
   saddle system = make_massless_row(3);
-  system.jacobian[5] = 0.0; /* lets the last one go */
+  system.jacobian[5] = 0.0; /* releases the last particle */
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor(kkt, &system), BAUM_OK);
   assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
@@ -234,7 +235,7 @@ static void a_free_body_without_mass_is_singular_under_load(void **state)
   saddle_free(&system);
 }
 
-static void no_mass_at_all_is_kinematics(void **state)
+static void a_system_without_mass_is_solved_by_its_rows(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 2);
@@ -251,7 +252,7 @@ static void no_mass_at_all_is_kinematics(void **state)
 
 /* ---- singular positions ---- */
 
-/* Half a degree a step; the singular configurations, which are flat, are skipped. */
+/* Solves in steps of half a degree, except in the flat configurations, which are singular. */
 static void turn_and_solve(int loops, double start)
 {
   saddle system = make_pose(loops, start);
@@ -277,7 +278,8 @@ static void turn_and_solve(int loops, double start)
 static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere(void **state)
 {
   (void)state;
-  /* Upright and at 45 degrees, where numbers are zero, or equal, but for rounding; and anywhere. */
+  /* Upright and at 45 degrees, where numbers are zero or equal except for rounding, and at 1
+   * rad. */
   const double starts[] = {PI / 2.0, PI / 4.0, 1.0};
   for (int k = 0; k < 3; k++) {
     turn_and_solve(1, starts[k]);
@@ -288,7 +290,7 @@ static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhe
 static void pivots_that_have_become_small_are_chosen_again(void **state)
 {
   (void)state;
-  /* A rotation; test_klu.c shows what kept pivots would give. */
+  /* A rotation matrix; test_klu.c shows the result with the old pivots. */
   saddle system = saddle_make_dense(2, 2);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_KLU);
   system.r[0] = 1.0;
@@ -318,7 +320,7 @@ static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **st
     assert_int_equal(solve(kkt, &system), BAUM_OK);
     saddle_solve(&system, want);
     for (int j = 0; j < system.structure.nv; j++) {
-      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* eps / distance times 5 */
+      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* about 5 eps / distance */
     }
     assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 0);
     baum_i_kkt_destroy(kkt);
@@ -365,7 +367,7 @@ static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
 
 /* ---- contradictions ---- */
 
-/* The first row three times, to a part of the last bits or not at all. */
+/* Three multiples of the same row whose right sides agree up to `error`. */
 static saddle make_repeated(double error)
 {
   saddle system = saddle_make_dense(4, 4);
@@ -375,7 +377,7 @@ static saddle make_repeated(double error)
     system.f[j] = saddle_random(&seed);
     double x = saddle_random(&seed);
     for (int i = 0; i < 3; i++) {
-      system.jacobian[4 * i + j] = (1.0 + i) * x; /* of another length */
+      system.jacobian[4 * i + j] = (1.0 + i) * x; /* of different length */
     }
     system.jacobian[12 + j] = saddle_random(&seed);
   }
@@ -406,8 +408,8 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* By either sign and up to sizes that hide all else; and what does not contradict is solved
- * again. */
+/* Contradictions of both signs, up to sizes that hide all else. The same matrix without
+ * contradiction is solved afterwards. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;
@@ -417,7 +419,8 @@ static void rows_that_contradict_each_other_are_singular(void **state)
       saddle system = make_repeated(errors[e]);
       baum_i_kkt *kkt = make_solver(&system, choices[k]);
       baum_status status = factor(kkt, &system);
-      /* KLU alone sees the rank, and that ends it; least squares see the rows. */
+      /* KLU finds the rank deficiency when it factors, and refuses; least squares find the
+       * contradiction when they solve. */
       assert_int_equal(status, choices[k] == BAUM_I_KKT_KLU ? BAUM_ERR_SINGULAR : BAUM_OK);
       system.a[0] = 123.0;
       assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
@@ -458,7 +461,7 @@ int main(void)
     cmocka_unit_test(a_body_without_mass_is_solved_where_joints_hold_it),
     cmocka_unit_test(scales_spread_along_bodies_without_mass),
     cmocka_unit_test(a_free_body_without_mass_is_singular_under_load),
-    cmocka_unit_test(no_mass_at_all_is_kinematics),
+    cmocka_unit_test(a_system_without_mass_is_solved_by_its_rows),
     cmocka_unit_test(a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere),
     cmocka_unit_test(pivots_that_have_become_small_are_chosen_again),
     cmocka_unit_test(accuracy_falls_only_as_fast_as_the_singular_position_nears),

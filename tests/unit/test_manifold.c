@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Positions that are no vector: the functions of the manifold, derivatives along it, and what
- * definitions may say.
- */
+/* Positions that are not a vector: the functions of a manifold, derivatives along it, and checks of
+ * definitions. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -21,7 +20,7 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* Of every element, the largest; with the multipliers of GGL. */
+/* The sizes of the mechanism with every element, the largest; with the multipliers of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
 /* ---- a scene at some state ---- */
@@ -43,7 +42,7 @@ static void open_stage(stage *s, baum_mechanism *mechanism)
     s->v[i] = 0.3 * baum_i_golden(i + 1);
     s->a[i] = baum_i_golden(i + 7);
   }
-  check(baum_workspace_move(s->w, s->v, s->q)); /* off the constraints */
+  check(baum_workspace_move(s->w, s->v, s->q)); /* moves off the constraints */
   for (int i = 0; i < s->mechanism->nv; i++) {
     s->v[i] = 2.0 * baum_i_golden(i + 20);
   }
@@ -65,7 +64,7 @@ static void for_each_scene(void (*test)(stage *s, const manifold_scene *scene))
   }
 }
 
-/* q moved by h x */
+/* Moves q by h x. */
 static void move_to(const stage *s, double h, const double *x, double *q)
 {
   memcpy(q, s->q, (size_t)s->mechanism->nq * sizeof *q);
@@ -80,7 +79,7 @@ static void set_axis(const stage *s, int j, double *x)
 
 /* ---- the functions ---- */
 
-/* Central differences with steps of 1e-4: 1e-8. */
+/* Central differences with steps of 1e-4 have errors of 1e-8. */
 static void check_functions(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -108,7 +107,7 @@ static void check_functions(stage *s, const manifold_scene *scene)
   }
 }
 
-/* q'' along v + h a, whose rates are taken at +-H. */
+/* q'' by a central difference of q' along v + h a. */
 static void check_second_rates(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -142,7 +141,7 @@ static void functions_agree_with_each_other(void **state)
   for_each_scene(check_second_rates);
 }
 
-static void columns_of_positions_and_velocities_part(void **state)
+static void columns_of_positions_and_velocities_may_differ(void **state)
 {
   (void)state;
   int32_t q = 0;
@@ -162,7 +161,7 @@ static void columns_of_positions_and_velocities_part(void **state)
 
 /* ---- assembly ---- */
 
-/* Least changes by displacements of velocity size: those of the twin. */
+/* Assembly makes the least changes in displacements of velocity size, like the twin. */
 static void assembly_moves_along_the_manifold(void **state)
 {
   (void)state;
@@ -186,7 +185,7 @@ static void assembly_moves_along_the_manifold(void **state)
   double want[SIZE];
   scene->translate(q[1], want);
   for (int i = 0; i < 12; i++) {
-    ASSERT_NEAR(q[0][i], want[i], 0.0, 1e-9); /* where Newton's last steps end */
+    ASSERT_NEAR(q[0][i], want[i], 0.0, 1e-9); /* tolerance of Newton's iteration */
   }
   for (int k = 0; k < 2; k++) {
     baum_workspace_destroy(w[k]);
@@ -203,7 +202,7 @@ static void jacobian_at(const stage *s, const double *q, double *out)
   check(baum_workspace_jacobian(s->w, 0.0, q, out));
 }
 
-/* (J x)_q and (J^T l)_q by differences of J: 1e-8, of which those of Phi have 1e-11 over 1e-4. */
+/* (J x)_q and (J^T l)_q by differences of J: 1e-8. Differences of Phi have 1e-11 over 1e-4. */
 static void check_second_derivatives(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -338,7 +337,7 @@ static void jacobians_of_residuals_are_by_positions(void **state)
 
 /* ---- definitions ---- */
 
-/* A good definition, that of an angle, to be spoilt. */
+/* A good definition, of an angle, in which tests replace a field. */
 static void with_angle(baum_coordinates_def *def)
 {
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
@@ -429,7 +428,7 @@ static void wrong_rate(const double *q, const double *v, double *dq, void *user)
   dq[1] = q[0] * v[0];
 }
 
-/* First order alone: the angle goes by h v + (h v)^2 / 2. */
+/* Accurate to first order only: the angle changes by h v + (h v)^2 / 2. */
 static void wrong_move(double h, const double *v, double *q, void *user)
 {
   (void)user;
@@ -441,10 +440,10 @@ static void wrong_move(double h, const double *v, double *q, void *user)
 static void wrong_difference(const double *from, const double *to, double *dx, void *user)
 {
   (void)user;
-  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* without a sign, and a chord */
+  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* a chord, without sign */
 }
 
-/* Of (c, s) and its opposite, the one with c > 0, which is another angle. */
+/* Returns (c, s) with c > 0, which may be the opposite angle. */
 static void wrong_normalize(double *q, void *user)
 {
   (void)user;
@@ -501,7 +500,7 @@ static void states_off_the_manifold_are_refused(void **state)
   const double near[2] = {0.0, 1.0 + 1e-9};
   const double v[1] = {0.5};
   assert_int_equal(baum_simulation_set_state(run, 0.0, far, v), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "q[1] is 1.1, but 1 when q is normalized"));
+  assert_non_null(strstr(baum_message(), "q[1] is 1.1, but 1 after normalizing q"));
   check(baum_simulation_set_state(run, 0.0, near, v));
   assert_true(baum_simulation_q(run)[1] == 1.0);
   baum_simulation_destroy(run);
@@ -512,7 +511,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(functions_agree_with_each_other),
-    cmocka_unit_test(columns_of_positions_and_velocities_part),
+    cmocka_unit_test(columns_of_positions_and_velocities_may_differ),
     cmocka_unit_test(assembly_moves_along_the_manifold),
     cmocka_unit_test(second_derivatives_are_along_the_manifold),
     cmocka_unit_test(jacobians_of_residuals_are_by_positions),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods against the matrix of their own steps. */
+/* Adams-Bashforth methods compared with the matrix of their steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -13,14 +13,14 @@
 
 enum { POINTS = 400, MOST = 8, SQUARINGS = 40 };
 
-/* Square matrix of the vector (x, v, x', v' one step ago, ...). */
+/* A square matrix that maps (x, v, x', v' one step ago, ...). */
 typedef struct matrix {
   int n;
   double a[MOST][MOST];
 } matrix;
 
-/* One step of the method on x'' = -2 A x' - B x with h = 1, written out for both coordinates; the
- * past holds rates: y = (x, v, f(n-1), f(n-2), ...). */
+/* One step of the method on x'' = -2 A x' - B x with h = 1, for y = (x, v, f(n-1), f(n-2), ...)
+ * with past rates f. */
 static matrix step_matrix(const baum_i_method *method, double A, double B)
 {
   const double rate[2][2] = {{0.0, 1.0}, {-B, -2.0 * A}};
@@ -44,7 +44,8 @@ static matrix step_matrix(const baum_i_method *method, double A, double B)
   return m;
 }
 
-/* m := m^2 / 2^exponent, largest element about 1. @return the logarithm of what was divided by */
+/* m := m^2 / 2^exponent, so that the largest element is about 1. Returns the logarithm of the
+ * divisor. */
 static double square(matrix *m)
 {
   matrix out = {.n = m->n};
@@ -65,7 +66,7 @@ static double square(matrix *m)
   return log(most);
 }
 
-/* Gelfand's formula: |M^N|^(1/N), N = 2^40. */
+/* Gelfand's formula: |M^N|^(1/N) with N = 2^40. */
 static double matrix_radius(matrix m)
 {
   double sum = 0.0;
@@ -77,7 +78,7 @@ static double matrix_radius(matrix m)
   return exp(sum);
 }
 
-/* Around the region, and with everything scaled, far from it. */
+/* A random point near the region, or scaled, far from it. */
 static void random_point(uint64_t *seed, int method, double point[2])
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -95,7 +96,7 @@ static void radius_is_that_of_the_matrix_of_a_step(void **state)
       double p[2];
       random_point(&seed, m, p);
       double want = matrix_radius(step_matrix(&methods[m], p[0], p[1]));
-      /* Rounding of 40 squarings, each halved once more than the one before; sharp for simple
+      /* Rounding of 40 squarings, each with half the weight of the one before; accurate for simple
        * roots. */
       ASSERT_NEAR(amplification_at(m, p[0], p[1]).spectral_radius, want, 1e-9, 0.0);
     }
@@ -116,17 +117,18 @@ static void within_agrees_with_the_radius(void **state)
       bool want = growth <= level;
       within += want;
       assert_int_equal(baum_i_amplification_within(&methods[m], p[0], p[1], level), want);
-      /* The test of two roots that are near each other and on the circle is that much off, of the
-       * radius. */
+      /* For two roots that are near each other and on the circle, the test has this error, relative
+       * to the radius. */
       double off = 1e-5 * (1.0 + growth);
       assert_true(baum_i_amplification_within(&methods[m], p[0], p[1], growth + off));
       assert_false(baum_i_amplification_within(&methods[m], p[0], p[1], growth - off));
     }
   }
-  assert_true(within > POINTS); /* of ten times as many */
+  assert_true(within > POINTS); /* ten times as many points are tested */
 }
 
-/* z^k - z^(k-1) - mu sum b_j z^(k-1-j), mu one of the two. @return the smaller |p| */
+/* p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j), where mu is one of two values. Returns the smaller
+ * |p|. */
 static double residual(int method, double A, double B, const double z[2])
 {
   double least = HUGE_VAL;
@@ -166,7 +168,8 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
   }
 }
 
-/* exp(mu) = 1 + mu + ...: the violation loses A in a step, and the digits of that are kept. */
+/* exp(mu) = 1 + mu + ...: a violation decreases by the fraction A per step, with full relative
+ * accuracy. */
 static void small_gains_keep_their_digits(void **state)
 {
   (void)state;
@@ -181,7 +184,7 @@ static void small_gains_keep_their_digits(void **state)
   }
 }
 
-/* z = -1 at the end of the real interval: mu = 2 (-1)^k / sum b_j (-1)^(k-1-j). */
+/* z = -1 at the end of the real interval, where mu = 2 (-1)^k / sum b_j (-1)^(k-1-j). */
 static void limits_of_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P x = M^-1 J^T (J M^-1 J^T)^-1 J x by the factors of the last solution: J P x = J x, and P x
- * stands upright, in the metric of M, on every y with J y = 0. These two say all of P. With J x
- * given in the place of x it is the same vector.
- */
+/* P x = M^-1 J^T (J M^-1 J^T)^-1 J x by the factors of the last solution. Two properties define P:
+ * J P x = J x, and P x is M-orthogonal to every y with J y = 0. If J x is given instead of x, the
+ * result is the same. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -64,8 +63,7 @@ static void check_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
     bool omitted = w->rows.count > 0 && w->rows.omitted[i];
-    /* Rounding of a solution that is not refined, for configurations with a condition number
-     * below 1e4. */
+    /* Rounding of an unrefined solution with a condition number below 1e4. */
     ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
 }
@@ -82,7 +80,7 @@ static void check_upright(baum_workspace *w, vectors *d)
   ASSERT_NEAR(dot(n, d->other, d->out), 0.0, 0.0, 1e-9 * size);
 }
 
-/* P x once more, by J x. */
+/* Computes P x from J x and compares. */
 static void check_by_rows(baum_workspace *w, vectors *d)
 {
   double *rows = d->other;
@@ -90,12 +88,12 @@ static void check_by_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, d->x, rows);
   assert_int_equal(baum_i_least_with_rows(w, rows, d->out), BAUM_OK);
   for (int i = 0; i < w->mechanism->nv; i++) {
-    /* Rounding of two solutions, as above. */
+    /* Rounding of two solutions, see above. */
     ASSERT_NEAR(d->out[i], d->normal[i], 0.0, 1e-9 * (1.0 + largest(w->mechanism->nv, d->normal)));
   }
 }
 
-/* False where the configuration is singular. */
+/* Returns false if the configuration is singular. */
 static bool check_mechanism(baum_workspace *w, chance *c)
 {
   const baum_mechanism *m = w->mechanism;
@@ -146,20 +144,20 @@ static const random_kind KIND = {.bodies = 8,
                                  .span = 10.0,
                                  .loads = 3};
 
-static void the_part_is_right_by_blocks(void **state)
+static void the_block_solver_gives_the_normal_part(void **state)
 {
   (void)state;
   assert_true(check_by(BAUM_I_KKT_AUTO, true, &KIND) > MECHANISMS / 2);
 }
 
-static void the_part_is_right_by_the_whole_matrix(void **state)
+static void the_solvers_of_the_whole_system_give_the_normal_part(void **state)
 {
   (void)state;
   assert_true(check_by(BAUM_I_KKT_KLU, false, &KIND) > MECHANISMS / 2);
   assert_true(check_by(BAUM_I_KKT_QR, false, &KIND) > MECHANISMS / 2);
 }
 
-static void without_rows_there_is_none(void **state)
+static void without_rows_the_normal_part_is_zero(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = NULL;
@@ -185,9 +183,9 @@ static void without_rows_there_is_none(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_part_is_right_by_blocks),
-    cmocka_unit_test(the_part_is_right_by_the_whole_matrix),
-    cmocka_unit_test(without_rows_there_is_none),
+    cmocka_unit_test(the_block_solver_gives_the_normal_part),
+    cmocka_unit_test(the_solvers_of_the_whole_system_give_the_normal_part),
+    cmocka_unit_test(without_rows_the_normal_part_is_zero),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

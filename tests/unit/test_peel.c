@@ -11,7 +11,7 @@
 
 enum { MOST_JOINTS = 8, BODIES = 6, PIN_SIZE = 12 };
 
-/* Bodies of three velocities, joined by pins of two rows and motors of one. */
+/* Bodies with three velocities, connected by pins of two rows and motors of one row. */
 typedef struct graph {
   baum_i_row_block blocks[MOST_JOINTS];
   int columns[MOST_JOINTS][6];
@@ -44,7 +44,7 @@ static double *add(graph *d, int rows, const int bodies[2])
   return d->jacobian + block->value;
 }
 
-/* A pin at an arm (x, y) from each of two bodies, or from one body and the ground, -1. */
+/* Adds a pin at an arm (x, y) from each of two bodies, or from one body to ground (-1). */
 static void pin(graph *d, int body_a, int body_b, double x, double y)
 {
   double *value = add(d, 2, (const int[2]){body_a, body_b});
@@ -67,7 +67,7 @@ static void motor(graph *d, int body_a, int body_b)
   value[5] = body_a >= 0 && body_b >= 0 ? -1.0 : 0.0;
 }
 
-/* How many rows are left. */
+/* Returns how many rows are not peeled off. */
 static int peel(const graph *d, unsigned char peeled[2 * MOST_JOINTS])
 {
   int left = d->structure.nc;
@@ -79,7 +79,7 @@ static int peel(const graph *d, unsigned char peeled[2 * MOST_JOINTS])
   return left;
 }
 
-static void of_an_open_chain_with_motors_nothing_is_left(void **state)
+static void an_open_chain_with_motors_is_peeled_off_completely(void **state)
 {
   (void)state;
   graph d;
@@ -94,23 +94,23 @@ static void of_an_open_chain_with_motors_nothing_is_left(void **state)
   assert_int_equal(peel(&d, peeled), 0);
 }
 
-static void loops_are_left_and_what_hangs_on_them_is_not(void **state)
+static void loops_are_kept_and_open_chains_on_them_are_peeled_off(void **state)
 {
   (void)state;
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
-  pin(&d, 2, 3, 0.6, 0.1); /* rows 0, 1: hang on the loop */
+  pin(&d, 2, 3, 0.6, 0.1); /* rows 0, 1: outside the loop */
   pin(&d, -1, 0, 0.5, 0.2);
   pin(&d, 0, 1, 0.3, -0.4);
   pin(&d, 1, 2, 0.1, 0.7);
   pin(&d, 2, -1, 0.4, 0.3);
-  pin(&d, 3, 4, 0.6, 0.6); /* rows 10, 11: hang on what hangs */
+  pin(&d, 3, 4, 0.6, 0.6); /* rows 10, 11: at a body outside the loop */
   assert_int_equal(peel(&d, peeled), 8);
   assert_true(peeled[0] && !peeled[2] && !peeled[9] && peeled[11]);
 }
 
-static void a_joint_added_twice_is_left_and_so_is_what_it_hangs_on(void **state)
+static void a_joint_added_twice_is_kept_with_the_chain_that_carries_it(void **state)
 {
   (void)state;
   graph d;
@@ -122,7 +122,7 @@ static void a_joint_added_twice_is_left_and_so_is_what_it_hangs_on(void **state)
   assert_int_equal(peel(&d, peeled), 6);
 }
 
-static void rows_that_are_not_clearly_independent_are_left(void **state)
+static void rows_that_are_not_clearly_independent_are_kept(void **state)
 {
   (void)state;
   graph d;
@@ -135,7 +135,7 @@ static void rows_that_are_not_clearly_independent_are_left(void **state)
     value[4] = offsets[k];
     assert_int_equal(peel(&d, peeled), k == 0 ? 0 : 2);
   }
-  /* A row of zeros; one whose squares overflow. */
+  /* A row of zeros, and one whose squares overflow. */
   for (int k = 0; k < 2; k++) {
     begin(&d);
     double *value = add(&d, 1, (const int[2]){-1, 0});
@@ -156,7 +156,7 @@ static void rows_and_columns_may_have_any_size(void **state)
     d.jacobian[k] *= 1e-30;
   }
   for (int j = 0; j < 6; j++) {
-    d.column_scale[j] = pow(10.0, 10.0 + j / 3); /* equal within a body */
+    d.column_scale[j] = pow(10.0, 10.0 + j / 3); /* equal for all columns of a body */
   }
   assert_int_equal(peel(&d, peeled), 0);
 }
@@ -164,10 +164,10 @@ static void rows_and_columns_may_have_any_size(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(of_an_open_chain_with_motors_nothing_is_left),
-    cmocka_unit_test(loops_are_left_and_what_hangs_on_them_is_not),
-    cmocka_unit_test(a_joint_added_twice_is_left_and_so_is_what_it_hangs_on),
-    cmocka_unit_test(rows_that_are_not_clearly_independent_are_left),
+    cmocka_unit_test(an_open_chain_with_motors_is_peeled_off_completely),
+    cmocka_unit_test(loops_are_kept_and_open_chains_on_them_are_peeled_off),
+    cmocka_unit_test(a_joint_added_twice_is_kept_with_the_chain_that_carries_it),
+    cmocka_unit_test(rows_that_are_not_clearly_independent_are_kept),
     cmocka_unit_test(rows_and_columns_may_have_any_size),
   };
   return cmocka_run_group_tests_name("peel", tests, NULL, NULL);

@@ -17,7 +17,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* Whatever the order of a pair, its body has the slot; of two particles one goes in link's. */
+/* If one body of the pair is a particle, the other has the slot; with two particles the link has
+ * it. */
 static void add_slot(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
@@ -49,7 +50,7 @@ static double coordinate_of(const test_point *p)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
   baum_i_coordinate c;
-  joint->type->coordinate(joint, &p->point, &c);
+  joint->type->coordinate(joint, 0, &p->point, &c);
   return c.value;
 }
 
@@ -78,7 +79,7 @@ static void the_pin_moves_along_the_axis_and_rotates(void **state)
   baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
   def.body_a = scene.link;
   def.body_b = scene.crank;
-  def.point[0] = -0.3; /* crank's centre, so that turning does not move it */
+  def.point[0] = -0.3; /* crank's centre, which rotation does not move */
   def.point[1] = 1.2;
   def.axis[0] = 3.0;
   def.axis[1] = 4.0;
@@ -92,7 +93,7 @@ static void the_pin_moves_along_the_axis_and_rotates(void **state)
   crank[2] += 2.0;
   test_point_update(&p);
   assert_int_equal(baum_i_mechanism_phi(&p.point, &phi), BAUM_OK);
-  /* Rounding at 7. */
+  /* Rounding of lengths of 7. */
   ASSERT_NEAR(phi, 1.0, 0.0, 1e-14);
   ASSERT_NEAR(coordinate_of(&p), 5.0, 0.0, 1e-14);
   test_point_close(&p);
@@ -130,7 +131,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_pin_in_slot_def, point_a[1]), TEST_NAN,
      "joint 1 \"S\": point_a[1] is nan m, must be finite"},
     {offsetof(baum_planar_pin_in_slot_def, axis[0]), TEST_NAN,
-     "joint 1 \"S\": axis[0] is nan [-], must be finite"},
+     "joint 1 \"S\": axis[0] is nan, must be finite"},
     {offsetof(baum_planar_pin_in_slot_def, axis[0]), 0.0,
      "joint 1 \"S\": axis is (0, 0), must have a direction"},
     {offsetof(baum_planar_pin_in_slot_def, point_b[0]), 0.5,

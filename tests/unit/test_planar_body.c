@@ -54,7 +54,7 @@ static void mass_gravity_and_potential_are_those_of_a_rigid_body(void **state)
   test_point_close(&p);
 }
 
-static void a_second_one_has_its_own_numbers(void **state)
+static void a_second_body_has_its_own_numbers(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -164,7 +164,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_rigid_body),
-    cmocka_unit_test(a_second_one_has_its_own_numbers),
+    cmocka_unit_test(a_second_body_has_its_own_numbers),
     cmocka_unit_test(the_design_is_the_start),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -28,7 +28,7 @@ static baum_planar_load_def good(const planar_scene *scene)
   return def;
 }
 
-/* A load with 20 random states. */
+/* Checks a load at 20 random states. */
 static void check_at_random(const planar_scene *scene, const baum_planar_load_def *def,
                             bool conservative)
 {
@@ -98,8 +98,8 @@ static void derivatives_with_an_input_agree_with_differences(void **state)
   }
 }
 
-/* Force of one load on the crank turned by a quarter, and the potential. With an input of that
- * value unless it is NaN. */
+/* Force and potential of one load on the crank, which is turned by 90 degrees. With an input of the
+ * given value unless it is NaN. */
 static void evaluate_with(const baum_planar_load_def *given, double input, double force[3],
                           double *potential)
 {
@@ -142,7 +142,7 @@ static void a_load_keeps_its_direction_or_follows_its_body(void **state)
   def.force[1] = 5.0;
   double force[3];
   double potential;
-  /* The point (1, 2) is at (10 - 2, 20 + 1) after a quarter revolution. Rounding of cos. */
+  /* After a quarter revolution the point (1, 2) is at (10 - 2, 20 + 1). Rounding of cos. */
   evaluate(&def, force, &potential);
   ASSERT_NEAR(force[0], 3.0, 1e-14, 0.0);
   ASSERT_NEAR(force[1], 5.0, 1e-14, 0.0);
@@ -265,7 +265,7 @@ static void definitions_come_back(void **state)
   second.torque = 9.0;
   second.follows_body = true;
   assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", 1.0, &second.input), BAUM_OK);
-  /* Up to the padding before the input, which comes by itself. */
+  /* Compares up to the padding before `input`, which is compared below. */
   CHECK_ROUND_TRIP(force, planar_load, follows_body, scene.mechanism, &first, &second);
   baum_force_id load;
   baum_planar_load_def got;

@@ -46,8 +46,8 @@ static baum_planar_spring_def good(const planar_scene *scene)
   return def;
 }
 
-/* A spring is all but straight only away from zero length: for the differences, states with
- * points closer than this are skipped, because there fifth derivatives go like its fourth power. */
+/* Length of a spring. Differences are compared only for springs that are long enough, because the
+ * fifth derivatives grow with the inverse fourth power of the length. */
 static double length_of(const test_point *p, const baum_i_force *spring)
 {
   double at[2][2];
@@ -82,7 +82,7 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_with_law, true, check_force_when_long);
 }
 
-/* A spring "S" with a law from ball to bead, 3 by 4 apart, the bead moving along x. */
+/* A spring "S" with a law from ball to bead, which are 3 by 4 apart; the bead moves along x. */
 static void open_law(test_point *p, spring_law *user)
 {
   planar_scene scene = planar_scene_make();
@@ -156,7 +156,7 @@ static void wrong_derivatives_are_found(void **state)
   }
 }
 
-static void it_pulls_both_ends_together_and_damps_along_its_line(void **state)
+static void a_spring_pulls_both_ends_together_and_damps_along_its_line(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -186,7 +186,7 @@ static void it_pulls_both_ends_together_and_damps_along_its_line(void **state)
   test_point_close(&p);
 }
 
-static void without_length_it_has_no_force(void **state)
+static void a_spring_without_length_has_no_force(void **state)
 {
   (void)state;
   const double lengths[] = {0.0, 5e-324, 1e-310};
@@ -238,7 +238,7 @@ static void the_free_length_follows_from_the_design_unless_given(void **state)
   double force[TEST_SIZE_MAX];
   assert_int_equal(baum_i_mechanism_force(&p.point, force), BAUM_OK);
   for (int i = 0; i < p.nv; i++) {
-    ASSERT_NEAR(force[i], 0.0, 0.0, 1e-13); /* stiffness 100 times rounding of the length */
+    ASSERT_NEAR(force[i], 0.0, 0.0, 1e-13); /* stiffness 100 times the rounding of the length */
   }
   test_point_close(&p);
 }
@@ -296,11 +296,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
-    cmocka_unit_test(it_pulls_both_ends_together_and_damps_along_its_line),
+    cmocka_unit_test(a_spring_pulls_both_ends_together_and_damps_along_its_line),
     cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),
-    cmocka_unit_test(without_length_it_has_no_force),
+    cmocka_unit_test(a_spring_without_length_has_no_force),
     cmocka_unit_test(the_free_length_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -43,7 +43,8 @@ static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
 }
 
-/* One between crank (a) and link (b) at given angles and rates, without gravity. */
+/* A spring between crank (a) and link (b) at given angles and angular velocities, without
+ * gravity. */
 static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const double angles[2],
                     const double rates[2])
 {
@@ -63,7 +64,7 @@ static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const 
   test_point_update(p);
 }
 
-/* Torque on the link, and the opposite on the crank; nothing else. */
+/* Checks the torque on the link and the opposite one on the crank; all other forces are zero. */
 static void check_torque(test_point *p, double want)
 {
   double force[TEST_SIZE_MAX];
@@ -90,7 +91,7 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_with_law, false, check_force_derivatives);
 }
 
-static void it_turns_the_bodies_back_and_damps(void **state)
+static void a_torsion_spring_rotates_the_bodies_back_and_damps(void **state)
 {
   (void)state;
   test_point p;
@@ -215,7 +216,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
-    cmocka_unit_test(it_turns_the_bodies_back_and_damps),
+    cmocka_unit_test(a_torsion_spring_rotates_the_bodies_back_and_damps),
     cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),

@@ -57,7 +57,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_rack, false, check_rows_balance);
 }
 
-/* A wheel on the floor: its rack is below, on the right of the axis (1, 0). */
+/* A wheel on the floor: its rack is below, to the right of the axis (1, 0). */
 static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **state)
 {
   (void)state;
@@ -74,11 +74,11 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   test_point_open(&p, scene.mechanism);
   int crank = p.mechanism->bodies[scene.crank.index1]->q;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* Where it touches, at (0, -radius) from its centre, it is at rest: v = -w k x arm. */
+  /* At the contact point, (0, -radius) from its centre, the wheel is at rest: v = -w k x arm. */
   p.q[crank] -= radius * 3.0;
   p.q[crank + 2] += 3.0;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* Turns are counted. */
+  /* Revolutions are counted. */
   p.q[crank + 2] += 400.0;
   ASSERT_NEAR(phi_of(&p), radius * 400.0, 1e-15, 0.0);
   test_point_close(&p);
@@ -110,7 +110,7 @@ static void wrong_fields_are_refused(void **state)
   baum_planar_rack_and_pinion_def def = good(&scene);
   const bad_number numbers[] = {
     {offsetof(baum_planar_rack_and_pinion_def, axis[1]), TEST_INFINITY,
-     "joint 1 \"P\": axis[1] is inf [-], must be finite"},
+     "joint 1 \"P\": axis[1] is inf, must be finite"},
     {offsetof(baum_planar_rack_and_pinion_def, radius), TEST_NAN,
      "joint 1 \"P\": radius is nan m, must be finite and not 0"},
     {offsetof(baum_planar_rack_and_pinion_def, radius), 0.0,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE: what it conserves, what it refuses, and how its equations are solved. */
+/* RATTLE: conserved quantities, refusals, and the solution of its equations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,7 +50,7 @@ static model make_crank(model_slider_crank with)
   return m;
 }
 
-/* ---- what is kept ---- */
+/* ---- conserved quantities ---- */
 
 static void check_rows(const model *m, double step, double speed)
 {
@@ -58,7 +58,7 @@ static void check_rows(const model *m, double step, double speed)
   baum_simulation *run = start(m, &options);
   check(baum_simulation_step(run, 5000));
   baum_counters c = counters_of(run);
-  /* Some roundings of coordinates and velocities, which are below 1 m and `speed`. */
+  /* A few rounding errors of coordinates below 1 m, and of velocities below `speed`. */
   assert_true(c.max_phi <= 1e-15);
   assert_true(c.max_phi_rate <= 4e-15 * speed);
   assert_true(c.nonlinear_iterations >= 5000);
@@ -100,8 +100,8 @@ static band energy_band(baum_simulation *run, int steps, double unit)
   return b;
 }
 
-/* Over 1e5 steps the band is that of the first 5000 within 1 % of its width, where semi-implicit
- * Euler has left it by far. */
+/* Over 1e5 steps the energy stays within the band of the first 5000, plus 1 % of its width;
+ * semi-implicit Euler leaves this band by far. */
 static void check_band(const model *m, double step, double unit)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
@@ -136,8 +136,8 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* Symmetric: as many steps back lead to the start, except for the rounding of 500 steps,
- * amplified as nearby motions part. */
+/* The method is symmetric: the same number of steps back leads to the start, except for the
+ * rounding of 500 steps, amplified by the growth of perturbations. */
 static void going_back_leads_to_the_start(void **state)
 {
   (void)state;
@@ -158,7 +158,7 @@ static void going_back_leads_to_the_start(void **state)
   model_destroy(&m);
 }
 
-/* Angle and its rate of the pendulum after `steps` from another angle and rate. */
+/* Computes angle and angular velocity of the pendulum after `steps` steps. */
 static void map_angle(baum_simulation *run, int steps, const double from[2], double to[2])
 {
   const double q[2] = {cos(from[0]), sin(from[0])};
@@ -171,10 +171,10 @@ static void map_angle(baum_simulation *run, int steps, const double from[2], dou
   to[1] = x[0] * u[1] - x[1] * u[0];
 }
 
-/* Determinant of the derivative of that map, by differences: areas grow by so much. */
+/* Returns the determinant of this map's derivative, by differences: the factor on areas. */
 static double area_factor(const baum_integrator *integrator)
 {
-  const double d = 1e-4; /* truncation d^2 times third derivatives, some 1e-7 */
+  const double d = 1e-4; /* truncation: d^2 times third derivatives, about 1e-7 */
   model m = make_pendulum();
   baum_simulation_options options = options_with(integrator, 0.1);
   baum_simulation *run = start(&m, &options);
@@ -203,7 +203,7 @@ static void areas_in_phase_space_are_kept(void **state)
   assert_true(fabs(area_factor(baum_rk2()) - 1.0) > 1e-3);
 }
 
-/* ---- ways to solve ---- */
+/* ---- solvers ---- */
 
 static void end_of(const model *m, const baum_simulation_options *options, double t, double *q)
 {
@@ -214,7 +214,7 @@ static void end_of(const model *m, const baum_simulation_options *options, doubl
   baum_simulation_destroy(run);
 }
 
-/* They differ by rounding only, of 300 steps. */
+/* The motions differ by the rounding of 300 steps only. */
 static void all_solvers_give_the_same_motion(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU, BAUM_SOLVER_QR};
@@ -234,7 +234,7 @@ static void all_solvers_give_the_same_motion(void **state)
   model_destroy(&m);
 }
 
-/* Rows that depend on others, and bodies that cannot move, do not alter the motion. */
+/* Redundant rows and fixed bodies do not change the motion. */
 static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
   (void)state;
@@ -257,7 +257,8 @@ static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   model_destroy(&framed);
 }
 
-/* 10 m/s along the tangent for half a second: no force along the rod leads back to the circle. */
+/* A step of 0.5 s at 10 m/s goes so far along the tangent that no force along the rod leads back to
+ * the circle. */
 static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Permanent redundancy: found, named, harmless. Contradictions: found, named, refused. */
+/* Redundant rows are found, named and harmless. Contradicting rows are found, named and refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,7 +43,7 @@ static baum_joint_id add_pin(baum_mechanism *m, const char *name, baum_body_id a
   return id;
 }
 
-/* Physical pendulum; its pin a number of times. */
+/* A physical pendulum with one, two or three equal pins. */
 static baum_mechanism *pendulum_with_pins(int pins)
 {
   static const char *const names[3] = {"pin", "pin again", "pin once more"};
@@ -57,7 +57,7 @@ static baum_mechanism *pendulum_with_pins(int pins)
   return m;
 }
 
-/* Cranks of length 1 at x = 0, 1, 2, ... leaning by angle, joined by one coupler. */
+/* Cranks of length 1 at x = 0, 1, 2, ... with a common angle, joined by one coupler. */
 static baum_mechanism *parallelogram(int cranks, double angle)
 {
   static const char *const names[3] = {"first", "second", "third"};
@@ -77,7 +77,7 @@ static baum_mechanism *parallelogram(int cranks, double angle)
   return m;
 }
 
-/* Accelerations and multipliers at the design configuration with velocities v (nv). */
+/* Accelerations and multipliers in the design configuration with velocities v (nv). */
 static void solve(const baum_mechanism *m, const double *v, double *a, double *lambda)
 {
   baum_workspace *w = NULL;
@@ -105,7 +105,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* of all ways to share the force, half and half is the least */
+  for (int i = 0; i < 2; i++) { /* the least norm: half of the force each */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
@@ -134,7 +134,7 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* One degree of freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J =
+  /* With one degree of freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J =
    * 0.3, length 1. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
@@ -152,7 +152,7 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
-/* Level links of length 1 from the origin on, each pin a number of times. */
+/* Horizontal links of length 1 from the origin on, each with several equal pins. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
   baum_mechanism *m = NULL;
@@ -187,10 +187,10 @@ static void many_duplicated_joints_share_their_forces(void **state)
   }
   solve(once, v, want, force);
   solve(twice, v, got, shared);
-  for (int i = 0; i < 3 * LINKS; i++) { /* of at most 4 * 200 m/s^2 */
+  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations up to 4 * 200 m/s^2 */
     ASSERT_NEAR(got[i], want[i], 0.0, 1e-9);
   }
-  for (int k = 0; k < LINKS; k++) { /* of at most 2 kg of 200 times 4 * 100 m/s^2 */
+  for (int k = 0; k < LINKS; k++) { /* forces up to 2 kg * 200 * 4 * 100 m/s^2 */
     for (int i = 0; i < 2; i++) {
       ASSERT_NEAR(shared[4 * k + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
       ASSERT_NEAR(shared[4 * k + 2 + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
@@ -227,7 +227,7 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* 1e-6 of 10 N */
+/* relative to 10 N */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -376,11 +376,11 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   }
   ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* first order, h = 1e-5, rate 5 1/s */
   ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* rtol 1e-9 */
-  ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6); /* rtol 1e-9, IDA's error above its tolerance */
+  ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6); /* rtol 1e-9; IDA's error exceeds its tolerance */
   baum_mechanism_destroy(m);
 }
 
-/* A pin driven twice: by rate * t, and by rate * t + acceleration * t^2 / 2. */
+/* A pin with two drivers: rate * t, and rate * t + acceleration * t^2 / 2. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -412,12 +412,36 @@ static int64_t warnings_after(const baum_mechanism *m, double t)
   return c.warnings;
 }
 
-static void drivers_that_part_later_are_warned_of(void **state)
+/* At t = 0 both drivers agree in position and velocity, but not in acceleration. */
+static void a_workspace_refuses_accelerations_that_miss_an_omitted_row(void **state)
+{
+  (void)state;
+  const double q[3] = {1.0, 0.0, 0.0};
+  const double v[3] = {0.0, 2.0, 2.0};
+  const double gains[2] = {0.0, 10.0};
+  for (int k = 0; k < 4; k++) {
+    baum_workspace *w = NULL;
+    baum_mechanism *m = driven_twice(k < 2 ? 1.0 : 0.0);
+    assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+    baum_status status =
+      baum_workspace_acceleration(w, 0.0, q, v, gains[k % 2], gains[k % 2], NULL, NULL);
+    if (k < 2) {
+      ASSERT_SAYS(status, BAUM_ERR_INCONSISTENT,
+                  "t = 0 s: no acceleration satisfies all constraints|\"other motor\"");
+    } else {
+      assert_int_equal(status, BAUM_OK);
+    }
+    baum_workspace_destroy(w);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static void drivers_that_contradict_each_other_later_are_warned_of(void **state)
 {
   (void)state;
   baum_mechanism *same = driven_twice(0.0);
   baum_mechanism *parting = driven_twice(1.0);
-  assert_int_equal(warnings_after(same, 1.0), 1); /* redundant, and nothing else */
+  assert_int_equal(warnings_after(same, 1.0), 1); /* only the warning of redundant rows */
   assert_true(warnings_after(parting, 1.0) >= 2); /* and violated */
   baum_mechanism_destroy(same);
   baum_mechanism_destroy(parting);
@@ -440,28 +464,29 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
   assert_int_equal(baum_workspace_project(w, 0.0, q, v), BAUM_OK);
   assert_int_equal(baum_workspace_phi(w, 0.0, q, phi), BAUM_OK);
   for (int i = 0; i < 12; i++) {
-    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-14); /* omitted rows, too */
+    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-14); /* including omitted rows */
   }
   baum_workspace_destroy(w);
   baum_mechanism_destroy(m);
 }
 
-/* Motors at 2 t and 2 t + t^2 / 2 part by t^2 / 2 in place and by t in rate. */
+/* Motors at 2 t and 2 t + t^2 / 2 differ by t^2 / 2 in angle and by t in velocity. */
 static void projection_names_redundant_rows_that_the_others_do_not_meet(void **state)
 {
   (void)state;
   static const struct {
     double acceleration;
     double t;
-    const char *message; /* NULL: it is projected */
+    const char *message; /* NULL: projection succeeds */
   } cases[] = {
     {0.0, 0.3, NULL},
     {1.0, 0.0, NULL},
     {1.0, 0.3,
-     "t = 0.3 s: projection: a redundant row of joint |motor\" was omitted, but is violated by |"
-     "contradict"},
+     "t = 0.3 s: projection: a redundant row of joint |motor\" was omitted, but is violated by "
+     "|contradict"},
     {1.0, 1e-4,
-     "t = 0.0001 s: projection: a redundant row of joint |5e-09, and its rate by |0.0001"},
+     "t = 0.0001 s: projection: a redundant row of joint |5e-09, and its time derivative by "
+     "|0.0001"},
   };
   for (int k = 0; k < 4; k++) {
     baum_mechanism *m = driven_twice(cases[k].acceleration);
@@ -496,7 +521,7 @@ static void a_run_that_blows_up_is_warned_of(void **state)
   baum_warning warning;
   o.integrator = baum_euler();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  o.step = 0.1; /* far too large */
+  o.step = 0.1; /* much too long */
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(s, 3.0), BAUM_WARNED);
   assert_int_equal(baum_simulation_warning(s, 0, &warning, sizeof warning), BAUM_OK);
@@ -522,7 +547,8 @@ int main(void)
     cmocka_unit_test(a_body_without_a_joint_is_named),
     cmocka_unit_test(two_contradicting_rods_are_named_and_refused),
     cmocka_unit_test(a_redundant_mechanism_runs_with_a_warning_that_names_its_joints),
-    cmocka_unit_test(drivers_that_part_later_are_warned_of),
+    cmocka_unit_test(a_workspace_refuses_accelerations_that_miss_an_omitted_row),
+    cmocka_unit_test(drivers_that_contradict_each_other_later_are_warned_of),
     cmocka_unit_test(a_workspace_projects_a_redundant_mechanism),
     cmocka_unit_test(projection_names_redundant_rows_that_the_others_do_not_meet),
     cmocka_unit_test(a_run_that_blows_up_is_warned_of),

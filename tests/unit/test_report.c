@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is said of the cost of mechanisms whose cost can be counted by hand. */
+/* Reports on mechanisms whose cost can be counted by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static baum_report report_of(const baum_mechanism *m)
   return report;
 }
 
-/* Freezes, reports and gives up. */
+/* Freezes the mechanism, reports and destroys it. */
 static baum_report report_once(baum_mechanism *m)
 {
   must(baum_mechanism_freeze(m));
@@ -115,18 +115,18 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.rows, 11);
   assert_int_equal(r.degrees_of_freedom, 0);
   assert_int_equal(r.redundant_rows, 2);
-  assert_int_equal(r.constant_rows, 10); /* all but the motor's */
+  assert_int_equal(r.constant_rows, 10); /* all except the motor's */
   assert_int_equal(r.islands, 1);
   assert_int_equal(r.fixed_bodies, 0);
   assert_true(r.constant_mass && r.constant_force && r.blocks);
-  /* Three pins, one guide, the motor. The crank couples two pins and the motor, the rod two pins,
-   * the slider a pin and the guide. */
+  /* Nodes: three pins, one guide, the motor. The crank couples two pins and the motor, the rod two
+   * pins, the slider a pin and the guide. */
   assert_int_equal(r.nodes, 5);
   assert_int_equal(r.couplings, 5);
   assert_int_equal(r.fill, 0);
   assert_int_equal(r.most_couplings, 2);
   assert_int_equal(r.most_joints, 3);
-  assert_int_equal(r.most_joined.index1, 1); /* the crank, before the slider */
+  assert_int_equal(r.most_joined.index1, 1); /* the crank has the most joints */
   assert_says(
     &r,
     "mechanism     bodies 3, joints 6, forces 0; velocities 9, rows 11, degrees of freedom 0\n");
@@ -138,8 +138,9 @@ static void a_slider_crank_is_counted(void **state)
   assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
 }
 
-/* A ring of n pins, off the ground: the first n - 3 that go couple their neighbours. */
-static void fill_is_what_bodies_do_not_make(void **state)
+/* A ring of n pins without ground: each of the first n - 3 eliminations couples the two
+ * neighbours. */
+static void fill_counts_couplings_that_elimination_adds(void **state)
 {
   (void)state;
   enum { RING = 9 };
@@ -178,7 +179,7 @@ static void islands_are_counted(void **state)
               "islands       3, the largest of 2 bodies, 2 joints, 4 rows; they do not couple\n");
 }
 
-static void fixed_bodies_are_told(void **state)
+static void fixed_bodies_are_reported(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -192,7 +193,7 @@ static void fixed_bodies_are_told(void **state)
   assert_int_equal(r.islands, 60);
   assert_int_equal(r.nodes, 60);
   assert_int_equal(r.couplings, 0);
-  assert_int_equal(r.most_joints, 1); /* of what moves */
+  assert_int_equal(r.most_joints, 1); /* of moving bodies only */
   assert_true(r.blocks);
   assert_says(&r, "60 nodes, 0 couplings; 2 fixed bodies omitted;");
   assert_says(&r, "2 fixed bodies");
@@ -210,7 +211,7 @@ static void no_joints_need_no_solution(void **state)
   assert_int_equal(r.most_joined.index1, 0);
 }
 
-/* ---- where blocks do not suit ---- */
+/* ---- mechanisms that do not suit the block solver ---- */
 
 static void a_hub_is_named(void **state)
 {
@@ -230,9 +231,9 @@ static void a_hub_is_named(void **state)
   assert_says(&r, "fill          not by blocks; body 1 \"hub\" has most joints, 61\n");
 }
 
-/* ---- where there is no start ---- */
+/* ---- mechanisms that cannot be assembled ---- */
 
-static void what_cannot_be_assembled_is_counted_nevertheless(void **state)
+static void a_mechanism_that_cannot_be_assembled_is_reported_too(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -257,12 +258,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slider_crank_is_counted),
-    cmocka_unit_test(fill_is_what_bodies_do_not_make),
+    cmocka_unit_test(fill_counts_couplings_that_elimination_adds),
     cmocka_unit_test(islands_are_counted),
-    cmocka_unit_test(fixed_bodies_are_told),
+    cmocka_unit_test(fixed_bodies_are_reported),
     cmocka_unit_test(no_joints_need_no_solution),
     cmocka_unit_test(a_hub_is_named),
-    cmocka_unit_test(what_cannot_be_assembled_is_counted_nevertheless),
+    cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_reported_too),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

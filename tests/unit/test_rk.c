@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta methods: their tables, one step by hand, and stages that fail. */
+/* Runge-Kutta methods: their tables, one step by hand, and failing stages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +22,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
   return setup;
 }
 
-/* For x'' = -4 x one step multiplies (x, x'/2) by R(2 i h), R the method's stability polynomial. */
+/* For x'' = -4 x one step multiplies (x, x'/2) by R(2 i h), where R is the method's stability
+ * polynomial. */
 static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
 {
   (void)state;
@@ -44,7 +45,7 @@ static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force t^p gives v' = t^p: exact up to p = order - 1, which tests c and b together. */
+/* A force t^p gives v' = t^p, which is exact up to p = order - 1. This tests c and b together. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -73,7 +74,7 @@ static void forces_of_time_are_integrated_to_the_order(void **state)
   }
 }
 
-/* Whichever stage fails, the state stays, and the step can be taken again. */
+/* If a stage fails, the state is unchanged, and the step can be repeated. */
 static void a_failing_stage_leaves_the_state(void **state)
 {
   (void)state;
@@ -104,7 +105,7 @@ static void a_failing_stage_leaves_the_state(void **state)
   }
 }
 
-/* One evaluation for each stage, the first by the caller. */
+/* One evaluation per stage; the caller makes the first. */
 static void a_step_costs_one_evaluation_for_each_stage(void **state)
 {
   (void)state;

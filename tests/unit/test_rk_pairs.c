@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta pairs with steps of their own choice: the interpolant, what it leaves alone, what a
- * step costs, and what makes a step shorter. Their tables: test_rk_tables.c. What they share with
- * all integrators: test_integrators.c. */
+/* Runge-Kutta pairs with variable steps: the interpolant, its cost and that of a step, and what
+ * shortens a step. Their tables are tested in test_rk_tables.c, what all integrators have in common
+ * in test_integrators.c. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -85,8 +85,8 @@ static double error_inside(const method *m, double h)
   return largest;
 }
 
-/* The error of one step falls with h^(order + 1), a little faster where terms beyond that still
- * show: steps for which they do not would end in rounding. */
+/* The error inside a step decreases with h^(order + 1), or slightly faster because of higher terms;
+ * with shorter steps it would be rounding. */
 static void fall_inside(const method *m)
 {
   double longest = m->dense_order == 4 ? 0.1 : 0.2;
@@ -105,7 +105,7 @@ static void interpolants_have_their_order(void **state)
   for_each(fall_inside);
 }
 
-/* q' by differences of second order from one end of the step inwards, over 1e-4 of it. */
+/* q' at an end of the step by a second-order difference over 1e-4 of the step, inwards. */
 static double rate_at_end(integrator_run *run, double t, double inwards, double at_end)
 {
   look(run, t + inwards);
@@ -114,8 +114,8 @@ static double rate_at_end(integrator_run *run, double t, double inwards, double 
   return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
 }
 
-/* Values and rates at both ends of every step are those of the states there, so that they go on
- * from step to step. */
+/* At both ends of every step the interpolant has the values and rates of the states, so it is
+ * continuous with its derivative. */
 static void join(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -150,7 +150,7 @@ static void steps_join_with_value_and_rate(void **state)
   for_each(join);
 }
 
-/* Bit for bit, and at no cost but the extra stages, once for each step. */
+/* Interpolation changes no bit of the motion and costs only the extra stages, once per step. */
 static void look_at_every_step(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -178,7 +178,7 @@ static void look_at_every_step(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void who_looks_inside_does_not_alter_the_motion(void **state)
+static void interpolation_does_not_alter_the_motion(void **state)
 {
   (void)state;
   for_each(look_at_every_step);
@@ -186,7 +186,7 @@ static void who_looks_inside_does_not_alter_the_motion(void **state)
 
 /* ---- steps ---- */
 
-/* One evaluation for each stage; the first step begins with one more. */
+/* One evaluation per stage; the first step needs one more. */
 static void count_evaluations(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -221,7 +221,7 @@ static void keep_below(const method *m)
     while (fabs(run.state.t) < 0.5) {
       assert_int_equal(integrator_run_step(&run), BAUM_OK);
       double h = sign * (run.state.t - before);
-      assert_true(h > 0.0 && h <= 0.03 + 1e-16); /* as rounded beside the time */
+      assert_true(h > 0.0 && h <= 0.03 + 1e-16); /* h is a difference of rounded times */
       before = run.state.t;
     }
     integrator_run_close(&run);
@@ -235,7 +235,7 @@ static void no_step_is_longer_than_the_longest(void **state)
   for_each(keep_below);
 }
 
-/* A longest step may change between steps. */
+/* The longest step may be changed between steps. */
 static void a_longest_step_acts_at_once(void **state)
 {
   (void)state;
@@ -254,12 +254,12 @@ static void a_longest_step_acts_at_once(void **state)
 
 /* ---- what makes a step shorter ---- */
 
-/* A force of zero that fails in the calls from..from + times - 1. */
+/* A force of zero that fails in the calls number `from` to `from + times - 1`. */
 typedef struct hiccup {
   int calls;
   int from;
   int times;
-  int answer; /* 0: a value that is not a number */
+  int answer; /* 0: gives NaN */
 } hiccup;
 
 static int answer_hiccup(double t, const double *q, const double *v, const double *inputs,
@@ -304,7 +304,7 @@ static baum_mechanism *make_hiccup(hiccup *h)
   return mechanism;
 }
 
-/* Wherever in a step it fails, the step is taken again at half its length, and the motion is
+/* Wherever in a step the force fails, the step is repeated with half its length, and the motion is
  * right. */
 static void get_over(const method *m)
 {
@@ -336,7 +336,7 @@ static void evaluations_that_fail_for_a_while_are_got_over(void **state)
   for_each(get_over);
 }
 
-/* x'' = x'^2, x'(0) = 1 ends at t = 1, where x' = 1 / (1 - t) is infinite. */
+/* x'' = x'^2 with x'(0) = 1 becomes infinite at t = 1: x' = 1 / (1 - t). */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -359,8 +359,7 @@ static void a_motion_without_bound_ends_in_steps_too_short(void **state)
     assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
     assert_non_null(strstr(baum_message(), "grow without bound"));
     assert_non_null(strstr(baum_message(), pairs[k]->name));
-    /* The last good state: x' still follows, to the errors of the time of the end that it
-     * gathers. */
+    /* The last good state is near the end of the motion; errors of all steps shift that time. */
     assert_true(isfinite(run.state_q[0]) && isfinite(run.state_v[0]));
     ASSERT_NEAR(run.state.t, 1.0, 0.0, 1e-4);
     integrator_run_close(&run);
@@ -373,7 +372,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(interpolants_have_their_order),
     cmocka_unit_test(steps_join_with_value_and_rate),
-    cmocka_unit_test(who_looks_inside_does_not_alter_the_motion),
+    cmocka_unit_test(interpolation_does_not_alter_the_motion),
     cmocka_unit_test(a_step_costs_one_evaluation_for_each_stage),
     cmocka_unit_test(no_step_is_longer_than_the_longest),
     cmocka_unit_test(a_longest_step_acts_at_once),

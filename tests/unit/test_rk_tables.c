@@ -28,7 +28,7 @@ enum { TREES = 200, NODES_MAX = 8, STAGES_MAX = 16 };
 typedef struct tree {
   int nodes;
   int branch_count;
-  int branches[NODES_MAX]; /* numbers of smaller trees, none smaller than the one before */
+  int branches[NODES_MAX]; /* indices of smaller trees, in increasing order */
   double gamma;
 } tree;
 
@@ -48,7 +48,7 @@ static void plant(forest *f, const tree *t)
   f->trees[f->count++] = grown;
 }
 
-/* All ways to add branches with `missing` nodes in all, of trees from `first` on. */
+/* All ways to add branches with `missing` nodes in total, using the trees from `first` on. */
 static void branch_out(forest *f, tree *t, int missing, int first)
 {
   if (missing == 0) {
@@ -62,7 +62,7 @@ static void branch_out(forest *f, tree *t, int missing, int first)
   }
 }
 
-/* In the order of their nodes. */
+/* Generates the trees, ordered by their number of nodes. */
 static void grow(forest *f)
 {
   f->count = 0;
@@ -75,7 +75,7 @@ static void grow(forest *f)
 
 /* ---- a pair as one matrix ---- */
 
-/* Stages of the step, its end, and the extra ones. */
+/* Stages of the step, its end, and the extra stages. */
 typedef struct matrix {
   int n;
   double a[STAGES_MAX][STAGES_MAX];
@@ -104,7 +104,7 @@ static void fill(const baum_i_rk_pair *pair, matrix *m)
   }
 }
 
-/* phi of all trees at all stages. */
+/* Computes phi of all trees at all stages. */
 static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX])
 {
   for (int k = 0; k < f->count; k++) {
@@ -121,13 +121,13 @@ static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX
   }
 }
 
-/* A pair and the weights of its trees. */
+/* A pair with the trees and their phi. */
 typedef struct scene {
   const baum_i_rk_pair *pair;
   const baum_integrator *integrator;
   int dense_order;
-  int error_order;  /* up to which the estimates vanish */
-  int error3_order; /* 0: there is none */
+  int error_order;  /* highest order up to which the estimates vanish */
+  int error3_order; /* 0: there is no second estimate */
   forest trees;
   matrix m;
   double phi[TREES][STAGES_MAX];
@@ -228,7 +228,7 @@ static void estimates_vanish_up_to_their_order(void **state)
   }
 }
 
-/* Weights of the interpolant at x of a step of length 1, from the nested form of rk_adaptive.c. */
+/* Weights of the interpolant at x in a step of length 1, from the nested form of rk_adaptive.c. */
 static void interpolate(const scene *s, double x, double *weights)
 {
   const baum_i_rk_pair *pair = s->pair;
@@ -266,7 +266,7 @@ static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
   }
 }
 
-/* R(mu) = 1 + sum mu^k b A^(k-1) 1. */
+/* R(mu) = 1 + sum mu^k b A^(k-1) 1, with the vector 1 of ones. */
 static void the_stability_polynomial_is_that_of_the_table(void **state)
 {
   (void)state;
@@ -291,7 +291,7 @@ static void the_stability_polynomial_is_that_of_the_table(void **state)
         }
         power[i] = next;
       }
-      /* The last of rk8 is 3.6e-10. */
+      /* The last coefficient of rk8 is 3.6e-10. */
       ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
     }
   }

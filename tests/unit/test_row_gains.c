@@ -4,8 +4,8 @@
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
- * whatever the mechanism is. Adams has the stiffness of every row in its iteration, as BDF and IDA
- * have it in their matrices.
+ * for any mechanism. Adams includes the stiffness of every row in its iteration, BDF and IDA in
+ * their matrices.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -21,7 +21,7 @@
 enum { METHODS = 4, ROWS = 8, SAMPLES = 4 };
 static const char *const NAMES[METHODS] = {"cvode_adams", "cvode_bdf", "ida", "rk8"};
 
-/* NULL where the build has none. */
+/* Returns NULL if this build does not have the integrator. */
 static const baum_integrator *find(const char *name)
 {
   const baum_integrator *found = NULL;
@@ -29,7 +29,7 @@ static const baum_integrator *find(const char *name)
     const baum_integrator *at = baum_integrator_at(k);
     found = strcmp(baum_integrator_name(at), name) == 0 ? at : found;
   }
-  /* All that has no fixed step is of SUNDIALS. */
+  /* Integrators without fixed step need SUNDIALS. */
   bool runs = found && (baum_has("sundials") || baum_integrator_has_fixed_step(found));
   return runs ? found : NULL;
 }
@@ -54,7 +54,7 @@ static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *in
 
 static const double FACTORS[ROWS] = {0.5, 0.25, 2.0, 4.0, 1.0, 3.0, 0.7, 1.5};
 
-/* Every row of a slider-crank a little off. */
+/* Moves a slider-crank so that every row is slightly violated. */
 static void start_beside_the_constraints(baum_simulation *run, double *phi)
 {
   const baum_channel violation = baum_channel_of(BAUM_PHI);
@@ -86,8 +86,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
     double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
-    /* Errors of several hundred steps at rtol 1e-8 of lengths below 1 m; a factor missing from a
-     * term makes 1e-6 or more. */
+    /* Errors of several hundred steps at rtol 1e-8 with lengths below 1 m; a factor missing from a
+     * term would cause 1e-6 or more. */
     ASSERT_NEAR(rows[k], want, 0.0, 1e-7);
   }
   baum_simulation_destroy(run);
@@ -107,7 +107,7 @@ static void each_row_decays_with_its_own_gains(void **state)
   model_destroy(&m);
 }
 
-static void likewise_backward_in_time(void **state)
+static void each_row_decays_with_its_own_gains_backward_in_time(void **state)
 {
   (void)state;
   model m;
@@ -144,8 +144,8 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
   return counters;
 }
 
-/* Gains up to 4e4 1/s: a fixed-point iteration converges where 2 alpha h is below 2 at most, which
- * takes 2000 steps. Measured are 620, 440, 580, and with gains alike, of 1e4 1/s, 340, 370, 390. */
+/* Gains are up to 4e4 1/s. A fixed-point iteration converges only if 2 alpha h is below 2, which
+ * would take 2000 steps. Measured: 620, 440, 580; with equal gains of 1e4 1/s: 340, 370, 390. */
 static void steps_do_not_become_short(void **state)
 {
   (void)state;
@@ -157,7 +157,7 @@ static void steps_do_not_become_short(void **state)
       baum_counters alike = count_steps(m.mechanism, NAMES[k], 1e4, NULL);
       baum_counters likewise = count_steps(m.mechanism, NAMES[k], 1e4, ones);
       baum_counters own = count_steps(m.mechanism, NAMES[k], 1e4, FACTORS);
-      /* Other sums of the same numbers: rounding may move a step or two. */
+      /* The sums have another order, so rounding may change a step or two. */
       ASSERT_NEAR((double)likewise.steps, (double)alike.steps, 0.1, 0.0);
       assert_in_range(own.steps, 1, 1000);
       assert_in_range(own.nonlinear_iterations, 1, 2000);
@@ -170,7 +170,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_row_decays_with_its_own_gains),
-    cmocka_unit_test(likewise_backward_in_time),
+    cmocka_unit_test(each_row_decays_with_its_own_gains_backward_in_time),
     cmocka_unit_test(steps_do_not_become_short),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of what is saved belongs to a version of the format: whoever changes it raises the
- * version. */
+/* Every version of the saved format has its list of parts: whoever changes the list has to raise
+ * the version. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,11 +14,15 @@
 #include "simulate/saved.h"
 
 /* Sizes of the parts of a run with all that may be there. A row is never changed: other sizes get
- * another version and a row of their own. Those up to version 8 had lists of another kind. */
+ * another version and a row of their own. Those up to version 8 had lists of another kind. Version
+ * 12 saves more angles of spatial joints than 11, of which this run has none. */
 static const struct {
   int version;
   uint64_t list;
-} VERSIONS[] = {{9, 0x448b4b059414f4fd}, {10, 0x448b4b059414f4fd}, {11, 0x492d9d0abb55ace3}};
+} VERSIONS[] = {{9, 0x448b4b059414f4fd},
+                {10, 0x448b4b059414f4fd},
+                {11, 0x492d9d0abb55ace3},
+                {12, 0x492d9d0abb55ace3}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 

@@ -26,7 +26,7 @@ static void multiply(baum_i_polynomial *p, double re, double im)
   }
 }
 
-/* A product of known roots, of |z| up to `most`. @return the largest |z| */
+/* A product of random roots with |z| up to `most`. Returns the largest |z|. */
 static double from_roots(uint64_t *seed, int degree, double most, baum_i_polynomial *p)
 {
   *p = (baum_i_polynomial){.c = {{1.0, 0.0}}};
@@ -50,7 +50,7 @@ static void the_test_says_whether_all_roots_are_inside(void **state)
     int degree = 1 + n % BAUM_I_SCHUR_COHN_DEGREE;
     double largest = from_roots(&seed, degree, 1.2, &p);
     double radius = uniform(&seed, 0.3, 1.5);
-    if (fabs(largest - radius) > 1e-3) { /* nearer, rounding may decide for high degrees */
+    if (fabs(largest - radius) > 1e-3) { /* closer, rounding may decide at high degrees */
       assert_int_equal(baum_i_schur_cohn_margin(&p, radius) > 0.0, largest < radius);
       inside += largest < radius;
     }
@@ -66,7 +66,8 @@ static void the_radius_is_that_of_the_largest_root(void **state)
     baum_i_polynomial p;
     double most = pow(10.0, uniform(&seed, -3.0, 3.0));
     double largest = from_roots(&seed, 1 + n % 4, most, &p);
-    /* Two roots that chance put 1e-3 apart are off by 1e-16 / 1e-3; and the bisection's 1e-10. */
+    /* Random roots may be 1e-3 apart and then have errors of 1e-16 / 1e-3; the bisection has
+     * 1e-10. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), largest, 1e-9, 0.0);
   }
 }
@@ -79,7 +80,8 @@ static void multiple_roots_are_found_as_well_as_promised(void **state)
     for (int k = 0; k < m; k++) {
       multiply(&p, 0.48, 0.64);
     }
-    /* As schur_cohn.h says; the m-th root of 1e-16 would be what the coefficients hold. */
+    /* The accuracy that schur_cohn.h states; coefficients alone would allow the m-th root of
+     * 1e-16. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), 0.8, 4.0 * pow(1e-16, 1.0 / (m + 1)) + 1e-10, 0.0);
   }
 }
@@ -95,7 +97,7 @@ static void roots_on_the_circle_are_not_inside(void **state)
   assert_true(baum_i_schur_cohn_margin(&pair, 1.0 + 1e-9) > 0.0);
 }
 
-static void what_is_beyond_double_is_infinite(void **state)
+static void coefficients_beyond_double_give_an_infinite_radius(void **state)
 {
   (void)state;
   const double numbers[] = {1e200, (double)INFINITY, (double)NAN};
@@ -112,7 +114,7 @@ int main(void)
     cmocka_unit_test(the_radius_is_that_of_the_largest_root),
     cmocka_unit_test(multiple_roots_are_found_as_well_as_promised),
     cmocka_unit_test(roots_on_the_circle_are_not_inside),
-    cmocka_unit_test(what_is_beyond_double_is_infinite),
+    cmocka_unit_test(coefficients_beyond_double_give_an_infinite_radius),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

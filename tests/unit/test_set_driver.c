@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drivers whose law is set in a run. A driven crank rotates about its centre; a rod hangs from
- * it free. A cart slides on a guide, driven by a law of the user. */
+/* Drivers whose law is set during a run. A driven crank rotates about its centre, and a rod hangs
+ * freely from it. A cart slides on a guide, driven by a user law. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,11 +14,11 @@
 #include "assert_near.h"
 #include "step_mode.h"
 
-static const double RATE = 2.0; /* [rad/s] of the motor as defined */
+static const double RATE = 2.0; /* [rad/s] rate of the motor in its definition */
 
-/* How the functions of a scene behave. */
+/* Behaviour of the user functions of a scene. */
 typedef struct faults {
-  bool along_spline; /* instead of the law */
+  bool along_spline; /* the cart is driven by a spline */
   int law_calls;
   bool force_fails;
 } faults;
@@ -55,8 +55,8 @@ typedef struct scene {
   baum_body_id cart;
   baum_joint_id pin;
   baum_joint_id guide;
-  baum_joint_id motor; /* of the pin */
-  baum_joint_id winch; /* of the guide */
+  baum_joint_id motor; /* drives the pin */
+  baum_joint_id winch; /* drives the guide */
 } scene;
 
 static baum_body_id add_body(const scene *s, double x, double y, double angle)
@@ -162,7 +162,7 @@ static baum_simulation *start(const scene *s, const baum_simulation_options *o)
   return run;
 }
 
-/* Value and rate of a joint's coordinate. */
+/* Value and velocity of a joint's coordinate. */
 typedef struct motion {
   double value;
   double rate;
@@ -195,7 +195,7 @@ static void check_within(baum_simulation *run, baum_joint_id joint, double t, mo
   ASSERT_NEAR(got.rate, want.rate, 0.0, off.rate);
 }
 
-/* Rates of up to 10 1/s. */
+/* Velocities are up to 10 1/s. */
 static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion want,
                      double tolerance)
 {
@@ -204,20 +204,20 @@ static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion
 
 /* ---- every method ---- */
 
-/* What a driven coordinate may be off. Both Eulers with gains of 1/h leave up to h^2 |s''| and, of
- * the rate, h |s''| / 2, here with |s''| = 8 and a tenth more. Fixed steps of higher order project.
- * Variable steps are off by a few hundred times rtol. */
+/* Allowed errors of a driven coordinate. Euler methods with gains of 1/h leave up to h^2 |s''| in
+ * position and h |s''| / 2 in velocity, here with |s''| = 8, and a tenth more. Fixed steps of
+ * higher order project. Variable steps have a few hundred times rtol. */
 static motion allowed(step_mode mode)
 {
   if (!mode.fixed) {
     return (motion){3e-7, 3e-6};
   }
-  /* Not projected: h^2 at most, with h = 1e-3. */
+  /* Without projection: at most h^2 with h = 1e-3. */
   if (step_mode_is_adams(mode)) {
     return (motion){1e-6, 1e-5};
   }
-  /* Positions alone are kept; h^2 times the third derivative, 2.7, is about ten times what rates
-   * are off. */
+  /* Only positions are projected; velocity errors are about a tenth of h^2 times the third
+   * derivative, 2.7. */
   if (mode.integrator == baum_generalized_alpha()) {
     return (motion){1e-12, 2.7e-6};
   }
@@ -238,14 +238,14 @@ static void check_laws(step_mode mode)
   assert_true(motion_of(run, s.pin).value == now.value);
   check_within(run, s.pin, 0.7, (motion){0.6 + 0.4 * RATE + 0.5 * 8.0 * 0.16, RATE + 0.4 * 8.0},
                off);
-  /* The winch goes on by its own law. */
+  /* The winch continues with its own law. */
   check_within(run, s.guide, 0.7, (motion){0.1 * sin(2.1), 0.3 * cos(2.1)}, off);
   now = motion_of(run, s.pin);
   assert_int_equal(baum_simulation_set_driver(run, s.motor, now.value, now.rate, 0.0), BAUM_OK);
   check_within(run, s.pin, 1.0, (motion){now.value + 0.3 * now.rate, now.rate}, off);
   int64_t changes = step_mode_remembers(mode) ? 2 : 0;
   assert_true(restarts_of(run) >= changes);
-  bool by_short_steps = mode.fixed && step_mode_remembers(mode); /* they restart too */
+  bool by_short_steps = mode.fixed && step_mode_remembers(mode); /* short steps restart too */
   assert_true(by_short_steps || restarts_of(run) == changes);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
@@ -261,9 +261,9 @@ static void a_law_acts_from_the_present_time_on(void **state)
   assert_in_range(count, 12, 100);
 }
 
-/* ---- in place of a law of the user ---- */
+/* ---- replacing a user law ---- */
 
-static void it_takes_the_place_of_a_users_law_in_this_run_alone(void **state)
+static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state)
 {
   (void)state;
   faults f = {0};
@@ -281,21 +281,21 @@ static void it_takes_the_place_of_a_users_law_in_this_run_alone(void **state)
   assert_true(f.law_calls > 0);
   baum_simulation_destroy(run);
   baum_simulation_destroy(other);
-  /* Nor has the mechanism changed. */
+  /* The definition in the mechanism is unchanged. */
   run = start(&s, &o);
   check_at(run, s.guide, 0.1, (motion){0.1 * sin(0.3), 0.3 * cos(0.3)}, 1e-12);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void it_takes_the_place_of_a_spline(void **state)
+static void a_law_that_is_set_replaces_a_spline(void **state)
 {
   (void)state;
   faults f = {.along_spline = true};
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected, here and below */
+  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected, as below */
   assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
   check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
   baum_simulation_destroy(run);
@@ -336,11 +336,11 @@ static void the_law_is_called_once_per_evaluation(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* ---- jumps: what the formulation makes of them ---- */
+/* ---- jumps with each formulation ---- */
 
 static const double JUMP = 0.05; /* [rad] */
 
-/* A run that has just been told to be elsewhere. */
+/* A run whose driver has just been set to a value that differs by JUMP. */
 static baum_simulation *jump(const scene *s, baum_formulation formulation, baum_gains gains)
 {
   baum_simulation_options o = options_of(baum_rk4());
@@ -355,7 +355,7 @@ static baum_simulation *jump(const scene *s, baum_formulation formulation, baum_
   return run;
 }
 
-static void projection_jumps_with_the_next_step(void **state)
+static void with_projection_the_next_step_jumps_to_the_law(void **state)
 {
   (void)state;
   faults f = {0};
@@ -366,15 +366,15 @@ static void projection_jumps_with_the_next_step(void **state)
   ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* projected */
   baum_counters c;
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* seen at the begin of that step */
+  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* recorded at the beginning of that step */
   assert_memory_equal(&c.max_phi_joint, &s.motor, sizeof s.motor);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
 /* Phi'' + 2 alpha Phi' + beta^2 Phi = 0 with alpha = beta: Phi = -JUMP (1 + alpha t) exp(-alpha t).
- * By a method of order 4, off by about (alpha h)^4 of it. */
-static void baumgarte_goes_there_at_the_rate_of_its_gains(void **state)
+ * The relative error of order 4 is about (alpha h)^4. */
+static void with_baumgarte_the_difference_to_the_law_decays_with_the_gains(void **state)
 {
   (void)state;
   faults f = {0};
@@ -399,15 +399,15 @@ static void without_stabilization_the_difference_stays(void **state)
   scene s = make_scene(&f);
   const baum_gains none = {.rule = BAUM_GAINS_DEFAULT};
   baum_simulation *run = jump(&s, BAUM_FORMULATION_UNSTABILIZED, none);
-  check_at(run, s.pin, 0.4, (motion){RATE * 0.4, RATE}, 1e-12); /* straight on: rounding */
+  check_at(run, s.pin, 0.4, (motion){RATE * 0.4, RATE}, 1e-12); /* up to rounding */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
 /* ---- failure ---- */
 
-/* IDA evaluates where it restarts, so that there a change may fail. */
-static void a_law_that_cannot_be_begun_is_not_set(void **state)
+/* IDA evaluates at a restart, so setting a law can fail. */
+static void a_law_that_fails_at_the_restart_is_not_set(void **state)
 {
   (void)state;
   if (!baum_has("sundials")) {
@@ -433,14 +433,14 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_law_acts_from_the_present_time_on),
-    cmocka_unit_test(it_takes_the_place_of_a_users_law_in_this_run_alone),
-    cmocka_unit_test(it_takes_the_place_of_a_spline),
+    cmocka_unit_test(a_law_that_is_set_replaces_a_users_law_in_this_run_only),
+    cmocka_unit_test(a_law_that_is_set_replaces_a_spline),
     cmocka_unit_test(time_counts_from_where_it_was_set_forward_and_backward),
     cmocka_unit_test(the_law_is_called_once_per_evaluation),
-    cmocka_unit_test(projection_jumps_with_the_next_step),
-    cmocka_unit_test(baumgarte_goes_there_at_the_rate_of_its_gains),
+    cmocka_unit_test(with_projection_the_next_step_jumps_to_the_law),
+    cmocka_unit_test(with_baumgarte_the_difference_to_the_law_decays_with_the_gains),
     cmocka_unit_test(without_stabilization_the_difference_stays),
-    cmocka_unit_test(a_law_that_cannot_be_begun_is_not_set),
+    cmocka_unit_test(a_law_that_fails_at_the_restart_is_not_set),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sines and cosines of src/base/sincos.h and of the frames that are made with them, against those
- * of long double, which the C library reduces exactly and rounds with eleven bits to spare.
- */
+/* Sines and cosines of src/base/sincos.h, and of frames, compared with those of long double, which
+ * the C library reduces exactly and computes with eleven additional bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,12 +22,12 @@
 
 #define PI 3.14159265358979323846
 
-enum { BODIES = 7 }; /* no whole number of vectors */
+enum { BODIES = 7 }; /* not a multiple of the vector length */
 
-/* Of the exact number's last digit. */
+/* One unit in the last place of the exact value. */
 static const double ONE_ULP = 1.0;
 
-/* Some machines have none, and valgrind computes it in double. */
+/* Skips if long double is as short as double, as on some machines and in valgrind. */
 static void skip_without_long_double(void)
 {
   volatile long double one = 1.0L;
@@ -37,7 +36,7 @@ static void skip_without_long_double(void)
   }
 }
 
-/* Distance of two results in units of the last digit of the exact one. */
+/* Error in units of the last place of the exact value. */
 static double ulps(double got, long double exact)
 {
   double near = fabs((double)exact);
@@ -50,7 +49,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* The worse of both. */
+/* The larger error of sine and cosine. */
 static double error_of(double x, double sine, double cosine)
 {
   return worse(ulps(sine, sinl((long double)x)), ulps(cosine, cosl((long double)x)));
@@ -87,8 +86,8 @@ static void random_angles_are_right_to_one_ulp(void **state)
   }
 }
 
-/* All multiples of pi/2 up to the limit and the numbers beside them: there, sine or cosine is as
- * small as it can get, and the reduction loses as much as it can. */
+/* All multiples of pi/2 up to the limit and the doubles beside them: there sine or cosine is
+ * smallest, and the reduction loses most digits. */
 static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
 {
   (void)state;
@@ -104,7 +103,7 @@ static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
   assert_true(worst <= ONE_ULP);
 }
 
-/* Where one polynomial ends and the next multiple begins. */
+/* Where one polynomial ends and the next multiple of pi/2 begins. */
 static void neighbours_of_odd_eighths_are_right(void **state)
 {
   (void)state;
@@ -126,7 +125,7 @@ static void tiny_angles_are_their_own_sines(void **state)
     double sine;
     double cosine;
     baum_i_sincos(x, &sine, &cosine);
-    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 are below half an ulp */
+    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 vanish */
     baum_i_sincos(-x, &sine, &cosine);
     assert_true(sine == -x && cosine == 1.0);
   }
@@ -183,7 +182,7 @@ static void free_frames(frames *f)
   baum_mechanism_destroy(f->mechanism);
 }
 
-/* Body by body. */
+/* Sets the angle of each body and returns the frames. */
 static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
 {
   for (int k = 0; k < BODIES; k++) {
@@ -193,7 +192,7 @@ static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
   return f->workspace->point.frames + 1;
 }
 
-/* Fused products round differently, not worse. */
+/* Fused multiply-add rounds differently, but not worse. */
 static void frames_of_both_builds_are_right_to_one_ulp(void **state)
 {
   (void)state;
@@ -220,7 +219,7 @@ static void frames_of_both_builds_are_right_to_one_ulp(void **state)
   }
 }
 
-/* A far angle among near ones is the C library's, and the near ones are not touched by it. */
+/* A large angle among small ones is computed by the C library, and does not affect the others. */
 static void frames_of_far_angles_are_those_of_the_library(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* General sparse LU: solutions, pivots that are kept and given up, matrices without full rank. */
+/* General sparse LU: solutions, pivots that are kept or chosen again, and matrices without full
+ * rank. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,11 +29,11 @@ static void check_solution(baum_i_sparse_lu *lu, double a, double b)
   double x[3] = {a * 1.0 + 2.0 * 3.0, 1.0 + b * 2.0, 3.0 * 2.0 + 4.0 * 3.0};
   baum_i_sparse_lu_solve(lu, x);
   for (int i = 0; i < 3; i++) {
-    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0); /* some roundings, small condition */
+    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0); /* some roundings; the condition number is small */
   }
 }
 
-static void it_solves_with_pivots_chosen_once(void **state)
+static void several_matrices_are_solved_with_the_same_pivots(void **state)
 {
   (void)state;
   baum_i_sparse_lu *lu = NULL;
@@ -46,7 +47,7 @@ static void it_solves_with_pivots_chosen_once(void **state)
   baum_i_sparse_lu_destroy(lu);
 }
 
-/* The first pivots were a and b, which become nothing. */
+/* The first pivots a and b become small. */
 static void pivots_that_have_become_small_are_given_up(void **state)
 {
   (void)state;
@@ -58,7 +59,7 @@ static void pivots_that_have_become_small_are_given_up(void **state)
   baum_i_sparse_lu_destroy(lu);
 }
 
-static void what_has_no_full_rank_is_told(void **state)
+static void a_matrix_without_full_rank_is_reported(void **state)
 {
   (void)state;
   baum_i_sparse_lu *lu = NULL;
@@ -66,7 +67,7 @@ static void what_has_no_full_rank_is_told(void **state)
   assert_int_equal(baum_i_sparse_lu_create(3, COLUMNS, ROWS, &lu), BAUM_OK);
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
-  check_solution(lu, 5.0, 7.0); /* and the next may be fine */
+  check_solution(lu, 5.0, 7.0); /* the next matrix is solved again */
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
   baum_i_sparse_lu_destroy(lu);
@@ -76,9 +77,9 @@ static void what_has_no_full_rank_is_told(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(it_solves_with_pivots_chosen_once),
+    cmocka_unit_test(several_matrices_are_solved_with_the_same_pivots),
     cmocka_unit_test(pivots_that_have_become_small_are_given_up),
-    cmocka_unit_test(what_has_no_full_rank_is_told),
+    cmocka_unit_test(a_matrix_without_full_rank_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

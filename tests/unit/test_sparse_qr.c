@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sparse QR of random matrices against what defines its results: residuals are orthogonal to the
- * columns, and columns are dependent where they were made so. */
+/* Sparse QR of random matrices, tested by the defining properties: residuals are orthogonal to the
+ * columns, and those columns are dependent that were made so. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -42,8 +42,8 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
   return (int32_t)floor(0.5 * (1.0 + draw(seed)) * bound);
 }
 
-/* About three entries in a column, in rows that differ little from column to column, and one
- * anywhere: with `hub` in row 0, which so couples all columns. */
+/* About three entries per column in rows near the diagonal, and one in a random row, or with `hub`
+ * in row 0, which couples all columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {
@@ -53,7 +53,7 @@ static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
   s->dense[j][hub ? 0 : draw_below(seed, s->m)] = draw(seed);
 }
 
-/* A sum of up to two earlier columns, which may be none. */
+/* A sum of up to two earlier columns; it may be zero. */
 static void fill_dependent(sample *s, int32_t j, uint64_t *seed)
 {
   for (int k = 0; k < 2 && j > 0; k++) {
@@ -80,7 +80,7 @@ static void compress(sample *s)
   s->pattern = (baum_i_sparse_columns){s->m, s->n, s->start, s->row};
 }
 
-/* Tall enough for columns that are not made dependent to be independent, nearly always. */
+/* Other columns are nearly always independent, because there are enough rows. */
 static void draw_sample(int32_t m, int32_t n, double share, uint64_t seed, sample *s)
 {
   bool hub = seed % 4 == 0;
@@ -107,7 +107,7 @@ static double product(const sample *s, int32_t j, const double *x)
   return sum;
 }
 
-/* By Gram and Schmidt, twice. Returns the rank, or -1 where it is not clear. */
+/* By the Gram-Schmidt process with two passes. Returns the rank, or -1 if it is not clear. */
 static int32_t find_independent(const sample *s, const int32_t *order, unsigned char *independent)
 {
   double basis[MOST][MOST];
@@ -152,7 +152,7 @@ static baum_i_sparse_qr *make(const sample *s, const int32_t *order)
   return qr;
 }
 
-/* x minimizes |A x - b| and is zero where columns are dependent; P b is A x, and P^2 = P. */
+/* x minimizes |A x - b| and is zero for dependent columns; P b = A x, and P^2 = P. */
 static void assert_solves(const sample *s, baum_i_sparse_qr *qr, const unsigned char *independent)
 {
   double b[MOST];
@@ -241,8 +241,8 @@ static void of_dependent_columns_the_later_ones_are_given_up(void **state)
   }
 }
 
-/* Columns that are dependent now may be independent next time, and the other way round. */
-static void nothing_is_left_of_the_values_before(void **state)
+/* Columns that are dependent with some values may be independent with the next, and the reverse. */
+static void the_result_does_not_depend_on_earlier_values(void **state)
 {
   (void)state;
   sample s;
@@ -269,8 +269,8 @@ static void nothing_is_left_of_the_values_before(void **state)
   baum_i_sparse_qr_destroy(kept);
 }
 
-/* 20000 columns of a chain whose two ends are held, and half of which are there twice: time and
- * memory that grew with the square of it would not do. */
+/* 20000 links of a chain with both ends held, every column twice. Time or memory that grows with
+ * the square would be too much. */
 static void a_long_chain_is_linear(void **state)
 {
   (void)state;
@@ -322,7 +322,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(random_matrices_of_all_shapes_are_solved_and_their_rank_found),
     cmocka_unit_test(of_dependent_columns_the_later_ones_are_given_up),
-    cmocka_unit_test(nothing_is_left_of_the_values_before),
+    cmocka_unit_test(the_result_does_not_depend_on_earlier_values),
     cmocka_unit_test(a_long_chain_is_linear),
     cmocka_unit_test(columns_without_entries_and_no_columns_are_fine),
   };

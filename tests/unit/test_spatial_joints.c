@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every derivative of every spatial element between bodies of all kinds, against differences along
- * the configuration manifold. */
+/* All derivatives of every spatial element between bodies of all kinds, compared with differences
+ * along the configuration manifold. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,6 +15,8 @@
 
 #include <baum/baum.h>
 
+#include "mechanism/general/coordinate.h"
+
 enum { BODIES = 6, STATES = 4 };
 
 /* Ground, two spatial bodies, a spatial particle, a planar body and a planar particle. */
@@ -28,7 +30,8 @@ static bool is_particle(int body)
   return body == 3 || body == 5;
 }
 
-/* Without gyroscopic moments, which are no part of a force, the inertia is that of a sphere. */
+/* With `sphere` the body has no gyroscopic moments, which the derivatives of a force do not
+ * include. */
 static baum_body_id add_body(baum_mechanism *m, double x, bool sphere)
 {
   baum_body_id id;
@@ -159,23 +162,22 @@ typedef struct element {
   const char *name;
   void (*add)(scene *s, int a, int b);
   bool particle_a, particle_b; /* may be */
-  bool coordinate;
   bool force;
 } element;
 
 static const element elements[] = {
-  {"spherical", add_spherical, true, true, false, false},
-  {"revolute", add_revolute, false, false, true, false},
-  {"universal", add_universal, false, false, false, false},
-  {"cylindrical", add_cylindrical, false, false, true, false},
-  {"prismatic", add_prismatic, false, false, true, false},
-  {"planar", add_planar, false, false, false, false},
-  {"fixed", add_fixed, false, false, false, false},
-  {"distance", add_distance, true, true, false, false},
-  {"point on line", add_point_on_line, false, true, true, false},
-  {"point on plane", add_point_on_plane, false, true, false, false},
-  {"spring", add_spring, true, true, false, true},
-  {"load", add_load, true, true, false, true},
+  {"spherical", add_spherical, true, true, false},
+  {"revolute", add_revolute, false, false, false},
+  {"universal", add_universal, false, false, false},
+  {"cylindrical", add_cylindrical, false, false, false},
+  {"prismatic", add_prismatic, false, false, false},
+  {"planar", add_planar, false, false, false},
+  {"fixed", add_fixed, false, false, false},
+  {"distance", add_distance, true, true, false},
+  {"point on line", add_point_on_line, false, true, false},
+  {"point on plane", add_point_on_plane, false, true, false},
+  {"spring", add_spring, true, true, true},
+  {"load", add_load, true, true, true},
 };
 
 /* ---- checks ---- */
@@ -191,7 +193,7 @@ static void check_bodies(test_point *p)
   for (int k = 1; k <= 2; k++) {
     const baum_i_body *body = p->mechanism->bodies[k];
     for (int j = 0; j < 6; j++) {
-      static const double step = 1e-3; /* the moment is quadratic: no truncation */
+      static const double step = 1e-3; /* exact: the moment is quadratic */
       double f[2][TEST_SIZE_MAX];
       for (int side = 0; side < 2; side++) {
         double v = p->v[body->v + j];
@@ -210,17 +212,70 @@ static void check_bodies(test_point *p)
 }
 
 /* Off its constraints an angle may be that of a short vector, which no difference follows. */
-static bool is_smooth(const test_point *p)
+static bool is_smooth(const test_point *p, int joint)
 {
-  const baum_i_joint *joint = p->mechanism->joints[0];
-  baum_i_coordinate c;
-  joint->type->coordinate(joint, &p->point, &c);
-  for (int i = 0; i < BAUM_I_PAIR_COLUMNS; i++) {
-    if (fabs(c.gradient[i]) > 1.5) {
-      return !joint->type->is_angle;
+  const baum_i_joint *j = p->mechanism->joints[joint];
+  for (int k = 0; j->type->coordinates[k] != BAUM_COORDINATE_FIRST; k++) {
+    const baum_i_joint_coordinate of = {j, k};
+    baum_i_coordinate c;
+    baum_i_coordinate_at(&of, &p->point, &c);
+    for (int i = 0; i < BAUM_I_PAIR_COLUMNS && baum_i_is_spatial_angle(&of); i++) {
+      if (fabs(c.gradient[i]) > 1.1) {
+        return false;
+      }
     }
   }
   return true;
+}
+
+/* A state where coordinates of the first joints have differences. */
+static void find_smooth(test_point *p, int joints, uint64_t *seed)
+{
+  bool smooth = false;
+  for (int i = 0; i < 2000 && !smooth; i++) {
+    test_point_random(p, seed);
+    smooth = true;
+    for (int k = 0; k < joints; k++) {
+      smooth = smooth && is_smooth(p, k);
+    }
+  }
+  assert_true(smooth);
+}
+
+/* A spring on every coordinate of the first joint. */
+static void add_joint_springs(const scene *s)
+{
+  const baum_joint_coordinate *all = s->mechanism->joints[0]->type->coordinates;
+  for (int k = 0; all[k] != BAUM_COORDINATE_FIRST; k++) {
+    baum_joint_spring_def def = baum_joint_spring_def_default();
+    def.joint = baum_mechanism_joint_at(s->mechanism, 0);
+    def.coordinate = k > 0 ? all[k] : BAUM_COORDINATE_FIRST;
+    def.stiffness = 3.0 + k;
+    def.damping = 0.7;
+    def.free_value = 0.4;
+    check(baum_mechanism_add_joint_spring(s->mechanism, &def, NULL));
+  }
+}
+
+static void check_springs(const element *e, int a, int b)
+{
+  scene s = make(true);
+  e->add(&s, a, b);
+  add_joint_springs(&s);
+  if (s.mechanism->force_count == 0) {
+    baum_mechanism_destroy(s.mechanism);
+    return;
+  }
+  test_point p;
+  test_point_open(&p, s.mechanism);
+  uint64_t seed = 11;
+  for (int i = 0; i < STATES; i++) {
+    find_smooth(&p, 1, &seed);
+    check_force_derivatives(&p);
+    check_coordinate_derivatives(&p);
+    check_potential_gradient(&p);
+  }
+  test_point_close(&p);
 }
 
 static void check_pair(const element *e, int a, int b)
@@ -240,14 +295,14 @@ static void check_pair(const element *e, int a, int b)
     } else {
       check_joint_derivatives(&p);
     }
-    if (e->coordinate && is_smooth(&p)) {
-      check_coordinate_derivatives(&p);
-    }
   }
   test_point_close(&p);
+  if (!e->force) {
+    check_springs(e, a, b);
+  }
 }
 
-/* One of both is a body with an orientation, spatial or planar. */
+/* At least one of the two bodies has an orientation. */
 static bool is_tested(const element *e, int a, int b)
 {
   bool allowed = (e->particle_a || !is_particle(a)) && (e->particle_b || !is_particle(b));
@@ -268,6 +323,73 @@ static void derivatives_agree_with_differences(void **state)
   }
 }
 
+/* ---- couplings ---- */
+
+static int cam(double x, double f[3], void *user)
+{
+  (void)user;
+  f[0] = 0.3 * x + 0.2 * sin(1.3 * x);
+  f[1] = 0.3 + 0.26 * cos(1.3 * x);
+  f[2] = -0.338 * sin(1.3 * x);
+  return 0;
+}
+
+static void couple(const scene *s, int a, baum_joint_coordinate of_a, int b,
+                   baum_joint_coordinate of_b, baum_coupling_fn *law)
+{
+  baum_coupling_def def = baum_coupling_def_default();
+  def.joint_a = baum_mechanism_joint_at(s->mechanism, a);
+  def.joint_b = baum_mechanism_joint_at(s->mechanism, b);
+  def.coordinate_a = of_a;
+  def.coordinate_b = of_b;
+  def.ratio = -1.5;
+  def.offset = 0.3;
+  def.law = law;
+  check(baum_mechanism_add_coupling(s->mechanism, &def, NULL));
+}
+
+enum { COUPLED = 4 };
+
+/* Joints of two to four bodies, spatial and planar, with all kinds of coordinates. */
+static scene make_coupled(void)
+{
+  static const baum_joint_coordinate x = BAUM_COORDINATE_X;
+  static const baum_joint_coordinate angle = BAUM_COORDINATE_ANGLE;
+  static const baum_joint_coordinate angle_b = BAUM_COORDINATE_ANGLE_B;
+  static const baum_joint_coordinate displacement = BAUM_COORDINATE_DISPLACEMENT;
+  scene s = make(false);
+  add_cylindrical(&s, 1, 2);
+  add_universal(&s, 0, 1);
+  add_planar(&s, 2, 4);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = s.bodies[4];
+  pin.body_b = BAUM_GROUND;
+  pin.point[0] = 0.3;
+  pin.point[1] = 0.2;
+  check(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
+  couple(&s, 0, displacement, 0, angle, NULL); /* a screw */
+  couple(&s, 0, angle, 1, angle_b, NULL);
+  couple(&s, 1, angle, 2, x, cam);
+  couple(&s, 3, angle, 0, angle, cam);
+  couple(&s, 2, angle, 3, angle, NULL);
+  couple(&s, 2, BAUM_COORDINATE_Y, 0, displacement, cam);
+  return s;
+}
+
+static void couplings_agree_with_differences(void **state)
+{
+  (void)state;
+  scene s = make_coupled();
+  test_point p;
+  test_point_open(&p, s.mechanism);
+  uint64_t seed = 11;
+  for (int i = 0; i < STATES; i++) {
+    find_smooth(&p, COUPLED, &seed);
+    check_joint_derivatives(&p);
+  }
+  test_point_close(&p);
+}
+
 static void gyroscopic_moments_agree_with_differences(void **state)
 {
   (void)state;
@@ -282,7 +404,7 @@ static void gyroscopic_moments_agree_with_differences(void **state)
   test_point_close(&p);
 }
 
-/* N, move and difference belong together. */
+/* N, move and difference are consistent with each other. */
 static void the_manifold_is_consistent(void **state)
 {
   (void)state;
@@ -317,6 +439,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
+    cmocka_unit_test(couplings_agree_with_differences),
     cmocka_unit_test(gyroscopic_moments_agree_with_differences),
     cmocka_unit_test(the_manifold_is_consistent),
   };

@@ -41,7 +41,7 @@ static baum_spline_driver_def along(const double *times, const double *values, i
   return def;
 }
 
-/* A pin with a driver as joint 2, open at the design configuration. */
+/* A pin with a spline driver as joint 2, in the design configuration. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
   planar_scene scene = planar_scene_make();
@@ -50,8 +50,8 @@ static void open_cam(test_point *p, baum_spline_driver_def def)
   test_point_open(p, scene.mechanism);
 }
 
-/* s, s', s'' as the third row shows them at the design configuration at rest, where the coordinate
- * is -1.5 and its gamma 0. */
+/* Reads s, s', s'' from the third row in the design configuration at rest, where the coordinate is
+ * -1.5 and its gamma 0. */
 static void motion_at(test_point *p, double t, double s[3])
 {
   double rows[3];
@@ -67,8 +67,8 @@ static void motion_at(test_point *p, double t, double s[3])
 
 /* ---- derivatives ---- */
 
-/* No knot within [0, 2] and the steps of the differences beside it, where the third derivative
- * would jump. */
+/* No knot is in [0, 2] or within the steps of the differences around it, since the third derivative
+ * jumps there. */
 static const double FAR_TIMES[4] = {-3.0, -0.5, 2.5, 4.0};
 static const double FAR_VALUES[4] = {0.3, -1.0, 2.0, 0.3};
 
@@ -101,8 +101,8 @@ static void derivatives_agree_with_differences(void **state)
 
 /* ---- the curve ---- */
 
-/* Natural through three places, by hand: with slopes d_i over intervals h_i the second derivative
- * in the middle is M = 3 (d_1 - d_0) / (h_0 + h_1). */
+/* The natural spline through three points by hand: with slopes d_i over intervals h_i the second
+ * derivative in the middle is M = 3 (d_1 - d_0) / (h_0 + h_1). */
 static void three_places_are_joined_as_by_hand(void **state)
 {
   (void)state;
@@ -130,7 +130,7 @@ static void three_places_are_joined_as_by_hand(void **state)
   test_point_close(&p);
 }
 
-static void beside_its_times_a_natural_one_goes_straight_on(void **state)
+static void outside_of_its_times_a_natural_spline_is_straight(void **state)
 {
   (void)state;
   const double times[3] = {1.0, 1.5, 3.5};
@@ -164,9 +164,9 @@ static void sample_sine(double times[PLACES], double values[PLACES])
   }
 }
 
-/* A periodic spline of interval h through sine is off by at most 5 h^4 / 384, its derivatives by
- * h^3 / 24 and 3 h^2 / 8 (Hall and Meyer 1976); before, within and after its times. */
-static void a_periodic_one_repeats_and_follows_sine(void **state)
+/* A periodic spline of sine with intervals h has errors of at most 5 h^4 / 384, h^3 / 24 and 3 h^2
+ * / 8 in value and derivatives (Hall and Meyer 1976); before, within and after its times. */
+static void a_periodic_spline_repeats_and_follows_sine(void **state)
 {
   (void)state;
   double times[PLACES];
@@ -186,8 +186,8 @@ static void a_periodic_one_repeats_and_follows_sine(void **state)
   test_point_close(&p);
 }
 
-/* From both sides, a rounding of the time away, also where a periodic one restarts. */
-static void it_is_continuous_with_its_second_derivative(void **state)
+/* Compares 1e-12 before and after each knot, including the one where a periodic spline repeats. */
+static void second_derivatives_are_continuous(void **state)
 {
   (void)state;
   for (int periodic = 0; periodic < 2; periodic++) {
@@ -207,7 +207,7 @@ static void it_is_continuous_with_its_second_derivative(void **state)
   }
 }
 
-static void what_overflows_is_named(void **state)
+static void overflow_is_reported_with_the_spline(void **state)
 {
   (void)state;
   const double times[3] = {0.0, 1e-150, 2e-150};
@@ -233,7 +233,7 @@ static double coordinate_of(baum_simulation *run, baum_joint_id joint)
   return row[0];
 }
 
-static void a_run_follows_it_until_its_law_is_replaced(void **state)
+static void a_run_follows_the_spline_until_its_law_is_replaced(void **state)
 {
   (void)state;
   const double times[3] = {0.0, 0.5, 1.5};
@@ -258,7 +258,7 @@ static void a_run_follows_it_until_its_law_is_replaced(void **state)
   o.step = 0.01;
   assert_int_equal(baum_simulation_create(scene.mechanism, &o, &run), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
-  /* What is projected is met to rounding. */
+  /* Projection fulfils the driver to rounding. */
   ASSERT_NEAR(coordinate_of(run, pin), -0.7, 1e-12, 0.0);
   assert_int_equal(baum_simulation_set_driver(run, cam, -0.7, 2.0, 0.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
@@ -269,7 +269,7 @@ static void a_run_follows_it_until_its_law_is_replaced(void **state)
 
 /* ---- definitions ---- */
 
-static void it_keeps_copies_of_its_own(void **state)
+static void the_spline_keeps_copies_of_its_arrays(void **state)
 {
   (void)state;
   double times[3] = {0.0, 1.0, 2.0};
@@ -337,7 +337,7 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  baum_spline_driver_def def = along(times, values, 4, true); /* closed but for 1e-13 of 1 */
+  baum_spline_driver_def def = along(times, values, 4, true); /* closed except for 1e-13 of 1 */
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
@@ -363,12 +363,12 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(three_places_are_joined_as_by_hand),
-    cmocka_unit_test(beside_its_times_a_natural_one_goes_straight_on),
-    cmocka_unit_test(a_periodic_one_repeats_and_follows_sine),
-    cmocka_unit_test(it_is_continuous_with_its_second_derivative),
-    cmocka_unit_test(what_overflows_is_named),
-    cmocka_unit_test(a_run_follows_it_until_its_law_is_replaced),
-    cmocka_unit_test(it_keeps_copies_of_its_own),
+    cmocka_unit_test(outside_of_its_times_a_natural_spline_is_straight),
+    cmocka_unit_test(a_periodic_spline_repeats_and_follows_sine),
+    cmocka_unit_test(second_derivatives_are_continuous),
+    cmocka_unit_test(overflow_is_reported_with_the_spline),
+    cmocka_unit_test(a_run_follows_the_spline_until_its_law_is_replaced),
+    cmocka_unit_test(the_spline_keeps_copies_of_its_arrays),
     cmocka_unit_test(wrong_curves_are_refused),
     cmocka_unit_test(the_joint_must_stay),
   };

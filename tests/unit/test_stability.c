@@ -34,8 +34,7 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* B = 2 A for explicit Euler below zeta = 1, B = 4 A - 4 above; B = 4 - 4 A for semi-implicit
- * Euler. */
+/* Explicit Euler: B = 2 A for zeta below 1, B = 4 A - 4 above. Semi-implicit Euler: B = 4 - 4 A. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
@@ -97,7 +96,7 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    [RK3] = {0.701964181008339, 3.7592297596248}, /* zeros of R by Durand-Kerner, in Python */
+    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R by Durand-Kerner, in Python */
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -122,7 +121,7 @@ static void deadbeat_of_both_eulers_is_exact(void **state)
   }
 }
 
-/* The best points of the diagonal alpha = beta, published to two digits. */
+/* The best points on the diagonal alpha = beta, published with two digits. */
 static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
 {
   (void)state;
@@ -167,7 +166,7 @@ static double segment_distance(point w, point p, point q)
   return hypot(p.A + t * a[0] - w.A, p.B + t * a[1] - w.B);
 }
 
-/* |z| <= r for both Eulers: corners where z = (r, r), (-r, -r), (r, -r). */
+/* |z| <= r for the Euler methods: a triangle with corners where z = (r, r), (-r, -r), (r, -r). */
 static double triangle_distance(int method, point w)
 {
   double r = 0.9;
@@ -211,7 +210,7 @@ static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void *
 
 enum { COLUMNS = 300, ROWS = 500 };
 
-/* What holds the good regions. */
+/* A box that contains the good points. */
 static point box(int method)
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -219,7 +218,7 @@ static point box(int method)
                                 fmax(limit * limit, 4.0 * (method < AB2))};
 }
 
-/* Distance of the nearest good point of a grid that covers all good regions. */
+/* Distance to the nearest good point of a grid over this box. */
 static double grid_distance(int method, point w)
 {
   point most = box(method);
@@ -245,9 +244,9 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
     point w = {size * most.A * uniform(&seed, -0.2, 1.5),
                size * most.B * uniform(&seed, -0.1, 1.5)};
     point got = nearest(m, w.A, w.B);
-    /* Schur and Cohn's test and the radius round differently. */
+    /* The Schur-Cohn test and the radius round differently. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
-    /* 1 %: what a sharp tip of RK3's region may cost. */
+    /* 1 %: at a sharp tip of RK3's region the search may be worse by this. */
     assert_true(hypot(got.A - w.A, got.B - w.B) <= 1.01 * grid_distance(m, w));
   }
 }

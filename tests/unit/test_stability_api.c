@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public questions about stability: what they answer and what they refuse. */
+/* The public functions on stability: results and refusals. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 
 typedef struct fact {
   const baum_integrator *(*integrator)(void);
-  double limit; /* of alpha h for alpha = beta */
+  double limit; /* largest alpha h for alpha = beta */
 } fact;
 
 static const fact FACTS[] = {
@@ -82,8 +82,8 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
-/* What an integrator knows of itself is what a search without it finds. */
-static void known_best_points_are_found_too(void **state)
+/* The best points stored with an integrator are those that a search finds. */
+static void the_search_finds_the_stored_best_points(void **state)
 {
   (void)state;
   int known = 0;
@@ -94,7 +94,7 @@ static void known_best_points_are_found_too(void **state)
       double found[2];
       method.best[0] = 0.0;
       baum_i_stability_best(&method, &found[0], &found[1]);
-      ASSERT_NEAR(best[0], found[0], 1e-9, 0.0); /* the search closes in to 1e-10 or so */
+      ASSERT_NEAR(best[0], found[0], 1e-9, 0.0); /* accuracy of the search: 1e-10 */
       ASSERT_NEAR(best[1], found[1], 1e-9, 0.0);
       known++;
     }
@@ -117,7 +117,7 @@ static void a_grid_has_the_radii_of_its_points(void **state)
     for (int j = 0; j < ROWS; j++) {
       for (int i = 0; i < COLUMNS; i++) {
         ASSERT_NEAR(radius[j * COLUMNS + i], radius_at(integrator, 0.1 + 0.1 * i, 0.2 - 0.1 * j),
-                    1e-7, 0.0); /* a double root takes a rounding of the point by its square root */
+                    1e-7, 0.0); /* a double root moves by the root of a rounding */
       }
     }
     assert_true(radius[COLUMNS * ROWS] == 7.0);
@@ -126,8 +126,8 @@ static void a_grid_has_the_radii_of_its_points(void **state)
   ASSERT_NEAR(radius[0], radius_at(baum_rk4(), 0.1, 0.2), 1e-14, 0.0);
 }
 
-/* Rays along the axis, and a grid whose width is beyond double. */
-static void the_ends_of_double_are_answered(void **state)
+/* Rays next to an axis, and a grid whose width overflows. */
+static void extreme_numbers_have_an_answer(void **state)
 {
   (void)state;
   const double all[2] = {-1.5e308, 1.5e308};
@@ -137,7 +137,7 @@ static void the_ends_of_double_are_answered(void **state)
     double alpha_h = 7.0;
     int32_t count = 0;
     assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
-    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* 1e3 times the ratio at most */
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* at most 1e3 times the ratio */
     assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
                      BAUM_OK);
     assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
@@ -164,12 +164,12 @@ static void outlines_are_counted_and_cut(void **state)
         assert_int_equal(status, BAUM_ERR_UNSUPPORTED);
         continue;
       }
-      assert_in_range(all, 100, CAPACITY); /* the capacity that the header recommends */
+      assert_in_range(all, 100, CAPACITY); /* 2000 is the capacity that the header recommends */
       assert_int_equal(
         baum_stability_outline(integrator, levels[r], CAPACITY, alpha_h, beta2_h2, &count),
         BAUM_OK);
       assert_int_equal(count, all);
-      int32_t last = 0; /* of the first curve, which is closed */
+      int32_t last = 0; /* end of the first curve, which is closed */
       while (last + 1 < count && !isnan(alpha_h[last + 1])) {
         last++;
       }
@@ -216,7 +216,7 @@ static void methods_without_a_region_are_refused(void **state)
   ASSERT_REFUSED(baum_stability_outline(k, 1.0, 0, NULL, NULL, &n), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_deadbeat(baum_ab2(), &x, &y), BAUM_ERR_UNSUPPORTED,
                  "ab2 uses several past steps, so no gains remove a violation in one step; "
-                 "baum_stability_best() has the point of fastest decay");
+                 "baum_stability_best() returns the point of fastest decay");
   baum_amplification out;
   assert_int_equal(baum_stability_at(baum_rattle(), 1.0, 1.0, &out, sizeof out), BAUM_OK);
   assert_int_equal(out.stability, BAUM_WITHOUT_GAINS);
@@ -292,9 +292,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(limits_are_the_published_ones),
     cmocka_unit_test(the_best_points_are_at_least_as_good_as_those_of_a_ray),
-    cmocka_unit_test(known_best_points_are_found_too),
+    cmocka_unit_test(the_search_finds_the_stored_best_points),
     cmocka_unit_test(a_grid_has_the_radii_of_its_points),
-    cmocka_unit_test(the_ends_of_double_are_answered),
+    cmocka_unit_test(extreme_numbers_have_an_answer),
     cmocka_unit_test(outlines_are_counted_and_cut),
     cmocka_unit_test(every_integrator_has_a_statement),
     cmocka_unit_test(methods_without_a_region_are_refused),

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Length of the next step: the formulas by hand, their bounds, and what control does with a known
- * error. */
+/* Step-size control: the formulas by hand, their bounds, and its behaviour with a known error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,8 +27,8 @@ static void the_first_step_goes_by_its_error_alone(void **state)
   ASSERT_NEAR(control.step, 0.1 * 0.85 * 2.0, 1e-15, 0.0);
 }
 
-/* Errors 1/32 and 1/32 with the same step: no trend, and the memory of the error before takes a
- * little off. */
+/* Two errors of 1/32 with the same step: there is no trend, and the previous error shortens the
+ * step slightly. */
 static void a_steady_error_is_kept(void **state)
 {
   (void)state;
@@ -40,7 +39,8 @@ static void a_steady_error_is_kept(void **state)
   ASSERT_NEAR(control.step, 0.1 * 0.85 * pow(1.0 / 32.0, 1.75 * b - 0.2), 1e-15, 0.0);
 }
 
-/* The error doubles twice from one step to the next, and will again. */
+/* The error grows fourfold from one step to the next, and the control expects the same growth
+ * again. */
 static void a_growing_error_is_foreseen(void **state)
 {
   (void)state;
@@ -75,8 +75,8 @@ static void after_a_refusal_steps_do_not_grow_at_once(void **state)
   assert_true(control.step > 0.1);
 }
 
-/* Of an error c(t) h^5 whose c grows and falls by a hundred, one step in twenty is refused at most,
- * and most of the tolerance is used: half of the steps have an error above a tenth of it. */
+/* The error is c(t) h^5, where c varies by a factor of a hundred. At most one step in twenty is
+ * refused, and at least half of the steps have an error above a tenth of the tolerance. */
 static void a_varying_error_is_followed(void **state)
 {
   (void)state;

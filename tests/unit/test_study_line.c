@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is written into a line is read back to the bit; what no study writes is refused. */
+/* A line of a study file is read back bit for bit; lines that no study writes are refused. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -53,7 +53,7 @@ static void numbers_of_all_kinds_come_back(void **state)
   }
 }
 
-static void what_no_study_writes_is_refused(void **state)
+static void lines_that_no_study_writes_are_refused(void **state)
 {
   (void)state;
   const baum_i_field fields[] = {
@@ -116,7 +116,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(numbers_of_all_kinds_come_back),
-    cmocka_unit_test(what_no_study_writes_is_refused),
+    cmocka_unit_test(lines_that_no_study_writes_are_refused),
     cmocka_unit_test(states_and_statuses_are_those_that_there_are),
     cmocka_unit_test(a_line_is_of_one_study_and_as_it_was_written),
   };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What CVODE and IDA answer when they give up, as messages: flag by flag, and as far as runs can be
- * brought to it. */
+/* Failures of CVODE and IDA as messages: flag by flag, and in runs that provoke them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +22,8 @@
 
 /* ---- flag by flag ---- */
 
-/* What a call of one step can answer where no evaluation has failed; an evaluation tells itself. */
+/* Flags that a step can return although no evaluation has failed; failed evaluations have messages
+ * of their own. */
 static const struct {
   int cvode;
   int ida;
@@ -33,9 +33,9 @@ static const struct {
   {CV_TOO_MUCH_ACC, IDA_TOO_MUCH_ACC, BAUM_ERR_STEP, "more digits than double precision has"},
   {CV_ERR_FAILURE, IDA_ERR_FAIL, BAUM_ERR_STEP, "error stays above the tolerance"},
   {CV_CONV_FAILURE, IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE, "iteration does not converge"},
-  {CV_TOO_CLOSE, 0, BAUM_ERR_STEP, "no first step can be found"}, /* IDA has none */
+  {CV_TOO_CLOSE, 0, BAUM_ERR_STEP, "no first step can be found"}, /* IDA has no such flag */
   {CV_LSETUP_FAIL, IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR, "cannot be factored; take"},
-  {CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR, "iteration failed; take"},
+  {CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR, "could not be solved; take"},
   {CV_NLS_FAIL, IDA_NLS_FAIL, BAUM_ERR_CONVERGENCE, "iteration failed; take"},
   {CV_ILL_INPUT, IDA_ILL_INPUT, BAUM_ERR_NOT_FINITE, "not finite; the motion grows"},
   {CV_MEM_FAIL, IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
@@ -72,7 +72,7 @@ static int give_flag(baum_i_sundials *run, double target, double *tau)
   return answer;
 }
 
-/* A step of 0.001 s from t = 0 that a package ends with this flag. */
+/* Takes a step of 0.001 s from t = 0 with a package that returns this flag. */
 static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
 {
   const baum_i_sundials_package package = {
@@ -88,7 +88,7 @@ static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
   return baum_i_sundials_advance(&run, &problem, &state);
 }
 
-static void every_flag_has_a_sentence_with_time_and_step(void **state)
+static void every_flag_has_a_message_with_time_and_step(void **state)
 {
   (void)state;
   for (int flag = CV_UNRECOGNIZED_ERR; flag < 0; flag++) {
@@ -102,18 +102,18 @@ static void every_flag_has_a_sentence_with_time_and_step(void **state)
   }
 }
 
-/* ---- brought about ---- */
+/* ---- in runs ---- */
 
 typedef enum fault {
   FAULT_NONE,
-  FAULT_JUMPS, /* another force at every time: steps converge and err */
-  FAULT_NOISE, /* and at every place: they do not converge */
+  FAULT_JUMPS, /* another force at every time: iterations converge, but errors are large */
+  FAULT_NOISE, /* another force at every time and place: iterations do not converge */
   FAULT_NAN,
   FAULT_RETRIES,
   FAULT_STOPS
 } fault;
 
-/* Of 1, and says nothing of x. */
+/* A pseudo-random number of size 1 that depends on the bits of x. */
 static double noise(double x)
 {
   uint64_t bits;
@@ -164,7 +164,7 @@ static baum_mechanism *make_thrown(fault *now)
 static const struct {
   fault fault;
   baum_status status;
-  const char *words; /* all of them in the message */
+  const char *words; /* parts of the message */
 } BROUGHT[] = {
   {FAULT_JUMPS, BAUM_ERR_STEP, "error stays above the tolerance|(step |last good step, t = |take "},
   {FAULT_NOISE, BAUM_ERR_CONVERGENCE, "does not converge|(step |last good step, t = |take "},
@@ -173,8 +173,8 @@ static const struct {
   {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
 };
 
-/* From one call to the next everything goes wrong at once, so that steps cannot end before it; then
- * it is well again. */
+/* The fault begins between two calls, so that the first step after it fails. Without the fault the
+ * run continues. */
 static void bring_about(const baum_integrator *integrator, int k)
 {
   fault now = FAULT_NONE;
@@ -193,14 +193,14 @@ static void bring_about(const baum_integrator *integrator, int k)
   assert_true(t >= 0.1 && t < 1.0);
   now = FAULT_NONE;
   assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
-  if (BROUGHT[k].fault >= FAULT_NAN) { /* of the others a step may have been taken */
+  if (BROUGHT[k].fault >= FAULT_NAN) { /* with the other faults a step may have been taken */
     assert_true(fabs(baum_simulation_q(run)[0] - 1.5) <= 1e-5); /* 10 rtol */
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
 
-static void failures_that_can_be_brought_about_are_told(void **state)
+static void failures_that_can_be_provoked_have_their_messages(void **state)
 {
   (void)state;
   const baum_integrator *const all[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
@@ -214,8 +214,8 @@ static void failures_that_can_be_brought_about_are_told(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_flag_has_a_sentence_with_time_and_step),
-    cmocka_unit_test(failures_that_can_be_brought_about_are_told),
+    cmocka_unit_test(every_flag_has_a_message_with_time_and_step),
+    cmocka_unit_test(failures_that_can_be_provoked_have_their_messages),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

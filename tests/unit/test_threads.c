@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism in many threads, and variants of it made by them. To be run under the thread
- * sanitizer as well.
+/* Several threads use one mechanism, and make variants of it. Also run under the thread sanitizer.
  *
- * cmocka's checks are for the main thread: the others only report.
+ * Only the main thread may use cmocka's checks; the other threads return their results.
  */
 #include <pthread.h>
 #include <setjmp.h>
@@ -23,18 +22,18 @@ enum { THREADS = 8 };
 
 static const double END = 0.2;
 
-/* ---- what a thread does ---- */
+/* ---- the work of a thread ---- */
 
-/* A run from the start to END, and what it found there. */
+/* A run from the start to END and its result. */
 typedef struct job {
   const baum_mechanism *mechanism;
   const baum_integrator *integrator;
-  bool variable; /* its own steps, of one that takes both */
+  bool variable; /* variable steps, if the method has both kinds */
   baum_status status;
   double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
-  const every_element *parts; /* of a variant's job */
+  const every_element *parts; /* for a variant */
   double mass;                /* likewise */
 } job;
 
@@ -72,7 +71,7 @@ static void *run_simulate(void *argument)
   return NULL;
 }
 
-/* A thread for each job; waits for all. */
+/* Runs each job in a thread of its own and waits for all. */
 static void in_threads(void *(*function)(void *), job jobs[THREADS])
 {
   pthread_t threads[THREADS];
@@ -84,7 +83,7 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Integrators that can run here, one after the other; the mechanism has degrees of freedom. */
+/* The k-th integrator that this build can run with a mechanism with degrees of freedom. */
 static const baum_integrator *choose(int k)
 {
   int count = 0;
@@ -126,7 +125,7 @@ static void runs_that_share_a_mechanism_are_those_of_one_thread(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The same method in all threads, each in all its ways to step: nothing of it may be shared. */
+/* The same method and kind of step in all threads, which must not share any data. */
 static void runs_of_one_method_do_not_disturb_each_other(void **state)
 {
   (void)state;
@@ -151,7 +150,7 @@ static void runs_of_one_method_do_not_disturb_each_other(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The mechanism is given up while others still use theirs. */
+/* Destroys the mechanism while other threads use theirs. */
 static void *share_and_destroy(void *argument)
 {
   job *j = argument;
@@ -248,13 +247,13 @@ static void *fail_by_number(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* not what it should be */
+      j->status = BAUM_ERR_INTEGRATOR; /* another message than expected */
     }
   }
   return NULL;
 }
 
-static void each_thread_has_its_own_sentence(void **state)
+static void each_thread_has_its_own_message(void **state)
 {
   (void)state;
   static job jobs[THREADS];
@@ -269,7 +268,7 @@ static void each_thread_has_its_own_sentence(void **state)
 
 /* ---- cancelling ---- */
 
-/* A run without end, which tells when it has begun. */
+/* A run without end that reports when it has begun. */
 typedef struct endless {
   baum_simulation *run;
   atomic_bool begun;
@@ -335,7 +334,7 @@ int main(void)
     cmocka_unit_test(runs_of_one_method_do_not_disturb_each_other),
     cmocka_unit_test(each_thread_may_give_up_its_own_mechanism),
     cmocka_unit_test(variants_of_one_mechanism_are_made_in_threads),
-    cmocka_unit_test(each_thread_has_its_own_sentence),
+    cmocka_unit_test(each_thread_has_its_own_message),
     cmocka_unit_test(a_run_is_cancelled_from_another_thread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

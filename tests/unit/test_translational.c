@@ -36,7 +36,7 @@ static baum_planar_translational_def good(const planar_scene *scene)
   return def;
 }
 
-/* The design with one slider, not frozen. */
+/* The design configuration with one slider, not frozen. */
 static void open_with(test_point *p, planar_scene *scene, const baum_planar_translational_def *def)
 {
   assert_int_equal(add(scene->mechanism, def), BAUM_OK);
@@ -47,7 +47,7 @@ static baum_i_coordinate coordinate_of(const test_point *p)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
   baum_i_coordinate c;
-  joint->type->coordinate(joint, &p->point, &c);
+  joint->type->coordinate(joint, 0, &p->point, &c);
   return c;
 }
 
@@ -82,7 +82,7 @@ static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(voi
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding at 5 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding of lengths of 5 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   ASSERT_NEAR(coordinate_of(&p).value, 5.0, 1e-15, 0.0);
   test_point_close(&p);
@@ -98,7 +98,7 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   def.angle = 0.0;
   test_point p;
   open_with(&p, &scene, &def);
-  /* Link turned by a quarter: its second axis is the ground's first, turned round. */
+  /* The link is turned by 90 degrees: its second axis is minus the first axis of ground. */
   const baum_mechanism *m = p.mechanism;
   double *link = p.q + m->bodies[scene.link.index1]->q;
   double *crank = p.q + m->bodies[scene.crank.index1]->q;
@@ -112,8 +112,7 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* Points (0.3, -0.2) and (-0.45, 0.15) in the axes of both; crank's origin is (5, 7) in
-   * link's. */
+  /* Points (0.3, -0.2) and (-0.45, 0.15) in body axes; crank's origin is (5, 7) in link's axes. */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
   ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0); /* along k x axis = (-1, 0) */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
@@ -167,9 +166,9 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_translational_def, point_a[0]), TEST_INFINITY,
      "joint 1 \"D\": point_a[0] is inf m, must be finite"},
     {offsetof(baum_planar_translational_def, axis[0]), TEST_NAN,
-     "joint 1 \"D\": axis[0] is nan [-], must be finite"},
+     "joint 1 \"D\": axis[0] is nan, must be finite"},
     {offsetof(baum_planar_translational_def, axis[1]), TEST_INFINITY,
-     "joint 1 \"D\": axis[1] is inf [-], must be finite"},
+     "joint 1 \"D\": axis[1] is inf, must be finite"},
     {offsetof(baum_planar_translational_def, axis[0]), 0.0,
      "joint 1 \"D\": axis is (0, 0), must have a direction"},
     {offsetof(baum_planar_translational_def, angle), -TEST_INFINITY,

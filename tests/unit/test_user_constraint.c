@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User constraints: bodies, functions that fail, definitions. Derivatives have a file of their
- * own. */
+/* User constraints: bodies, failing functions, definitions. Derivatives are tested in
+ * test_user_constraint_derivatives.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@
 
 /* ---- bodies ---- */
 
-/* Phi = the sum of i q_i over what it is passed: its Jacobian shows the order. */
+/* Phi = sum of (i + 1) q_i over the coordinates passed: the Jacobian shows their order. */
 static int weights_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -50,7 +50,7 @@ static void coordinates_come_in_the_order_in_which_bodies_are_named(void **state
   def.phi = weights_phi;
   def.user = &count;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &def, NULL), BAUM_OK);
-  memset(bodies, 0, sizeof bodies); /* they were copied */
+  memset(bodies, 0, sizeof bodies); /* the definition was copied */
   (void)extra;
 
   test_point p;
@@ -128,7 +128,7 @@ static void open_failing(test_point *p, failure *f, bool given)
   test_point_update(p);
 }
 
-static void an_answer_above_zero_asks_for_a_smaller_step(void **state)
+static void a_positive_return_value_requests_a_smaller_step(void **state)
 {
   (void)state;
   failure f = {.answer = 1};
@@ -194,7 +194,7 @@ static void every_difference_passes_a_failure_on(void **state)
     assert_int_equal(baum_i_mechanism_jacobian(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_nu(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
-    p.v[0] = 0.1; /* so slow that it is asked whether Phi changes with t alone */
+    p.v[0] = 0.1; /* so slow that gamma() first tests whether Phi depends on t alone */
     test_point_update(&p);
     f.calls = 0;
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
@@ -326,7 +326,7 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   assert_int_equal(baum_mechanism_set_user_constraint(f.mechanism, id, &next), BAUM_OK);
   assert_int_equal(baum_mechanism_get_user_constraint(f.mechanism, id, &got, sizeof got), BAUM_OK);
   check_same(&got, &next);
-  /* Its own pointers may be given back to it. */
+  /* The pointers that were read may be passed back. */
   assert_int_equal(baum_mechanism_set_user_constraint(f.mechanism, id, &got), BAUM_OK);
   baum_mechanism_destroy(f.mechanism);
 }
@@ -352,7 +352,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(coordinates_come_in_the_order_in_which_bodies_are_named),
-    cmocka_unit_test(an_answer_above_zero_asks_for_a_smaller_step),
+    cmocka_unit_test(a_positive_return_value_requests_a_smaller_step),
     cmocka_unit_test(an_answer_below_zero_stops),
     cmocka_unit_test(values_that_are_not_finite_are_named),
     cmocka_unit_test(every_difference_passes_a_failure_on),

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives of user constraints: what is given is used, what is missing is differenced.
+/* Derivatives of user constraints: given ones are used, missing ones are computed by differences.
  *
- * Tolerances are scaled: in units of what a change of one scale, at the rate of the state, does to
- * the quantity.
+ * Tolerances are in units of the change of the quantity when the state changes by one scale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +22,7 @@ enum { KIND_COUNT = 3 };
 
 /* ---- derivatives ---- */
 
-/* The same constraint twice: with what is to be tested, and with everything given. */
+/* The same constraint twice: with the derivatives to be tested, and with all given. */
 typedef struct pair {
   user_model model;
   const user_kind *kind;
@@ -45,7 +44,7 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Positions within two scales, velocities within three scales times the rate. */
+/* Random positions within two scales, velocities within three scales times the rate. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
@@ -62,7 +61,7 @@ static void move_pair(pair *s, uint64_t *seed)
   test_point_update(&s->want);
 }
 
-/* Size of Phi for a change of one scale. */
+/* Change of Phi when a coordinate changes by one scale. */
 static double phi_size(const pair *s)
 {
   double l = s->model.length;
@@ -76,7 +75,7 @@ static void compare(const double *got, const double *want, int count, double all
   }
 }
 
-/* How fast the state changes: by v, or by the model's own time. */
+/* Rate of change of the state, by v or by the model's explicit time. */
 static double rate_of(const pair *s)
 {
   double rate = s->model.rate;
@@ -86,7 +85,7 @@ static double rate_of(const pair *s)
   return rate;
 }
 
-/* nu and gamma carry the rate once and twice. */
+/* nu is proportional to the rate, gamma to its square. */
 static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
                        double gamma_tolerance)
 {
@@ -130,7 +129,7 @@ static void given_derivatives_are_used_as_they_are(void **state)
   for_each_pair(GIVE_ALL, 0.0, 0.0, 0.0);
 }
 
-/* Truncation and rounding of one seven-point second difference, step 1/64: measured 3e-11. */
+/* Error of one seven-point second difference with a step of 1/64: measured 3e-11. */
 static void from_phi_alone_gamma_is_good_to_1e_10(void **state)
 {
   (void)state;
@@ -158,7 +157,7 @@ static void with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11(vo
   }
 }
 
-static void what_is_given_serves_where_something_is_missing(void **state)
+static void given_derivatives_are_used_for_missing_ones(void **state)
 {
   (void)state;
   for_each_pair(GIVE_JACOBIAN, 0.0, 1e-11, 1e-10);
@@ -182,8 +181,8 @@ static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **stat
   }
 }
 
-/* Nothing moves, so that nothing tells how fast time works: 300 1/s has to be found by the search
- * for a step. Where the two orders happen to agree it ends one step early: 1e-8. */
+/* At rest, v does not indicate the time scale: 300 1/s has to be found by the search for a step. If
+ * two orders agree by chance, the search ends one step early: 1e-8. */
 static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
 {
   (void)state;
@@ -199,7 +198,7 @@ static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
   close_pair(&s);
 }
 
-/* A mechanism of microseconds or of years: v tells. */
+/* A mechanism with motions of microseconds or of years; v indicates the time scale. */
 static void slow_and_fast_motion_is_differenced_alike(void **state)
 {
   (void)state;
@@ -306,7 +305,7 @@ static void a_block_that_is_not_wanted_is_not_written(void **state)
 
 enum { WIDE = 12 };
 
-/* Rows of sines of sums over all coordinates; `user` is the number of rows. */
+/* Rows of sines of sums of all coordinates; `user` is the number of rows. */
 static int wide_phi(double t, const double *q, double *out, void *user)
 {
   int rows = *(int *)user;
@@ -320,7 +319,7 @@ static int wide_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Memory is asserted inside; what is missing needs most of it. */
+/* Asserts in the library test the memory; missing derivatives need most of it. */
 static void scratch_memory_is_enough_for_wide_and_for_tall_constraints(void **state)
 {
   (void)state;
@@ -358,7 +357,7 @@ int main(void)
     cmocka_unit_test(from_phi_alone_gamma_is_good_to_1e_10),
     cmocka_unit_test(with_a_jacobian_and_nu_gamma_is_good_to_1e_11),
     cmocka_unit_test(with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11),
-    cmocka_unit_test(what_is_given_serves_where_something_is_missing),
+    cmocka_unit_test(given_derivatives_are_used_for_missing_ones),
     cmocka_unit_test(at_rest_gamma_of_what_time_does_not_move_is_exactly_zero),
     cmocka_unit_test(at_rest_a_fast_drive_is_differenced_as_well),
     cmocka_unit_test(slow_and_fast_motion_is_differenced_alike),

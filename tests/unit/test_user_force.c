@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User forces. The example acts on two bodies of user coordinates (x, y), (b, th, ga), named in
- * the other order, so that it is passed (b, th, ga, x, y): f = k (y - sin b) pulls y back and
- * rotates b, and there is a damper on x. */
+/* User forces. The example acts on two bodies of user coordinates, (x, y) and (b, th, ga), which
+ * the definition lists in the other order, so that it receives (b, th, ga, x, y). f = k (y - sin b)
+ * pulls y back and acts on b, and there is a damper on x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ typedef struct spring {
   double k;
   double d;
   int answer;
-  const char *says; /* of its answer */
+  const char *says; /* explanation of the return value */
 } spring;
 
 static int spring_force(double t, const double *q, const double *v, const double *inputs,
@@ -150,7 +150,7 @@ static void the_potential_is_that_of_the_force(void **state)
   test_point_close(&p);
 }
 
-static void without_a_potential_there_is_none(void **state)
+static void a_force_without_a_potential_has_potential_zero(void **state)
 {
   (void)state;
   fixture f;
@@ -195,7 +195,7 @@ static void check_blocks(bool given, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of sixth order: measured 2e-12 for values up to 20. */
+/* Differences of order 6 have a measured error of 2e-12 for values up to 20. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;
@@ -233,7 +233,7 @@ static void failing_functions_are_named(void **state)
   assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(),
                       "force 1 \"spring\": force() returned -1 (stop): the table ends at 3 m");
-  f.spring.says = NULL; /* what was said before is not of this call */
+  f.spring.says = NULL; /* the explanation of the last call must not be repeated */
   assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
   const baum_i_force_blocks blocks[] = {{.force_q = out}, {.force_v = out}};
@@ -326,7 +326,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_force_is_added_to_its_bodies),
     cmocka_unit_test(the_potential_is_that_of_the_force),
-    cmocka_unit_test(without_a_potential_there_is_none),
+    cmocka_unit_test(a_force_without_a_potential_has_potential_zero),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),
     cmocka_unit_test(failing_functions_are_named),

@@ -10,8 +10,8 @@
     run = m.freeze().simulate(times, "rk4", step=1e-3, record=["circle.phi", "energy"])
     run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
 
-The C library is searched beside this package, in the build tree, and where the system's loader
-looks; the environment variable BAUM_LIBRARY names another file.
+The package searches for the C library in its own folder, in the build tree, and on the path of the
+system's loader. If the environment variable BAUM_LIBRARY is set, it names the file to load.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ library_version = _lib.version
 
 
 def __getattr__(name: str) -> Any:
-    # A separate library, which may be missing.
+    # The catalogue is a separate library, which may be missing.
     if name == "catalog":
         return importlib.import_module(".catalog", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -114,6 +114,15 @@ class baum_user_constraint_def(Structure):
     ]
 
 
+class baum_joint_coordinate(enum.IntEnum):
+    BAUM_COORDINATE_FIRST = 0
+    BAUM_COORDINATE_DISPLACEMENT = 1
+    BAUM_COORDINATE_ANGLE = 2
+    BAUM_COORDINATE_ANGLE_B = 3
+    BAUM_COORDINATE_X = 4
+    BAUM_COORDINATE_Y = 5
+
+
 class baum_driver_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -124,6 +133,7 @@ class baum_driver_def(Structure):
         ("acceleration", c_double),
         ("law", baum_law_fn),
         ("user", c_void_p),
+        ("coordinate", c_int),
     ]
 
 
@@ -140,6 +150,8 @@ class baum_coupling_def(Structure):
         ("offset", c_double),
         ("law", baum_coupling_fn),
         ("user", c_void_p),
+        ("coordinate_a", c_int),
+        ("coordinate_b", c_int),
     ]
 
 
@@ -153,6 +165,24 @@ class baum_user_force_def(Structure):
         ("force_q", baum_force_fn),
         ("force_v", baum_force_fn),
         ("potential", baum_q_fn),
+        ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
+    ]
+
+
+baum_spring_fn = CFUNCTYPE(c_int, c_double, c_double, c_void_p, c_void_p)
+
+
+class baum_joint_spring_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint", baum_joint_id),
+        ("coordinate", c_int),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_value", c_double),
+        ("law", baum_spring_fn),
         ("user", c_void_p),
         ("depends_on_velocity", c_bool),
     ]
@@ -313,6 +343,7 @@ class baum_channel(Structure):
         ("body", baum_body_id),
         ("joint", baum_joint_id),
         ("point", c_double * 3),
+        ("coordinate", c_int),
     ]
 
 
@@ -420,6 +451,27 @@ class baum_warning(Structure):
     ]
 
 
+class baum_page(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("title", c_char_p),
+        ("times", c_void_p),
+        ("count", c_int64),
+        ("channels", POINTER(baum_channel)),
+        ("channel_count", c_int32),
+        ("rows", c_void_p),
+        ("plots", c_void_p),
+        ("plot_count", c_int32),
+        ("plot_stride", c_int32),
+        ("plot_labels", POINTER(c_char_p)),
+        ("traces", POINTER(baum_channel)),
+        ("trace_count", c_int32),
+        ("mark_times", c_void_p),
+        ("mark_texts", POINTER(c_char_p)),
+        ("mark_count", c_int32),
+    ]
+
+
 class baum_residual(enum.IntEnum):
     BAUM_RESIDUAL_INDEX1 = 1
     BAUM_RESIDUAL_INDEX2 = 2
@@ -455,6 +507,7 @@ class baum_event_def(Structure):
         ("terminal", c_bool),
         ("tolerance", c_double),
         ("user", c_void_p),
+        ("coordinate", c_int),
     ]
 
 
@@ -542,9 +595,6 @@ class baum_planar_fixed_def(Structure):
         ("point_b", c_double * 2),
         ("angle", c_double),
     ]
-
-
-baum_spring_fn = CFUNCTYPE(c_int, c_double, c_double, c_void_p, c_void_p)
 
 
 class baum_planar_spring_def(Structure):
@@ -935,6 +985,7 @@ class baum_spatial_planar_def(Structure):
         ("point_b", c_double * 3),
         ("axis", c_double * 3),
         ("axis_b", c_double * 3),
+        ("x_axis", c_double * 3),
     ]
 
 
@@ -998,6 +1049,7 @@ class baum_spline_driver_def(Structure):
         ("values", c_void_p),
         ("count", c_int32),
         ("periodic", c_bool),
+        ("coordinate", c_int),
     ]
 
 
@@ -1061,7 +1113,7 @@ class baum_catalog_error(Structure):
     ]
 
 
-# Result and arguments of every function.
+# Result and argument types of every function.
 PROTOTYPES = {
     "baum_status_name": (c_char_p, [c_int]),
     "baum_status_text": (c_char_p, [c_int]),
@@ -1112,6 +1164,16 @@ PROTOTYPES = {
     ]),
     "baum_mechanism_set_user_force": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_user_force_def),
+    ]),
+    "baum_joint_spring_def_init": (None, [POINTER(baum_joint_spring_def), c_size_t]),
+    "baum_mechanism_add_joint_spring": (c_int, [
+        c_void_p, POINTER(baum_joint_spring_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_joint_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_joint_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_set_joint_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_joint_spring_def),
     ]),
     "baum_mechanism_add_input": (c_int, [c_void_p, c_char_p, c_double, POINTER(baum_input_id)]),
     "baum_mechanism_get_input": (c_int, [c_void_p, baum_input_id, c_void_p]),
@@ -1221,6 +1283,13 @@ PROTOTYPES = {
     "baum_mechanism_break_times": (c_void_p, [c_void_p, POINTER(c_int32)]),
     "baum_simulation_schedule_input": (c_int, [
         c_void_p, baum_input_id, c_void_p, c_void_p, c_int32,
+    ]),
+    "baum_mechanism_svg": (c_int, [c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
+    "baum_mechanism_write_svg": (c_int, [c_void_p, c_void_p, c_char_p]),
+    "baum_page_init": (None, [POINTER(baum_page), c_size_t]),
+    "baum_page_write": (c_int, [c_void_p, POINTER(baum_page), c_char_p]),
+    "baum_page_print": (c_int, [
+        c_void_p, POINTER(baum_page), c_char_p, c_size_t, POINTER(c_size_t),
     ]),
     "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_workspace_destroy": (None, [c_void_p]),
@@ -1605,7 +1674,7 @@ PROTOTYPES = {
     "baum_has": (c_bool, [c_char_p]),
 }
 
-# Those of the library of the catalogue.
+# The same for the library of the catalogue.
 CATALOG_PROTOTYPES = {
     "baum_catalog_count": (c_int32, []),
     "baum_catalog_entry_at": (c_int, [c_int32, POINTER(baum_catalog_entry), c_size_t]),
@@ -1623,15 +1692,17 @@ CATALOG_PROTOTYPES = {
     ]),
 }
 
-# Structs that the caller fills, and the function that sets their defaults.
+# Structs that the caller fills, and the functions that set their defaults.
 DEFAULTS = {
     baum_coordinates_def: "baum_coordinates_def_init",
     baum_user_constraint_def: "baum_user_constraint_def_init",
     baum_driver_def: "baum_driver_def_init",
     baum_coupling_def: "baum_coupling_def_init",
     baum_user_force_def: "baum_user_force_def_init",
+    baum_joint_spring_def: "baum_joint_spring_def_init",
     baum_simulation_options: "baum_simulation_options_init",
     baum_channel: "baum_channel_init",
+    baum_page: "baum_page_init",
     baum_event_def: "baum_event_def_init",
     baum_planar_body_def: "baum_planar_body_def_init",
     baum_planar_particle_def: "baum_planar_particle_def_init",
@@ -1675,6 +1746,7 @@ STRUCTS = [
     baum_driver_def,
     baum_coupling_def,
     baum_user_force_def,
+    baum_joint_spring_def,
     baum_mobility,
     baum_report,
     baum_gains,
@@ -1685,6 +1757,7 @@ STRUCTS = [
     baum_energy_account,
     baum_near_singular,
     baum_warning,
+    baum_page,
     baum_dae,
     baum_sparse,
     baum_event_def,

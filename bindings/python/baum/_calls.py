@@ -25,7 +25,7 @@ Call = Callable[..., Any]
 
 _here = threading.local()
 
-# What a call returns if a callback stopped it.
+# Statuses of calls that a callback has stopped.
 STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
@@ -42,7 +42,7 @@ def make(function: Call, *arguments: Any) -> errors.Status:
     status below 0.
 
     A call may succeed although a callback failed, for example where the library evaluates a
-    mechanism at times that the run will not reach. The exception is then discarded.
+    mechanism at times that the run will not reach. In this case the exception is discarded.
     """
     _here.error = None
     status = function(*arguments)
@@ -84,7 +84,7 @@ class _Task:
 
     def claim(self) -> bool:
         """Whether the caller is the first to claim this call. Only the first may make or discard
-        it, because Ctrl-C may strike before the call has reached the worker."""
+        the call, because Ctrl-C may interrupt before the worker has received it."""
         me = object()
         return self._claims.setdefault("first", me) is me
 
@@ -149,8 +149,8 @@ def in_main_thread() -> bool:
 
 def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | None = None) -> Any:
     """Make a call that Ctrl-C can stop: KeyboardInterrupt cancels it, waits until it returns, and
-    is then raised. A second Ctrl-C does not wait; the objects that the call uses stay alive and
-    busy until it returns."""
+    is then raised. A second Ctrl-C raises it without waiting; the objects that the call uses then
+    stay alive and busy until the call returns."""
     global _worker
     if not in_main_thread():
         return function(*arguments)
@@ -193,13 +193,13 @@ class Handle:
         self._what = what
         self._users: dict[str, object] = {}
         self._destroy = weakref.finalize(self, destroy, address)
-        # Not at exit: a call that was left behind may still use the object.
+        # Not destroyed at exit: a call that still runs in another thread may use the object.
         self._destroy.atexit = False
 
     def __reduce__(self) -> NoReturn:
         raise TypeError(
-            f"a {self._what}, and what holds one, cannot be pickled; build it in each process, and "
-            "send arrays, such as run.q"
+            f"a {self._what}, or an object that contains one, cannot be pickled; build it in each "
+            "process, and send arrays, such as run.q"
         )
 
     @property
@@ -221,8 +221,8 @@ class Handle:
 
     def call(self, function: Call, *arguments: Any) -> errors.Status:
         """Like make(), with this object as the first argument."""
-        # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C
-        # strikes.
+        # dict.setdefault() is atomic. Unlike the acquisition of a lock it can be undone safely if
+        # Ctrl-C interrupts it.
         me = object()
         try:
             if self._users.setdefault("now", me) is not me:
@@ -246,7 +246,7 @@ class Handle:
 
     def _in_use(self) -> str:
         instead = (
-            "; its functions have the t, q and v that they are given, and for multipliers "
+            "; its functions can use their arguments t, q and v, and for multipliers "
             "acceleration(t, q, v) of a baum.Workspace"
         )
         return f"this {self._what} is in use by another call" + instead * (
@@ -268,6 +268,6 @@ class Closing:
         return self
 
     def __exit__(self, *error: object) -> None:
-        # A second Ctrl-C may have left a call behind, which still uses it.
+        # After a second Ctrl-C a call may still run in another thread and use the object.
         if not self._owner.busy:
             self.close()

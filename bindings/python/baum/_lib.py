@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Find and load the C library, and make sure that it is the one this package was made for."""
+"""Find and load the C library, and check that it has the version this package was made for."""
 
 from __future__ import annotations
 
@@ -93,8 +93,8 @@ def _declare(library: ctypes.CDLL, path: str, prototypes: dict[str, tuple[Any, A
 
 
 def _check_structs(library: ctypes.CDLL, path: str) -> None:
-    """Compare the size of every definition with the size in the library. A definition of the
-    library may have grown since; the missing fields then have their defaults."""
+    """Compare the size of every definition with the size in the library. A newer library may have
+    definitions with more fields; these then have their defaults."""
     for struct, name in _abi.DEFAULTS.items():
         room = (ctypes.c_char * (4 * ctypes.sizeof(struct)))()
         getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))

@@ -16,13 +16,13 @@ class Mobility(NamedTuple):
 
     degrees_of_freedom: [-] nv - rank of J at nearby configurations; -1: cannot be assembled.
     redundant_rows: [-] rows that depend on others at every nearby configuration.
-    conflicting_rows: [-] rows that cannot be met together with the others.
+    conflicting_rows: [-] rows that contradict the others.
     free_bodies: [-] bodies without a joint.
     near_singular: The initial configuration is singular: J has a lower rank there than nearby.
         Also true within 1e-5 of such a configuration, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: Joint of worst_phi.
-    text: The same in words, with the names of the elements.
+    text: These results in words, with the names of elements.
     """
 
     degrees_of_freedom: int
@@ -57,7 +57,7 @@ class Report(NamedTuple):
     most_couplings: [-] largest number of couplings of a node; 0 for KLU.
     most_joints: [-] largest number of joints of a body that is not fixed.
     most_joined: The body with most joints; none if there are no joints.
-    text: The same in words, with the names of elements and the reasons.
+    text: These results in words, with the names of elements and the reasons.
     """
 
     bodies: int
@@ -105,11 +105,12 @@ class Counters(NamedTuple):
     max_phi_joint: Joint of max_phi.
     max_phi_rate_joint: Joint of max_phi_rate.
     predicted_phi: [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|.
-        Only for both Eulers with stable gains of at least 0.1/h, otherwise NaN.
+        Only for the Euler methods with stable gains of at least 0.1/h, otherwise NaN.
     predicted_phi_rate: [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|.
     energy_change: [J] change of kinetic and potential energy since the start, including the
         work of drivers, inputs and dampers.
-    start_change: [-] largest displacement of the last assembly, relative to the scales.
+    start_change: [-] largest displacement of a body in the last assembly, in characteristic
+        lengths or rad, before drivers are followed to where they begin.
     alpha: [1/s] in use.
     beta: [1/s] in use.
     spectral_radius: [-] factor by which each step multiplies a violation in the long run. NaN
@@ -206,8 +207,8 @@ class NearSingular(NamedTuple):
 
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
-    t: [s] time of the smallest pivot, also between steps.
-    pivot: [-] smallest pivot, relative to the largest of the run so far; also between steps.
+    t: [s] time of the smallest pivot, which may be inside a step.
+    pivot: [-] smallest pivot, relative to the largest of the run so far.
     jump: [-] difference between the velocity after the interval and the smooth continuation of
         the motion before it, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
@@ -373,7 +374,7 @@ class StudyReference(NamedTuple):
     uncertainty_lambda: [-] of error_lambda.
     uncertainty_energy: [J] of energy_error.
     samples: [-] number of samples.
-    text: Which runs agree to how many digits, or why it is not trusted.
+    text: Which runs agree to how many digits, or why the reference is not trusted.
     """
 
     origin: str
@@ -411,19 +412,19 @@ class CatalogEntry(NamedTuple):
     """A mechanism of the catalogue.
 
     name: Such as "slider_crank".
-    title: Name for people.
-    source: Where its data come from.
-    provenance: How its reference was computed and checked; "" without reference.
-    note: What to know before running it; may be "".
+    title: Description in a few words.
+    source: Source of its data.
+    provenance: How its reference was computed and checked; "" if it has none.
+    note: Advice for running it; may be "".
     parameter_count: [-] see baum.catalog.parameter_at().
-    sample_count: [-] samples of the reference, including the start; 0: no reference.
-    start_time: [s] of the reference and of the problem.
-    end_time: [s] of the reference and of the problem.
-    digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN
-        without reference.
+    sample_count: [-] samples of the reference, with the start; 0: no reference.
+    start_time: [s] start of the problem and its reference.
+    end_time: [s] end of the problem and its reference.
+    digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN if
+        it has none.
     digits_v: [-] the same for velocities.
     exact: The reference consists of formulas.
-    smooth: With default parameters the motion avoids singular configurations.
+    smooth: The motion with default parameters passes no singular configuration.
     parameters: Its parameters by name.
     """
 
@@ -447,7 +448,7 @@ class CatalogError(NamedTuple):
     """How far a run is from the reference of the catalogue.
 
     q: [-] largest error of positions over all times; NaN if a state is not finite.
-    v: [-] the same for velocities; NaN also if they are not given.
+    v: [-] the same for velocities; NaN also if v was None.
     q_final: [-] error of positions at the last time.
     v_final: [-] error of velocities at the last time.
     q_time: [s] time of the largest error of positions.

@@ -30,7 +30,7 @@ def tensor(value: Any, label: str) -> Array:
         if not np.allclose(i, i.T, rtol=0.0, atol=1e-9 * abs(i).max()):
             raise ValueError(f"{label}: the matrix is not symmetric")
         return np.array([i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])
-    given = vector(value, None, label)
+    given = vector(np.atleast_1d(value), None, label)
     if given.size not in (3, 6):
         raise ValueError(
             f"{label}: 6 numbers (xx, yy, zz, xy, xz, yz), 3 principal moments or a 3 x 3 matrix "
@@ -45,12 +45,22 @@ def quaternion(value: Any, label: str) -> Array:
     if hasattr(value, "as_quat"):  # x, y, z, w
         return np.roll(vector(value.as_quat(), 4, label), 1)
     if not _is_matrix(value):
-        return vector(value, 4, label)
+        p = vector(value, None, label)
+        if p.size != 4:
+            raise ValueError(
+                f"{label}: a quaternion w, x, y, z or a 3 x 3 rotation matrix is wanted, not "
+                f"{p.size} numbers"
+            )
+        return p
     r = _matrix(value, label)
-    if not np.allclose(r @ r.T, np.eye(3), rtol=0.0, atol=ROUNDING) or np.linalg.det(r) < 0:
+    off = abs(r.T @ r - np.eye(3)).max()
+    if not off <= ROUNDING:
         raise ValueError(
-            f"{label}: the matrix is no rotation: its columns are not right-handed axes"
+            f"{label}: the matrix is not a rotation: lengths and products of its columns deviate "
+            f"by {off:.2g}, at most {ROUNDING:g} is allowed"
         )
+    if np.linalg.det(r) < 0:
+        raise ValueError(f"{label}: the matrix is not a rotation: its columns are left-handed axes")
     return _of_matrix(r)
 
 

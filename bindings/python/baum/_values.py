@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts numbers, points and arrays to the library's types and back. They are checked here, so
-that messages can name them."""
+"""Converts numbers, points and arrays to the library's types and back. Values are checked here, so
+that messages can name the argument."""
 
 from __future__ import annotations
 
 import ctypes
 import operator
-from typing import Any
+from typing import Any, Mapping
 
 import numpy as np
 
@@ -41,6 +41,13 @@ def truth(value: Any, label: str) -> bool:
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)
+
+
+def word(words: Mapping[str, int], value: Any, label: str) -> int:
+    """The number of one of several words."""
+    if value not in words:
+        raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
+    return words[value]
 
 
 def vector(value: Any, size: int | None, label: str) -> Array:

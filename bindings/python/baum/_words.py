@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rewrites messages of the library with the names of this package. No other module does so."""
+"""Replaces C names in messages of the library by the names of this package."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _INTEGRATORS = (
     "cvode_adams|cvode_bdf|ida|kinematics"
 )
 
-# What stands in C's texts, and what Python says instead; in this order.
+# Patterns in the library's texts and their replacements in Python, applied in this order.
 TABLE: list[tuple[str, Union[str, Callable[[re.Match[str]], str]]]] = [
     (r"^baum_\w+: ", ""),
     (rf"\bbaum_({_INTEGRATORS})\b(?:\(\))?", r'"\1"'),

@@ -14,6 +14,7 @@ from .elements import Body, Element, Entry, Force, Input, Joint, one
 from .typing import (
     ArrayLike,
     BodyLike,
+    Coordinate,
     CurveFunction,
     ForceFunction,
     FunctionOfQ,
@@ -125,16 +126,16 @@ class Adding:
         mass(t, q): mass matrix M (size x size). force(t, q, v): force vector g (size). force_q,
         force_v: its derivatives (size x size), by default from differences. potential(t, q): energy
         [J]. q, v: (size) design positions, default 0, and velocities at the start, default free.
-        scale: (size) a relevant change of each position. constant_mass: M is constant. held:
+        scale: (size) a typical change of each position. constant_mass: M is constant. held:
         assembly does not move them. inputs: force, force_q and force_v receive their values after
-        v. depends_on_velocity: False if force() does not read v, which "rattle" requires.
-        user: what compiled functions receive, an address or an object of ctypes.
+        v. depends_on_velocity: False if force() does not read v, which "rattle" requires. user:
+        what compiled functions receive, an address or an object of ctypes.
 
         For positions that are not a vector, such as a unit quaternion, also give: position_count;
         rate(q, v): their rate N(q) v; move(h, v, q): q after the time h at constant v;
         difference(a, b): the v for which move(1, v, a) is b; normalize(q): the nearest q on the
-        configuration manifold; position_scale: a relevant change of each position. Derivatives by q
-        are then along displacements of velocity size.
+        configuration manifold; position_scale: a typical change of each position. Derivatives with
+        respect to q are then derivatives along displacements (size).
         """
         return self._add(Body, "coordinates", locals())
 
@@ -289,9 +290,9 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. One row.
 
         curve(xy): F [m], F_x, F_y, F_xx, F_xy, F_yy at x and y [m] from body_a's point, in the axes
-        of body_a. Choose F with a gradient of about 1 near the curve, so that tolerances keep their
-        meaning. point: in ground axes in the design configuration [m]; or point_a, point_b: in the
-        axes of the bodies [m]. user: what a compiled function receives.
+        of body_a. Choose F with a gradient of about 1 near the curve, so that F is about the
+        distance from it. point: in ground axes in the design configuration [m]; or point_a,
+        point_b: in the axes of the bodies [m]. user: what a compiled function receives.
         """
         return self._add(Joint, "planar_curve", locals())
 
@@ -305,12 +306,15 @@ class Adding:
         offset: Scalar | None = None,
         law: LawOfTime | None = None,
         user: Any = None,
+        coordinate_a: Coordinate = "first",
+        coordinate_b: Coordinate = "first",
     ) -> Joint:
         """Couple the coordinates a and b of two joints. One row: b = ratio a + offset, or b = f(a).
 
         ratio: unit of b per unit of a. offset: in the unit of b, [rad] or [m], by default taken
         from the design configuration. law(a): f, its first and its second derivative, for example
-        of a cam. user: what a compiled function receives.
+        of a cam. user: what a compiled function receives. coordinate_a, coordinate_b: as in
+        driver(); with two of the same cylindrical joint this is a screw.
         """
         return self._add(Joint, "coupling", locals())
 
@@ -324,12 +328,17 @@ class Adding:
         acceleration: Scalar = 0.0,
         law: LawOfTime | None = None,
         user: Any = None,
+        coordinate: Coordinate = "first",
     ) -> Joint:
-        """Prescribe the coordinate of a revolute [rad] or translational joint or of a pin in a slot
-        [m]. One row: coordinate = value + rate t + acceleration t^2 / 2, or law(t).
+        """Prescribe a coordinate of a joint [rad] or [m]. One row: coordinate = value + rate t +
+        acceleration t^2 / 2, or law(t).
 
         value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. law(t):
         value, rate and acceleration at the time t [s]. user: what a compiled function receives.
+        coordinate: "angle" of revolute joints, "displacement" of translational joints, pins in a
+        slot, prismatic joints and points on a line; of a cylindrical joint "displacement" or
+        "angle", of a universal joint "angle" or "angle_b", of a planar joint in space "x", "y" or
+        "angle". "first" is the first of these.
         """
         return self._add(Joint, "driver", locals())
 
@@ -341,12 +350,13 @@ class Adding:
         values: ArrayLike,
         *,
         periodic: bool = False,
+        coordinate: Coordinate = "first",
     ) -> Joint:
         """Prescribe a coordinate as driver() does, by a cubic spline. One row.
 
         times: (n) rising [s], n >= 3. values: (n) [rad] or [m]. Before the first and after the last
-        time the spline continues in a straight line. periodic: it repeats; the first and the last
-        value must then be equal.
+        time the spline continues in a straight line. periodic: the spline repeats; the first and
+        the last value must then be equal. coordinate: as in driver().
         """
         return self._add(Joint, "spline_driver", locals())
 
@@ -397,9 +407,9 @@ class Adding:
 
         point_a, point_b: in the axes of body_a and body_b [m]. stiffness: [N/m]. damping: [N s/m].
         free_length: [m], by default as in the design configuration. law(length, rate): tension [N]
-        and its derivatives by length and rate; it has no potential energy. depends_on_velocity:
-        False if the law does not read the rate, which "rattle" requires. user: what a compiled
-        function receives.
+        and its derivatives with respect to length and rate; the spring then has no potential
+        energy. depends_on_velocity: False if the law does not read the rate, which "rattle"
+        requires. user: what a compiled function receives.
         """
         return self._add(Force, "planar_spring", locals())
 
@@ -419,10 +429,33 @@ class Adding:
         """Add a torsion spring and damper on angle_b - angle_a, which counts whole revolutions.
 
         stiffness: [N m/rad]. damping: [N m s/rad]. free_angle: [rad], by default as in the design
-        configuration. law(angle, rate): restoring torque [N m] and its derivatives by angle and
-        rate; it has no potential energy. depends_on_velocity, user: as in spring().
+        configuration. law(angle, rate): restoring torque [N m] and its derivatives with respect to
+        angle and rate; the spring then has no potential energy. depends_on_velocity, user: as in
+        spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
+
+    def joint_spring(
+        self,
+        name: str | None,
+        joint: JointLike,
+        *,
+        coordinate: Coordinate = "first",
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_value: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a spring and damper on a coordinate of a joint, in the plane or in space.
+
+        coordinate: as in driver(); runs count revolutions of angles. stiffness: [N m/rad] or [N/m].
+        damping: [N m s/rad] or [N s/m]. free_value: [rad] or [m], by default as in the design
+        configuration. law(coordinate, rate): restoring torque [N m] or force [N] and its
+        derivatives by both; it has no potential energy. depends_on_velocity, user: as in spring().
+        """
+        return self._add(Force, "joint_spring", locals())
 
     def load(
         self,
@@ -458,11 +491,13 @@ class Adding:
     ) -> Force:
         """Add a generalized force on one body or several bodies.
 
-        force(t, q, v): the force (nv) of the coordinates q and v of these bodies. force_q, force_v:
-        its derivatives (nv x nv), by default from differences. potential(t, q): energy [J]. inputs:
-        the functions receive their values after v; with inputs=["torque"] they are called as
-        force(t, q, v, torque). depends_on_velocity: False if force() does not read v, which
-        "rattle" requires. user: what compiled functions receive.
+        force(t, q, v): the force (nv) of the coordinates q and v of these bodies: x, y [N] and a
+        moment [N m] on a planar body, x, y, z in ground axes and a moment in body axes on a spatial
+        body, both about the centre of mass. force_q, force_v: its derivatives (nv x nv), by default
+        from differences. potential(t, q): energy [J]. inputs: the functions receive their values
+        after v; with inputs=["torque"] they are called as force(t, q, v, torque).
+        depends_on_velocity: False if force() does not read v, which "rattle" requires. user: what
+        compiled functions receive.
         """
         return self._add(Force, "user_force", locals())
 
@@ -471,8 +506,8 @@ class Adding:
     def input(self, name: str | None = None, initial: Scalar = 0.0) -> Input:
         """Add an input: a number that acts from outside, such as the torque of a motor.
 
-        Loads and force functions refer to it. Every run and workspace starts with the value
-        `initial` and holds it until set_input() is called there.
+        Loads and force functions refer to inputs. Every run and workspace starts with the value
+        `initial` and keeps it until its set_input() is called.
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')
@@ -513,6 +548,6 @@ class Adding:
         return name
 
     def _hold(self, definition: Definition) -> None:
-        """Keep a definition's functions as long as this mechanism and its copies exist."""
+        """Keep a definition's functions alive as long as this mechanism and its copies exist."""
         self._keep.extend(definition.keep)
         self.has_python |= definition.has_python

@@ -12,13 +12,14 @@ Added = TypeVar("Added", bound=Element)
 
 
 class AddingInSpace:
-    """The methods of a Mechanism that add an element in space; Adding says what is common to all.
+    """The methods of a Mechanism that add an element in space. The class Adding describes what all
+    methods that add elements have in common.
 
     Points are x, y, z [m]. A joint is placed by `point` (ground axes, design configuration) or by
-    `point_a` and `point_b` (body axes). `axis` is a direction of any length: in ground axes with
-    `point`, else in the axes of body_a. `axis_b` is the same axis on body_b: in ground axes with
-    `point`, else in the axes of body_b. Without it, both coincide in the design configuration.
-    Planar bodies and particles can take part; they stay in the plane z = 0.
+    `point_a` and `point_b` (body axes). `axis` is a direction of any length on body_a, and `axis_b`
+    the corresponding direction on body_b: both in ground axes if `point` is given, otherwise in
+    body axes. By default, `axis_b` coincides with `axis` in the design configuration. Spatial
+    joints and springs also connect planar bodies and particles, which stay in the plane z = 0.
     """
 
     if TYPE_CHECKING:
@@ -43,11 +44,11 @@ class AddingInSpace:
 
         mass: [kg] > 0. inertia: about the centre of mass in body axes [kg m^2]: xx, yy, zz, xy, xz,
         yz of the tensor, or the three principal moments, or a 3 x 3 matrix; baum.inertia computes
-        those of solids. position: of the centre of mass in the design configuration, x, y, z [m].
+        tensors of solids. position: of the centre of mass in the design configuration, x, y, z [m].
         orientation: in the design configuration: a unit quaternion w, x, y, z, or a rotation matrix
         3 x 3 whose columns are the body axes, or a Rotation of scipy.spatial.transform. velocity:
         of the centre of mass at the start, ground axes [m/s]. angular_velocity: at the start, body
-        axes [rad/s]. None or NaN: free, so that assembly chooses them. held: assembly does not move
+        axes [rad/s]. Velocities None or NaN: assembly chooses them. held: assembly does not move
         the body.
         """
         return self._add(Body, "spatial_body", locals())
@@ -64,7 +65,7 @@ class AddingInSpace:
         """Add a point mass in space.
 
         mass: [kg] > 0. position: in the design configuration, x, y, z [m]. velocity: at the start
-        [m/s]; None or NaN: free, so that assembly chooses it. held: assembly does not move it.
+        [m/s]; None or NaN: assembly chooses it. held: assembly does not move the particle.
         """
         return self._add(Body, "spatial_particle", locals())
 
@@ -106,8 +107,8 @@ class AddingInSpace:
         Its coordinate is the angle of body_b relative to body_a about the axis [rad], 0 in the
         design configuration; runs count its revolutions. point: in ground axes in the design
         configuration [m]; or point_a, point_b: in the axes of the bodies [m]. axis, axis_b:
-        directions, in ground axes with `point`, else in the axes of body_a and body_b; axis_b:
-        default along axis.
+        directions, in ground axes if `point` is given, otherwise in the axes of body_a and body_b;
+        by default, axis_b coincides with axis in the design configuration.
         """
         return self._add(Joint, "spatial_revolute", locals())
 
@@ -123,10 +124,12 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a universal joint (Hooke's joint): points coincide, and axis of body_a and axis_b of
-        body_b stay perpendicular. Four rows: three [m], one [-].
+        """Add a universal joint (Hooke's joint): points coincide, and `axis` of body_a and `axis_b`
+        of body_b stay perpendicular. Four rows: three [m], one [-].
 
-        axis, axis_b: directions, in ground axes with `point`, else in the axes of body_a and
+        Its coordinates are the "angle" of the cross about the axis of body_a, and "angle_b" of
+        body_b relative to the cross about axis_b [rad], both 0 in the design configuration. axis,
+        axis_b: directions, in ground axes if `point` is given, otherwise in the axes of body_a and
         body_b. point, point_a, point_b: as in spatial_revolute().
         """
         return self._add(Joint, "spatial_universal", locals())
@@ -146,8 +149,9 @@ class AddingInSpace:
         """Add a cylindrical joint: body_b slides along an axis of body_a and rotates about it. Four
         rows: two [-], two [m].
 
-        Its coordinate is the displacement of body_b's point along the axis [m]. point, point_a,
-        point_b, axis, axis_b: as in spatial_revolute().
+        Its coordinates are the "displacement" of body_b's point along the axis [m] and the "angle"
+        about it [rad], 0 in the design configuration. point, point_a, point_b, axis, axis_b: as in
+        spatial_revolute().
         """
         return self._add(Joint, "spatial_cylindrical", locals())
 
@@ -182,11 +186,16 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         axis: ArrayLike = (0.0, 0.0, 1.0),
         axis_b: ArrayLike | None = None,
+        x_axis: ArrayLike | None = None,
     ) -> Joint:
         """Add a planar joint: body_b moves in a plane of body_a, whose normal is the axis. Three
         rows: two [-], one [m].
 
-        point, point_a, point_b, axis, axis_b: as in spatial_revolute().
+        Its coordinates are the displacements "x" and "y" of body_b's point in the plane [m], and
+        the "angle" about the normal [rad], 0 in the design configuration. point, point_a, point_b,
+        axis, axis_b: as in spatial_revolute(). x_axis: direction of x, in ground axes if `point` is
+        given, otherwise in the axes of body_a; by default the ground x axis, or the ground y axis
+        if the normal is along x.
         """
         return self._add(Joint, "spatial_planar", locals())
 
@@ -200,8 +209,8 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a weld in space: points coincide, and the relative orientation stays that of the
-        design configuration. Six rows: three [m], three [-].
+        """Add a weld in space: points coincide, and the relative orientation is that of the design
+        configuration. Six rows: three [m], three [-].
 
         point, point_a, point_b: as in spherical().
         """
@@ -219,8 +228,8 @@ class AddingInSpace:
     ) -> Joint:
         """Add a massless rod between two points in space. One row [m].
 
-        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, default that of the
-        design configuration.
+        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, by default the
+        distance in the design configuration.
         """
         return self._add(Joint, "spatial_distance", locals())
 
@@ -235,10 +244,12 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         axis: ArrayLike = (0.0, 0.0, 1.0),
     ) -> Joint:
-        """Keep a point of body_b on a line of body_a through its point. Two rows [m].
+        """Keep a point of body_b on a line that is fixed in body_a and passes through body_a's
+        point. Two rows [m].
 
         Its coordinate is the displacement along the line [m]. body_b may be a particle. axis:
-        direction of the line. point, point_a, point_b, axis: as in spatial_revolute().
+        direction of the line. axis, point, point_a and point_b are given as in
+        spatial_revolute().
         """
         return self._add(Joint, "spatial_point_on_line", locals())
 
@@ -253,10 +264,11 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         axis: ArrayLike = (0.0, 0.0, 1.0),
     ) -> Joint:
-        """Keep a point of body_b in a plane of body_a through its point. One row [m].
+        """Keep a point of body_b in a plane that is fixed in body_a and contains body_a's point.
+        One row [m].
 
-        body_b may be a particle. axis: normal of the plane. point, point_a, point_b, axis: as in
-        spatial_revolute().
+        body_b may be a particle. axis: normal of the plane. axis, point, point_a and point_b
+        are given as in spatial_revolute().
         """
         return self._add(Joint, "spatial_point_on_plane", locals())
 
@@ -277,9 +289,9 @@ class AddingInSpace:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and damper between two points in space, linear or by a law.
+        """Add a spring and damper between two points in space: linear, or with a law of your own.
 
-        Points are x, y, z in body axes [m]; everything else is as in spring(). There is no force
+        Points are x, y, z in body axes [m]; everything else is as in spring(). The force is zero
         where the length is 0.
         """
         return self._add(Force, "spatial_spring", locals())
@@ -295,10 +307,10 @@ class AddingInSpace:
         follows_body: bool = False,
         input: InputLike | None = None,
     ) -> Force:
-        """Add a force at a point of a body in space, and a moment.
+        """Add a force at a point of a body in space and a moment on the body.
 
         point: in body axes [m]. force: [N]. moment: [N m]. follows_body: force and moment rotate
-        with the body; otherwise they keep their directions in ground axes. input: its value
-        multiplies force and moment.
+        with the body; otherwise they keep their directions in ground axes. input: an input
+        whose value multiplies force and moment.
         """
         return self._add(Force, "spatial_load", locals())

@@ -2,10 +2,10 @@
 """Wraps functions of the user so that the library can call them.
 
 A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
-value. A shell around it has the form that the library calls. The shell passes q and v as read-only
-arrays, checks the returned value and writes it to the library's memory, and keeps an exception
-until the call that it stopped has returned. q and v are valid during the call only. A force
-function that names inputs receives their present values after v, as floats.
+value. A shell around this function has the signature that the library calls. The shell passes q and
+v as read-only arrays, checks the returned value and writes it to the library's memory, and keeps an
+exception until the call that it stopped has returned. q and v are valid during the call only. A
+force function that names inputs receives their present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled one: an int, a ctypes
 function pointer, or an object with an integer `address`, such as Numba's cfunc. The library calls
@@ -134,11 +134,11 @@ def _shell_force(function: Function, write: Write, nq: int, nv: int) -> Shell:
 
 
 def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
-    """A function that makes shells for functions that take these inputs after v."""
+    """A function that wraps force functions, which receive these inputs after v."""
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
-        # As many as are there for certain: a copy of the mechanism may have more.
+        # Only the inputs that the function needs: a copy of the mechanism may have more.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
         def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
@@ -277,7 +277,7 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_normalize_fn: _shell_normalize,
 }
 
-# ctypes makes one type of functions with the same C types: these are told by their fields.
+# ctypes gives functions with the same C types one type; the field tells them apart.
 SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 

@@ -2,7 +2,7 @@
 """Channels, the quantities that can be read from a run. A channel is a named group of columns.
 
 The channels of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy and
-energy_account. Those of a body or joint are its attributes, such as m["slider"].pose and
+energy_account. The channels of a body or joint are its attributes, such as m["slider"].pose and
 m["B"].reaction.
 """
 
@@ -54,7 +54,7 @@ WHOLE = {
 
 
 class Layout:
-    """The places of several channels in a row of numbers."""
+    """The positions of several channels in a row of numbers."""
 
     def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
         self.channels = {channel.key: channel for channel in channels}
@@ -70,7 +70,7 @@ class Layout:
             self.width = end
 
     def rows(self, count: int) -> Array:
-        """Room for that many rows."""
+        """An empty array for that many rows."""
         return np.empty((count, self.width))
 
 

@@ -15,14 +15,15 @@ import numpy as np
 
 from . import _abi, _rotation, callbacks
 from ._lib import default, lib
-from ._values import address, integer, number, numbers, truth, vector
+from ._values import address, integer, number, numbers, truth, vector, word
 
 
 @dataclass(frozen=True)
 class Kind:
     """A kind of body, joint or force: its struct, its family, the sizes of a body's q and v, the
-    units of a body's positions or a joint's rows (none where the user decides), and the units of
-    what a body's velocities are rates of, where these are not its positions."""
+    units of a body's positions or a joint's rows (none where the user decides), if a body's
+    velocities are not rates of its positions, the units of the integrals of the velocities, and the
+    coordinates of a joint."""
 
     name: str
     family: str
@@ -30,10 +31,11 @@ class Kind:
     nv: int = 0
     units: tuple[str, ...] = ()
     displacements: tuple[str, ...] = ()
+    coordinates: tuple[str, ...] = ()
 
     @property
     def is_spatial(self) -> bool:
-        """Whether it has its place in space, not in a plane."""
+        """Whether the element is spatial, not planar."""
         return self.name.startswith("spatial_")
 
     @property
@@ -46,10 +48,17 @@ class Kind:
         found: type[ctypes.Structure] = getattr(_abi, f"baum_{self.family}_id")
         return found
 
+    def coordinate(self, name: str) -> str:
+        """The name of a coordinate of a joint that may be given as "first"."""
+        return self.coordinates[0] if name == "first" else name
+
     def function(self, verb: str) -> Any:
         """The library's function to add, get or set a definition."""
         return getattr(lib, f"baum_mechanism_{verb}_{self.name}")
 
+
+_DISPLACEMENT = ("displacement",)
+_ANGLE = ("angle",)
 
 KINDS = {
     kind.name: kind
@@ -59,23 +68,38 @@ KINDS = {
         Kind("spatial_body", "body", 7, 6, ("m",) * 3 + ("-",) * 4, ("m",) * 3 + ("rad",) * 3),
         Kind("spatial_particle", "body", 3, 3, ("m",) * 3),
         Kind("coordinates", "body"),
-        Kind("planar_revolute", "joint", units=("m", "m")),
-        Kind("planar_translational", "joint", units=("m", "rad")),
+        Kind("planar_revolute", "joint", units=("m", "m"), coordinates=_ANGLE),
+        Kind("planar_translational", "joint", units=("m", "rad"), coordinates=_DISPLACEMENT),
         Kind("planar_distance", "joint", units=("m",)),
         Kind("planar_fixed", "joint", units=("m", "m", "rad")),
-        Kind("planar_pin_in_slot", "joint", units=("m",)),
+        Kind("planar_pin_in_slot", "joint", units=("m",), coordinates=_DISPLACEMENT),
         Kind("planar_rack_and_pinion", "joint", units=("m",)),
         Kind("planar_gear", "joint", units=("m",)),
         Kind("planar_curve", "joint", units=("m",)),
         Kind("spatial_spherical", "joint", units=("m",) * 3),
-        Kind("spatial_revolute", "joint", units=("m",) * 3 + ("-",) * 2),
-        Kind("spatial_universal", "joint", units=("m",) * 3 + ("-",)),
-        Kind("spatial_cylindrical", "joint", units=("-",) * 2 + ("m",) * 2),
-        Kind("spatial_prismatic", "joint", units=("-", "-", "m", "m", "-")),
-        Kind("spatial_planar", "joint", units=("-", "-", "m")),
+        Kind("spatial_revolute", "joint", units=("m",) * 3 + ("-",) * 2, coordinates=_ANGLE),
+        Kind(
+            "spatial_universal",
+            "joint",
+            units=("m",) * 3 + ("-",),
+            coordinates=("angle", "angle_b"),
+        ),
+        Kind(
+            "spatial_cylindrical",
+            "joint",
+            units=("-",) * 2 + ("m",) * 2,
+            coordinates=_DISPLACEMENT + _ANGLE,
+        ),
+        Kind(
+            "spatial_prismatic",
+            "joint",
+            units=("-", "-", "m", "m", "-"),
+            coordinates=_DISPLACEMENT,
+        ),
+        Kind("spatial_planar", "joint", units=("-", "-", "m"), coordinates=("x", "y", *_ANGLE)),
         Kind("spatial_fixed", "joint", units=("m",) * 3 + ("-",) * 3),
         Kind("spatial_distance", "joint", units=("m",)),
-        Kind("spatial_point_on_line", "joint", units=("m", "m")),
+        Kind("spatial_point_on_line", "joint", units=("m", "m"), coordinates=_DISPLACEMENT),
         Kind("spatial_point_on_plane", "joint", units=("m",)),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
@@ -86,17 +110,24 @@ KINDS = {
         Kind("planar_load", "force"),
         Kind("spatial_spring", "force"),
         Kind("spatial_load", "force"),
+        Kind("joint_spring", "force"),
         Kind("user_force", "force"),
     )
 }
 
+# The coordinates of joints by name.
+COORDINATES = {
+    one.name.removeprefix("BAUM_COORDINATE_").lower(): int(one)
+    for one in _abi.baum_joint_coordinate
+}
+
 Find = Callable[[str, Any], Any]
 
-# Arguments whose fields have another name, and these fields.
+# Arguments whose names differ from those of their fields: argument -> field.
 FIELDS = {"rows": "row_count"}
 ARGUMENTS = {field: argument for argument, field in FIELDS.items()}
 HIDDEN = ("struct_size", "body_count", "count")
-# Fields that can be given in several forms.
+# Fields that accept several forms, and the functions that convert them.
 FORMS = {
     ("spatial_body", "inertia"): _rotation.tensor,
     ("spatial_body", "orientation"): _rotation.quaternion,
@@ -109,7 +140,7 @@ FAMILIES: dict[Any, str] = {
 
 
 class Definition:
-    """One definition for the library, with the objects that it needs to stay alive.
+    """One definition for the library, with the objects that must stay alive as long as it is used.
 
     label names the element in messages. find(family, value) returns the handle for a handle or a
     name.
@@ -142,10 +173,12 @@ class Definition:
             name: given.pop(name) for name in list(given) if self._types[name] in callbacks.SHELLS
         }
         if inputs and not functions:
-            raise TypeError(f"{self._label}: inputs are given together with the functions of them")
+            raise TypeError(
+                f"{self._label}: inputs are given without the functions that receive them"
+            )
         user = given.pop("user", None)
         self._set_count(given)
-        # Sizes first: lengths of arrays follow from them.
+        # Sizes are set first, because they determine the lengths of arrays.
         for name in sorted(given, key=lambda name: self._types[name] is not ctypes.c_int32):
             self._set(name, given[name])
         for name, function in functions.items():
@@ -166,7 +199,7 @@ class Definition:
         return tuple(one.id.index1 - 1 for one in own)
 
     def _set_count(self, given: Mapping[str, Any]) -> None:
-        """The number of points of a spline follows from its times when both lists are new."""
+        """Set the number of points of a spline from its times if both lists are new."""
         if "times" in given and "values" in given:
             self.struct.count = np.size(given["times"])
 
@@ -174,6 +207,8 @@ class Definition:
         label, kind = f"{self._label}: {name}", self._types[name]
         if name == "bodies":
             self._set_bodies(value)
+        elif name.startswith("coordinate"):
+            setattr(self.struct, name, word(COORDINATES, value, name))
         elif kind is ctypes.c_void_p:
             setattr(self.struct, name, self._pointer(name, value, label))
         elif kind is ctypes.c_double:
@@ -198,7 +233,8 @@ class Definition:
         self.struct.body_count = len(handles)
 
     def _pointer(self, name: str, value: Any, label: str) -> Any:
-        """`user` is an address or something of ctypes; the others are arrays of numbers."""
+        """The address for a pointer field: `user` is an address or a ctypes object; other fields
+        are arrays."""
         if name == "user":
             self.keep.append(value)
             if isinstance(value, int):
@@ -243,7 +279,7 @@ class Definition:
     def _sizes(self) -> tuple[int, int]:
         """Lengths of the q and v that this definition's functions receive."""
         if self.kind.name == "coordinates":
-            # The library refuses what is less.
+            # The library refuses negative sizes.
             return max(position_count(self.struct), 0), max(self.struct.size, 0)
         if "body_count" not in self._types:
             return 0, 0
@@ -282,6 +318,8 @@ def as_dict(definition: Any, find: Find) -> dict[str, Any]:
             continue
         if kind in FAMILIES:
             value = find(FAMILIES[kind], value)
+        elif name.startswith("coordinate"):
+            value = list(COORDINATES)[value]
         elif kind is ctypes.c_void_p:
             value = numbers(value, length(definition, name))
         elif kind is ctypes.c_char_p:

@@ -75,8 +75,10 @@ def _placed(values: Values, a: Frame, b: Frame) -> Values:
     return fields
 
 
-def _coordinate(joint: Joint) -> float:
+def _coordinate(joint: Joint, name: str) -> float:
     values = joint.definition
+    if joint.kind is not None and joint.kind.is_spatial:
+        return design_space.coordinate(values, joint.kind.coordinate(name))
     a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
     values.update(_placed(values, a, b))
     return _along(values, a, b) if "axis" in values else b.angle - a.angle
@@ -106,7 +108,13 @@ def taken(element: Element, moved: Collection[str]) -> Values:
         a, b = values["joint_a"], values["joint_b"]
         is_moved = _is_at(a.definition, moved) or _is_at(b.definition, moved)
         if math.isnan(values["offset"]) and is_moved:
-            return {"offset": _coordinate(b) - values["ratio"] * _coordinate(a)}
+            value = _coordinate(a, values["coordinate_a"])
+            return {"offset": _coordinate(b, values["coordinate_b"]) - values["ratio"] * value}
+        return {}
+    if "free_value" in values:
+        joint = values["joint"]
+        if math.isnan(values["free_value"]) and _is_at(joint.definition, moved):
+            return {"free_value": _coordinate(joint, values["coordinate"])}
         return {}
     if not _is_at(values, moved):
         return {}

@@ -27,7 +27,7 @@ class Frame(NamedTuple):
 
     @classmethod
     def of(cls, body: Body, changes: Mapping[str, Any] | None = None) -> Frame:
-        """That of a body, with some fields of its definition changed."""
+        """The pose of a body with some fields of its definition changed."""
         if body.kind is None:
             return cls(np.zeros(3), np.eye(3), True)
         values = {**body.definition, **(changes or {})}
@@ -40,7 +40,7 @@ class Frame(NamedTuple):
         return cls(place, matrix(p / np.linalg.norm(p)), has_axes)
 
     def local(self, point: Any) -> Array:
-        """A point in ground axes, given in body axes; a particle has only the origin."""
+        """The ground coordinates of a point in body axes; a particle has only the origin."""
         return (np.asarray(point) - self.place) @ self.axes if self.has_axes else np.zeros(3)
 
 
@@ -67,6 +67,8 @@ def taken(values: Values) -> Values:
     if "axis" in values:
         axis = axis_a @ values["axis"]
         fields["axis"] = _tuple(axis @ a.axes)
+        if "x_axis" in values:
+            fields["x_axis"] = _tuple(_x_axis(values, a) @ a.axes)
         if "axis_b" in values:
             other = axis_b @ values["axis_b"] if _is_given(values, "axis_b") else axis
             fields["axis_b"] = _tuple(other @ b.axes)
@@ -77,14 +79,40 @@ def taken(values: Values) -> Values:
     return fields
 
 
+def _x_axis(values: Values, a: Frame) -> Array:
+    """Direction of x of a planar joint in ground axes."""
+    axes = np.eye(3) if _is_given(values, "point") else a.axes
+    if _is_given(values, "x_axis"):
+        return np.array(axes @ values["x_axis"])
+    axis = axes @ np.asarray(values["axis"])
+    away = np.linalg.norm(axis[1:]) > 1e-6 * np.linalg.norm(axis)
+    return np.array([1.0, 0.0, 0.0] if away else [0.0, 1.0, 0.0])
+
+
+def coordinate(values: Values, name: str) -> float:
+    """A coordinate of a joint in the design configuration, where angles are 0."""
+    if name.startswith("angle") or _is_given(values, "point"):
+        return 0.0
+    a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
+    apart = b.place + b.axes @ values["point_b"] - a.place - a.axes @ values["point_a"]
+    along = a.axes @ values["axis"]
+    if name in ("x", "y"):
+        x = _x_axis(values, a)
+        y = np.cross(along, x)
+        along = y if name == "y" else np.cross(y, along)
+    return float(apart @ along / np.linalg.norm(along))
+
+
 def check_turned(
-    element: Element, driven: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
+    element: Element, used_angles: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
 ) -> None:
-    """Refuse a change of the relative orientation that a joint takes from the design configuration
-    and has no field for: that of a weld, of a prismatic joint, or the zero of a driven angle."""
+    """Refuse to change a relative orientation that a joint takes from the design configuration
+    without a field for it: that of a weld or a prismatic joint, or the zero of an angle that a
+    driver, a coupling or a spring uses."""
     kind = element.kind.name if element.kind else ""
-    is_driven = kind == "spatial_revolute" and element in driven
-    if kind not in ("spatial_fixed", "spatial_prismatic") and not is_driven:
+    is_spatial = element.kind is not None and element.kind.is_spatial
+    has_used_angle = is_spatial and element in used_angles
+    if kind not in ("spatial_fixed", "spatial_prismatic") and not has_used_angle:
         return
     values = element.definition
     ends = [values["body_a"], values["body_b"]]

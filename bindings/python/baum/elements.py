@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Handles of bodies, joints, forces and inputs. A handle of a mechanism equals that of the same
-element in its copies."""
+"""Handles of bodies, joints, forces and inputs. A handle equals the handle of the same element in a
+copy of the mechanism."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from . import _abi
 from ._values import vector
 from .channels import Channel
-from .definitions import Kind, as_dict
+from .definitions import COORDINATES, Kind, as_dict
 from .typing import ArrayLike
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ _Q = _abi.baum_quantity
 
 class Entry(NamedTuple):
     """What a mechanism knows about an element: its Kind (None for ground and inputs), the library's
-    id, and the sizes of q and v of a body. Copies of a mechanism share entries; a handle is made
-    when it is requested."""
+    id, and the sizes of q and v of a body. Copies of a mechanism share entries; handles are created
+    on request."""
 
     family: str
     kind: Kind | None
@@ -44,7 +44,7 @@ def one(family: str) -> str:
 class Element:
     """Base class of bodies, joints, forces and inputs.
 
-    mechanism: the mechanism that it belongs to. name: its name there.
+    mechanism: the mechanism that the element belongs to. name: the name of the element.
     """
 
     family = ""
@@ -102,13 +102,13 @@ class Body(Element):
 
     @property
     def velocity(self) -> Channel:
-        """Channel: velocities [m/s], [rad/s] that belong to `pose`; the angular velocity of a
-        spatial body in ground axes, while v has it in body axes."""
+        """Channel: velocities [m/s], [rad/s] that belong to `pose`. The angular velocity of a
+        spatial body is in ground axes here, but in body axes in v."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY)
 
     @property
     def acceleration(self) -> Channel:
-        """Channel: accelerations [m/s^2], [rad/s^2] of the columns of `pose`."""
+        """Channel: accelerations [m/s^2], [rad/s^2], the derivatives of `velocity`."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
 
     def pose_of(self, point: ArrayLike) -> Channel:
@@ -168,15 +168,45 @@ class Joint(Element):
     @property
     def coordinate(self) -> Channel:
         """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
-        along an axis [m], [m/s]: translational, pin in a slot, prismatic, cylindrical, point on a
-        line."""
+        along an axis [m], [m/s]. Of a joint with several coordinates the first: the displacement of
+        a cylindrical joint, the angle of a universal joint, x of a planar joint."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
+
+    @property
+    def displacement(self) -> Channel:
+        """Channel: displacement along the axis and its velocity [m], [m/s]."""
+        return self._coordinate("displacement")
+
+    @property
+    def angle(self) -> Channel:
+        """Channel: angle about the axis and its velocity [rad], [rad/s]."""
+        return self._coordinate("angle")
+
+    @property
+    def angle_b(self) -> Channel:
+        """Channel: angle of a universal joint about axis_b and its velocity [rad], [rad/s]."""
+        return self._coordinate("angle_b")
+
+    @property
+    def x(self) -> Channel:
+        """Channel: first displacement of a planar joint and its velocity [m], [m/s]."""
+        return self._coordinate("x")
+
+    @property
+    def y(self) -> Channel:
+        """Channel: second displacement of a planar joint and its velocity [m], [m/s]."""
+        return self._coordinate("y")
 
     @property
     def effort(self) -> Channel:
         """Channel: force [N] or torque [N m] of a driver on the coordinate that it prescribes. Its
         product with the joint velocity is the power that the driver supplies."""
         return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
+
+    def _coordinate(self, name: str) -> Channel:
+        channel = self._channel(name, _Q.BAUM_JOINT_COORDINATE)
+        channel.struct.coordinate = COORDINATES[name]
+        return channel
 
     def _channel(self, attribute: str, quantity: int) -> Channel:
         return Channel(f"{self.name}.{attribute}", quantity, joint=self.id)
@@ -189,7 +219,8 @@ class Force(Element):
 
 
 class Input(Element):
-    """A number that acts from outside; runs and workspaces set it. See Mechanism.input()."""
+    """A number that acts on the mechanism from outside; runs and workspaces set it. See
+    Mechanism.input()."""
 
     family = "input"
 

@@ -58,8 +58,8 @@ def as_status(value: int) -> Status:
 class Error(Exception):
     """A call failed.
 
-    status: the Status. str(error): the message of the library, in the names of this package.
-    run: the samples that a failed simulate() or sample() had recorded, else None.
+    status: the Status. str(error): the message of the library, with the names of this package. run:
+    the samples that a failed simulate() or sample() had recorded, otherwise None.
     """
 
     def __init__(self, status: int, message: str) -> None:
@@ -79,7 +79,7 @@ class Retry(Exception):
 
 
 class Warning(UserWarning):
-    """All warnings of one kind in a run. str(warning) is the message of the first one.
+    """All warnings of one kind in a run. str(warning) is the message of the first warning.
 
     code: a number that never changes. doubts_motion: whether the result may be wrong by far more
     than its tolerance, which is true for every DoubtWarning. joint: the name of the joint, or None.
@@ -118,7 +118,7 @@ class NoisyDerivativesWarning(Warning):
 
 
 class Index3Warning(Warning):
-    """The run uses "ida" with the formulation "index3", which exists for comparison only."""
+    """The run uses "ida" with the formulation "index3", which is offered for comparison only."""
 
     code = 4
 
@@ -195,7 +195,7 @@ def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
 
 
 def warn(warning: Warning) -> None:
-    """Warn at the line outside of this package that made the call."""
+    """Issue a warning at the line outside this package that made the call."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == PACKAGE:
         level, frame = level + 1, frame.f_back

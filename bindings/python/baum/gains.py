@@ -59,13 +59,14 @@ def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
 
 def deadbeat() -> Gains:
     """Gains with the fastest decay per step. Needs a fixed step. Runge-Kutta methods of order above
-    1 lose their order with it. Multistep methods have no such gains and are refused."""
+    1 lose their order with these gains. Multistep methods have no such gains and are refused."""
     return Gains("deadbeat")
 
 
 def best_damping() -> Gains:
     """Gains of least spectral radius, which is the dead-beat point if there is one. This is the
-    default rule of "ab2", "ab3" and "ab4", which keep their order with it. Needs a fixed step."""
+    default rule of "ab2", "ab3" and "ab4", which keep their order with these gains. Needs a fixed
+    step."""
     return Gains("best_damping")
 
 

@@ -7,8 +7,8 @@
     shaft = inertia.cylinder(0.5, radius=0.02, length=0.4, axis="x")
 
 Solids are uniform. Tensors are about the centre of mass and in axes along the edges or the axis.
-The tensor of a body of several parts is the sum of theirs, each turned by rotate() into the axes of
-the body and moved by shift() to its centre of mass.
+The tensor of a body of several parts is the sum of the tensors of the parts, each rotated by
+rotate() into the axes of the body and moved by shift() to the centre of mass of the body.
 """
 
 from __future__ import annotations
@@ -22,6 +22,13 @@ from .typing import Array, ArrayLike, Axis, OrientationLike, Scalar
 __all__ = ["box", "cylinder", "rod", "rotate", "shift", "sphere"]
 
 
+def _positive(value: Scalar, label: str) -> float:
+    given = number(value, label)
+    if not (given > 0 and np.isfinite(given)):
+        raise ValueError(f"{label}: a finite number > 0 is wanted, not {given!r}")
+    return given
+
+
 def _about(axis: Axis, along: float, across: float) -> Array:
     """The tensor with one moment about an axis and another about those perpendicular to it."""
     if axis not in ("x", "y", "z"):
@@ -31,20 +38,20 @@ def _about(axis: Axis, along: float, across: float) -> Array:
 
 def box(mass: Scalar, x: Scalar, y: Scalar, z: Scalar) -> Array:
     """A cuboid. mass: [kg]. x, y, z: lengths of its edges [m]."""
-    m = number(mass, "mass")
-    squares = np.array([number(x, "x"), number(y, "y"), number(z, "z")]) ** 2
+    m = _positive(mass, "mass")
+    squares = np.array([_positive(x, "x"), _positive(y, "y"), _positive(z, "z")]) ** 2
     return np.diag(m / 12.0 * (squares.sum() - squares))
 
 
 def cylinder(mass: Scalar, radius: Scalar, length: Scalar, axis: Axis = "z") -> Array:
     """A circular cylinder. mass: [kg]. radius, length: [m]. axis: "x", "y" or "z"."""
-    m, r, h = number(mass, "mass"), number(radius, "radius"), number(length, "length")
+    m, r, h = _positive(mass, "mass"), _positive(radius, "radius"), _positive(length, "length")
     return _about(axis, m * r * r / 2.0, m * (3.0 * r * r + h * h) / 12.0)
 
 
 def sphere(mass: Scalar, radius: Scalar) -> Array:
     """A ball. mass: [kg]. radius: [m]."""
-    return np.eye(3) * (0.4 * number(mass, "mass") * number(radius, "radius") ** 2)
+    return np.eye(3) * (0.4 * _positive(mass, "mass") * _positive(radius, "radius") ** 2)
 
 
 def rod(mass: Scalar, length: Scalar, axis: Axis = "z") -> Array:
@@ -52,14 +59,14 @@ def rod(mass: Scalar, length: Scalar, axis: Axis = "z") -> Array:
 
     Its moment about its own axis is 0.
     """
-    return _about(axis, 0.0, number(mass, "mass") * number(length, "length") ** 2 / 12.0)
+    return _about(axis, 0.0, _positive(mass, "mass") * _positive(length, "length") ** 2 / 12.0)
 
 
 def shift(inertia: ArrayLike, mass: Scalar, offset: ArrayLike) -> Array:
     """The tensor about a point that is `offset` away from the centre of mass (parallel axes).
 
     inertia: about the centre of mass, in any form that spatial_body() takes. mass: [kg]. offset: x,
-    y, z [m] from the one to the other, in the axes of the tensor.
+    y, z [m] from the centre of mass to the point, in the axes of the tensor.
     """
     d = vector(offset, 3, "offset")
     steiner = number(mass, "mass") * (d @ d * np.eye(3) - np.outer(d, d))

@@ -73,7 +73,7 @@ def integrators() -> dict[str, Integrator]:
 
 
 def lookup(value: Any) -> Integrator:
-    """The Integrator for one or its name."""
+    """The Integrator for an Integrator or its name."""
     if isinstance(value, Integrator):
         return value
     try:
@@ -88,7 +88,7 @@ class Amplification(NamedTuple):
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
     spectral_radius: the largest |z| [-]. roots: the largest root z of each of the two modes.
     damping: the fraction of a violation that a step removes, 1 - |z| with full precision. Numbers
-    are NaN without a region.
+    are NaN for methods without a region.
     """
 
     stability: str
@@ -146,7 +146,7 @@ def stability_deadbeat(integrator: str | Integrator) -> tuple[float, float]:
 def stability_nearest(
     integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar
 ) -> tuple[float, float]:
-    """The nearest point (alpha h, (beta h)^2) [-] that damps well, or the point itself."""
+    """The nearest point (alpha h, (beta h)^2) [-] with a spectral radius of at most 0.9."""
     return _point(
         lib.baum_stability_nearest,
         integrator,

@@ -4,19 +4,21 @@
 from __future__ import annotations
 
 import ctypes
+import inspect
 import weakref
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from . import _abi, _calls, _html, _records, design, design_space
+from . import _abi, _calls, _html, _records, design, design_space, drawings
 from ._lib import lib, text
 from ._values import number, numbers, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .elements import CLASSES, GROUND, Body, Element, Entry, Input, one
+from .drawings import Drawing
+from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
 from .simulation import Simulation, takes_options
 from .typing import Array, ArrayLike, Axis, BodyLike, ChannelLike, InputLike, JointLike, Scalar
@@ -58,7 +60,7 @@ class Report(_records.Report):
 
 
 def _against(up: str, gravity: Any) -> list[float]:
-    """The default gravity against an axis."""
+    """The default gravity, opposite to an axis."""
     if up not in ("x", "y", "z"):
         raise ValueError(f'up: "x", "y" or "z" is wanted, not {up!r}')
     if gravity is not GRAVITY:
@@ -80,18 +82,25 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
+def _channels(element: Any) -> list[str]:
+    """The names of the properties that are channels."""
+    properties = inspect.getmembers(type(element), lambda p: isinstance(p, property))
+    return [name for name, p in properties if p.fget.__annotations__.get("return") == "Channel"]
+
+
 class Mechanism(Adding, AddingInSpace):
     """Bodies, joints, forces and inputs. Elements are added; freeze() then makes the mechanism
     constant, so that it can be simulated and shared between threads.
 
     gravity: (x, y) or (x, y, z) [m/s^2]. characteristic_length: the length [m] that tolerances
-    refer to, default the size of the design configuration. up: "x", "y" or "z" instead of gravity:
-    9.81 m/s^2 against this axis. Any consistent set of units will do; angles are in radians.
+    refer to, default the size of the design configuration. up: "x", "y" or "z", instead of gravity:
+    gravity is 9.81 m/s^2 opposite to this axis. Any consistent units can be used; angles are in
+    radians.
 
     A joint is placed by `point` (ground axes, design configuration) or by `point_a` and `point_b`
     (body axes); joints in space also have an `axis`, and may have an `axis_b`. m["A"] is the handle
-    of the element "A". Functions receive (t, q) or (t, q, v) of
-    the bodies that they are given for, and return their value.
+    of the element "A". Your functions receive (t, q) or (t, q, v) of the bodies of their element,
+    and return their value.
     """
 
     def __init__(
@@ -118,7 +127,7 @@ class Mechanism(Adding, AddingInSpace):
 
     @classmethod
     def of_library(cls, address: Any) -> Mechanism:
-        """The owner of a mechanism that a function of the library has built."""
+        """Own a mechanism that a function of the library has built."""
         made = cls.__new__(cls)
         made._adopt(address)
         for family in CLASSES:
@@ -217,7 +226,7 @@ class Mechanism(Adding, AddingInSpace):
         if not isinstance(fields, dict):
             raise TypeError(f'{element.family} "{element.name}": a dict is wanted, not {fields!r}')
         if "name" in fields:
-            raise TypeError(f'{element.family} "{element.name}": names stay')
+            raise TypeError(f'{element.family} "{element.name}": names cannot change')
         if element.family == "input":
             self._change_input(element, fields)
             return
@@ -285,8 +294,8 @@ class Mechanism(Adding, AddingInSpace):
         _calls.make(lib.baum_mechanism_set_characteristic_length, self.handle, length)
 
     def add_break_times(self, times: ArrayLike) -> None:
-        """Declare times [s] at which functions of time jump, before freezing. No step passes one of
-        them."""
+        """Declare times [s] at which functions of time jump, before freezing. Steps end at these
+        times."""
         given = vector(np.atleast_1d(times), None, "break times")
         self._owner.call(lib.baum_mechanism_add_break_times, given.ctypes.data, len(given))
 
@@ -306,21 +315,23 @@ class Mechanism(Adding, AddingInSpace):
 
     @property
     def frozen(self) -> bool:
-        """Whether freeze() has made it constant."""
+        """Whether freeze() has made the mechanism constant."""
         return bool(lib.baum_mechanism_is_frozen(self.handle))
 
     def copy(self, **changes: Mapping[str, Any]) -> Mechanism:
         """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
-        frozen if this mechanism is. Handles of one are valid in the other until elements are added.
+        frozen if this mechanism is. Handles of either mechanism are valid in the other until
+        elements are added.
 
         With another position, angle or orientation of a body, the copy is the same mechanism in
-        another initial configuration: joints and forces keep their points and axes in body axes,
-        and the lengths, angles and offsets that they took from the design configuration. Their
-        definitions in the copy contain the numbers. Assembly closes the joints, which may move the
-        changed body too: give position and angle that fit, or held=True. A joint or force that is
-        itself changed in `point`, `point_a` or `point_b` is placed in the new design configuration.
-        The angle of a spatial revolute joint is 0 in the new design configuration. ValueError if
-        that would change a driven angle, or if a spatial weld or prismatic joint would be turned.
+        another design configuration: joints and forces keep their points and axes in body axes, and
+        they keep the lengths, angles and offsets that they took from the design configuration.
+        Definitions in the copy contain these numbers. Assembly closes the joints, which may move
+        the changed body too: give position and angle that fit, or held=True. A joint or force whose
+        `point`, `point_a` or `point_b` is also changed is placed in the new design configuration.
+        Angles of spatial joints are 0 in the new design configuration. ValueError if this would
+        change an angle that a driver, a coupling or a spring uses, or the relative orientation of a
+        spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -338,17 +349,26 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """The numbers that fix joints and forces in body axes before bodies are moved, by
+        """The numbers that place joints and forces in body axes before bodies are moved, by
         element."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
-        joints = [one.definition.get("joint") for one in self if moved and one.family == "joint"]
+        angles = list(self._used_angles()) if moved else []
         for element in self if moved else ():
             placed_anew = given.get(element.name, set()) & {"point", "point_a", "point_b"}
             if element.family in ("joint", "force") and not placed_anew:
-                design_space.check_turned(element, joints, changes)
+                design_space.check_turned(element, angles, changes)
                 yield element.name, design.taken(element, moved)
+
+    def _used_angles(self) -> Iterator[Joint]:
+        """The joints whose angles drivers, couplings and springs use."""
+        for element in self:
+            values = element.definition if element.family in ("joint", "force") else {}
+            for end in ("", "_a", "_b"):
+                joint = values.get(f"joint{end}")
+                if joint and joint.kind.coordinate(values[f"coordinate{end}"]).startswith("angle"):
+                    yield joint
 
     @property
     def sizes(self) -> Sizes:
@@ -370,7 +390,7 @@ class Mechanism(Adding, AddingInSpace):
         return slice(first.value, first.value + count.value)
 
     def columns(self, body: BodyLike) -> tuple[slice, slice]:
-        """Places of a body in q and v of a frozen mechanism."""
+        """Indices of a body in q and v of a frozen mechanism."""
         found = self.find("body", body)
         q, v = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
@@ -417,13 +437,25 @@ class Mechanism(Adding, AddingInSpace):
         if value in WHOLE:
             return WHOLE[value]
         name, _, attribute = value.rpartition(".")
-        channel = getattr(self[name], attribute, None) if name else None
-        if not isinstance(channel, Channel):
+        if not name:
             raise KeyError(
                 f"no channel {value!r}; there are {', '.join(WHOLE)} and those of bodies "
                 'and joints, such as "B.phi"'
             )
+        element = self[name]
+        channel = getattr(element, attribute, None)
+        if not isinstance(channel, Channel):
+            raise KeyError(f"no channel {value!r}; {name!r} has {', '.join(_channels(element))}")
         return channel
+
+    def draw(self, q: ArrayLike | None = None) -> Drawing:
+        """A picture of the design configuration, or of positions q (nq) [m], [rad], which need a
+        frozen mechanism. Notebooks show it; save("x.svg") writes it. A red line joins the two
+        points of a joint that is open.
+
+        Bodies draw themselves from the points of their joints, or as large as their inertia.
+        """
+        return drawings.draw(self, q)
 
     # ---- runs ------------------------------------------------------------------------------------
 

@@ -24,7 +24,7 @@ def stream() -> TextIO | None:
 
 
 class Line:
-    """One line that is written over and over: a bar, the percentage and the time left."""
+    """One line that is overwritten again and again: a bar, the percentage and the time left."""
 
     def __init__(self, out: TextIO, title: str) -> None:
         self._out = out
@@ -78,7 +78,7 @@ class StudyLine(Line):
 
     methods: the index of the method of each entry. Every setting of a method is assumed to cost
     twice as much as the coarser one before it. The study first runs all entries from coarse to
-    fine. It then times them in their own order.
+    fine. It then measures their times in the order of adding.
     """
 
     def __init__(self, out: TextIO, methods: Sequence[int]) -> None:
@@ -108,7 +108,7 @@ def bar(fraction: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """A duration as text, with as many digits as an estimate deserves."""
+    """A duration as text, rounded as an estimate should be."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn
+import os
+from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn, Sequence
 
 import numpy as np
 
-from . import _html, _records, units
+from . import _html, _records, drawings, units
 from ._rotation import matrix
-from .channels import Channel, Layout
+from .channels import WHOLE, Channel, Layout
+from .drawings import Page, TraceLike
 from .elements import Body, Element
 from .errors import Status, Warning
 from .typing import Array, ChannelLike
@@ -25,7 +27,7 @@ EnergyAccount = _records.EnergyAccount
 
 
 class _ByName:
-    # A named tuple with handles; it is pickled with their names in place of them.
+    # A named tuple with handles. Pickling replaces the handles by their names.
     __slots__ = ()
 
     def __reduce__(self) -> Any:
@@ -60,8 +62,8 @@ class Event(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where a body is in q and v. in_body_axes: its angular velocity in v is in body axes, that of
-    its channel in ground axes."""
+    """Where a body is in q and v. in_body_axes: the angular velocity in v is in body axes, although
+    the channel of the body has it in ground axes."""
 
     q: slice
     v: slice
@@ -87,9 +89,9 @@ class Run:
     they are parts of q and v: run["slider.pose"].
 
     status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early. counters:
-    what the run has cost. explain: how it was done, as text. warnings: a baum.Warning for each
-    kind. near_singular, events: lists for the whole simulation so far.
-    energy_account: at the end; None without the option energy_account.
+    what the run has cost. explain: the methods of the run, as text. warnings: a baum.Warning for
+    each kind. near_singular, events: lists for the whole simulation so far. energy_account: at the
+    end; None without the option energy_account.
 
     A run can be pickled; its `mechanism` is then None.
     """
@@ -198,7 +200,7 @@ class Run:
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
-        """The places of a body's pose or velocity in q or v, or None."""
+        """The indices of a body's pose or velocity in q or v, or None."""
         body, _, what = str(name).rpartition(".")
         place = self._place_of(body) if what in ("pose", "velocity") else None
         if place is None:
@@ -206,7 +208,7 @@ class Run:
         return ("q", place.q, place) if what == "pose" else ("v", place.v, place)
 
     def _place_of(self, body: str) -> Place | None:
-        """Places of a body in q and v, or None."""
+        """Indices of a body in q and v, or None."""
         if self._bodies is not None:
             return self._bodies.get(body)
         if self.mechanism is None or body not in self.mechanism:
@@ -218,8 +220,8 @@ class Run:
 
     @property
     def columns(self) -> dict[str, str]:
-        """The unit of each column of to_dict() by its name; "-" for pure numbers, "" where your
-        functions decide it."""
+        """The unit of each column of to_dict() by its name; "-" for pure numbers, "" if it depends
+        on your functions."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))
@@ -281,19 +283,74 @@ class Run:
         places[-1].set_xlabel("t [s]")
         return places
 
+    # ---- pages -----------------------------------------------------------------------------------
+
+    def page(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        title: str | None = None,
+        traces: Sequence[TraceLike] = (),
+        forces: bool = True,
+        plots: Sequence[ChannelLike] | None = None,
+    ) -> None:
+        """Write a page that shows the motion in any browser: one HTML file that loads nothing.
+
+        traces: paths to draw, of bodies or channels such as m["rod"].pose_of((0.1, 0)). forces:
+        show recorded reactions as arrows. plots: channels to plot beside the picture, by default
+        all recorded ones but q, v and reactions. Warnings and events are marked on the time axis.
+        At most 600 samples are kept, among them the extremes of plotted columns. Raises ValueError
+        for a run without its mechanism, KeyError for a channel that was not recorded.
+        """
+        self._page(title, traces, forces, plots).save(path)
+
+    def show(
+        self,
+        *,
+        title: str | None = None,
+        traces: Sequence[TraceLike] = (),
+        forces: bool = True,
+        plots: Sequence[ChannelLike] | None = None,
+    ) -> Page:
+        """The page of page(), shown at once: in a notebook in a frame, else in the browser."""
+        made = self._page(title, traces, forces, plots)
+        if not drawings.is_notebook():
+            made.open()
+        return made
+
+    def _page(
+        self,
+        title: str | None,
+        traces: Sequence[TraceLike],
+        forces: bool,
+        plots: Sequence[ChannelLike] | None,
+    ) -> Page:
+        known = self._channels.values()
+        reactions = [channel for channel in known if drawings.is_reaction(channel)]
+        shown = [WHOLE["q"], *(reactions if forces else ())]
+        if plots is None:
+            others = [channel for channel in known if channel not in reactions]
+            plots = [channel for channel in others if channel.key not in ("q", "v")]
+        columns = []
+        for plot in plots:
+            key = plot.key if isinstance(plot, Channel) else plot
+            for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
+                columns.append((f"{name} [{unit}]" if unit else name, values))
+        return drawings.page(self, title, traces, shown, columns)
+
 
 def _place(body: Body) -> Place:
     return Place(*body.columns, body.kind is not None and body.kind.name == "spatial_body")
 
 
 def _common(names: list[str]) -> str:
-    """The channel that names of columns share, or ""."""
+    """The name of the channel that all these columns belong to, or ""."""
     channels = {name.rpartition("[")[0] or name for name in names}
     return channels.pop() if len(channels) == 1 else ""
 
 
 def _axes(count: int, given: Any) -> list[Axes]:
-    """One axes for each unit: those that are given, or those of a new figure."""
+    """Matplotlib axes, one for each unit: the given axes, or those of a new figure."""
     if given is not None:
         found = list(np.ravel(given))
         if len(found) != count:

@@ -25,11 +25,12 @@ from numpy.typing import NDArray
 
 from . import _abi, _calls
 from ._lib import default, lib, text
-from ._values import address, integer, number, truth, vector
+from ._values import address, integer, number, truth, vector, word
 from .callbacks import event_function
 from .channels import Channel, Layout
 from .channels import q as ALL_Q
 from .channels import v as ALL_V
+from .definitions import COORDINATES
 from .errors import Error, Status, Warning, as_warning, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, integrators, lookup, names
@@ -39,6 +40,7 @@ from .typing import (
     Array,
     ArrayLike,
     ChannelLike,
+    Coordinate,
     Formulation,
     InputLike,
     JointLike,
@@ -61,14 +63,9 @@ AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
 
 def _word(words: Mapping[str, int], label: str) -> Callable[[Any], int]:
-    """A function that converts one of several words."""
+    """A function that converts one of these words to its value."""
 
-    def convert(value: Any) -> int:
-        if value not in words:
-            raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
-        return words[value]
-
-    return convert
+    return lambda value: word(words, value, label)
 
 
 def _number(name: str) -> Callable[[Any], float]:
@@ -108,7 +105,7 @@ CONVERT: dict[str, Callable[[Any], Any]] = {
 
 
 def _status_of(error: BaseException) -> Status:
-    """The Status of a run that an exception has ended."""
+    """The Status of a run that has ended with this exception."""
     if isinstance(error, Error):
         return error.status
     interrupted = isinstance(error, KeyboardInterrupt)
@@ -139,8 +136,8 @@ def make_options(method: Any, values: Mapping[str, Any]) -> Any:
 
 
 def _progress(holder: list[Watcher]) -> Any:
-    """A progress function of the library that calls holder[0](t), which may change from call to
-    call."""
+    """A progress function for the library that calls holder[0](t); holder[0] may change between
+    calls."""
 
     def call(simulation: Any, t: float, user: Any) -> int:
         try:
@@ -170,7 +167,7 @@ def row_factors(mechanism: Mechanism, factors: Any) -> Array:
 
 
 def _checked(progress: Any) -> Any:
-    """A function, True for a bar, or None."""
+    """Check the option progress, which is a function, True for a bar, or None."""
     if progress is None or progress is False:
         return None
     if progress is not True and not callable(progress):
@@ -179,7 +176,8 @@ def _checked(progress: Any) -> Any:
 
 
 def takes_options(method: Method) -> Method:
-    """A method that hands **options to Simulation, with these options in its signature."""
+    """Decorate a method that passes **options to Simulation: show these options in its
+    signature."""
     own = inspect.signature(method)
     options = [
         parameter
@@ -212,8 +210,8 @@ class Simulation(_calls.Closing):
     step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
     atol: added to rtol [unit of the coordinate] >= 0, default none. max_step: longest variable step
         [s] > 0, default none. Set it if forces start late.
-    formulation: "default" is the first that the integrator offers; "unstabilized", "baumgarte",
-        "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
+    formulation: "default" is the first formulation that the integrator offers; "unstabilized",
+        "baumgarte", "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
         "generalized_alpha" have "index3" only.
     gains: for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(), deadbeat(),
         best_damping() or auto(); None is the rule of the integrator. row_gains: {joint or its name:
@@ -223,13 +221,13 @@ class Simulation(_calls.Closing):
         and multipliers [-] > 0. tolerance_lambda: finite only for "ida" with "baumgarte" or
         "unstabilized".
     start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
-        configuration that violates them; "as_given" takes it as it is.
+        configuration that violates constraints; "as_given" accepts it unchanged.
     solver: "auto", "klu", "qr" or "block". check_derivatives: compare the derivatives of your
         functions with differences first. max_steps: number of steps after which a call fails.
     energy_account: record the works that `energy_account` and its channel report.
     error_check: estimate the error of the motion by a second integration
-        (counters.error_estimate), and warn if it is large. Fixed steps are checked in any case
-        where the error may matter.
+        (counters.error_estimate), and warn if it is large. Without it, runs with fixed steps are
+        still checked as soon as their error may matter.
     progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
         A function progress(t) is called every progress_interval seconds of wall time, and cancels
         the run if it returns a true value.
@@ -386,7 +384,7 @@ class Simulation(_calls.Closing):
         self._warn()
 
     def set_input(self, input: InputLike, value: Scalar) -> None:
-        """Set an input from the present time on. It is held until it is set again.
+        """Set an input from the present time on. The value holds until it is set again.
 
         Variable-step methods restart; multistep methods then take small steps. A loop that sets
         inputs often runs best with a fixed step, or with "rk8".
@@ -397,8 +395,8 @@ class Simulation(_calls.Closing):
     def schedule_input(self, input: InputLike, times: ArrayLike, values: ArrayLike) -> None:
         """Give an input values[k] from times[k] [s] on; before times[0] it keeps its present value.
 
-        times: (n) rising. values: (n). No step passes one of the times, and multistep methods
-        restart there. set_input() ends the schedule.
+        times: (n) rising. values: (n). Steps end at these times, and multistep methods restart
+        there. set_input() ends the schedule.
         """
         found = self.mechanism.find("input", input)
         at = vector(np.atleast_1d(times), None, f"{found.name}: times")
@@ -421,11 +419,11 @@ class Simulation(_calls.Closing):
         rate: Scalar = 0.0,
         acceleration: Scalar = 0.0,
     ) -> None:
-        """Give a driver another law in this run, until it is set again. With the present time t0,
-        its coordinate is value + rate (t - t0) + acceleration (t - t0)^2 / 2.
+        """Give a driver another law in this run, until it is set again. From the present time t0
+        on, its coordinate is value + rate (t - t0) + acceleration (t - t0)^2 / 2.
 
-        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. Continue
-        from the present coordinate: a jump in value or rate is a constraint violation, which the
+        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. Start value
+        at the present coordinate: a jump in value or rate is a constraint violation, which the
         formulation treats like any other.
         """
         found = self.mechanism.find("joint", driver)
@@ -443,6 +441,7 @@ class Simulation(_calls.Closing):
         terminal: bool = True,
         name: str | None = None,
         tolerance: Scalar | None = None,
+        coordinate: Coordinate = "first",
     ) -> int:
         """Add an event from the present state on, and return its number.
 
@@ -450,12 +449,13 @@ class Simulation(_calls.Closing):
         function(t, q, v) of the whole state passes zero. direction: 1 rising, -1 falling in time, 0
         both. terminal: the call ends with Status.STOP_EVENT at the event, and the next call
         continues; otherwise it is only recorded in `events`. name: for messages. tolerance: of the
-        time [s], default chosen by the library.
+        time [s], default chosen by the library. coordinate: which one of `joint`, as in driver().
         """
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()
         if joint is not None:
             struct.joint = self.mechanism.find("joint", joint).id
+        struct.coordinate = word(COORDINATES, coordinate, "coordinate")
         struct.value = number(value, "value")
         struct.direction = integer(direction, "direction")
         struct.terminal = truth(terminal, "terminal")
@@ -470,7 +470,7 @@ class Simulation(_calls.Closing):
 
     @property
     def events(self) -> list[Event]:
-        """Events that have happened so far; the last 1024 are kept."""
+        """Events that have happened so far, at most the last 1024."""
         count = lib.baum_simulation_event_count(self._owner.address)
         record = _abi.baum_event_record()
         happened = []
@@ -493,10 +493,11 @@ class Simulation(_calls.Closing):
         return buffer.raw[: size.value]
 
     def restore(self, saved: bytes | bytearray | memoryview) -> None:
-        """Return to the state that save() has returned, in a run of the same mechanism and options.
+        """Restore a state from save() of this run, or of another run with the same mechanism and
+        options.
 
-        Raises baum.Error with Status.ERR_BUFFER for anything else. Warnings of the saved run are
-        not repeated.
+        Raises baum.Error with Status.ERR_BUFFER if the bytes are anything else. Warnings of the
+        saved run are not repeated.
         """
         given = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, given, len(given))
@@ -504,7 +505,7 @@ class Simulation(_calls.Closing):
 
     def continue_from(self, other: Simulation) -> None:
         """Continue from the present state of another run of the same mechanism, even one that has
-        failed. State, inputs and driver laws come from that run; the options of this run stay."""
+        failed. State, inputs and driver laws come from that run; this run keeps its own options."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
         self._call(lib.baum_simulation_continue, other._owner.address)
@@ -613,7 +614,7 @@ class Simulation(_calls.Closing):
 
     @property
     def near_singular(self) -> list[NearSingular]:
-        """Intervals in which the run was near a singular configuration; the first 64 are kept."""
+        """Intervals in which the run was near a singular configuration, at most the first 64."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()
@@ -646,7 +647,7 @@ class Simulation(_calls.Closing):
         return found
 
     def _warn(self) -> None:
-        """Issue warnings that are new or have occurred again."""
+        """Issue Python warnings for warnings of the run that are new or have occurred again."""
         before, self._warned = self._warned, {}
         for warning in self.warnings:
             self._warned[warning.code] = warning.count
@@ -661,5 +662,5 @@ class Simulation(_calls.Closing):
 
     @property
     def message(self) -> str:
-        """The message of the last failure or stop, "" before."""
+        """The message of the last failure or stop, "" if there was none."""
         return text(lib.baum_simulation_message(self._owner.address))

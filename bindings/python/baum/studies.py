@@ -77,7 +77,7 @@ RULES = _swap(names(_abi.baum_gain_rule, "BAUM_GAINS_"))
 
 
 def _gains(struct: Any) -> Gains | None:
-    """The Gains of a struct; None for the rule of the integrator."""
+    """The Gains of a struct; None for the integrator's default rule."""
     rule = RULES[struct.rule]
     if rule == "default":
         return None
@@ -120,22 +120,23 @@ class Study(_calls.Closing):
     error: channels or their names; the error is their largest difference from the reference,
         divided by `unit`. By default all positions, with lengths relative to the characteristic
         length and angles in radians.
-    reference, solution, digits: a reference instead of the study's own. reference is (times, q),
-        (times, q, v) or (times, q, v, lambda_) with a row for each time; solution(t) returns (q, v)
-        or (q, v, lambda_). digits: the number of digits that can be trusted.
+    reference, solution: a known motion, used instead of a reference computed by the study.
+        reference is (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time;
+        solution(t) returns (q, v) or (q, v, lambda_). digits: the number of digits that can be
+        trusted.
     samples: number of times at which errors are measured, 2 to 1e6. repeats: largest number of runs
         that measure the CPU time of an entry. entry_limit: largest CPU time of a run [s].
         time_budget: largest wall time of one run() [s]. threads: default the number of processors,
         but 1 for a mechanism with Python functions. energy_account: measure the works of the
-        stabilization. validate: also run entries that may be recommended over twice the span and
+        stabilization. validate: run entries that may be recommended also over twice the span and
         from perturbed starts.
     file: path of a file that keeps the results, from which a later study continues.
     grid: what run() adds to a study without settings: "quick", which takes seconds, or about a
         minute with Python functions; or "full", about 25 times as long.
     progress: by default a bar with an estimate of the time left, in a terminal or a notebook;
         False: nothing. A function progress(done, total) is called after each entry; an entry counts
-        once for its error and once for its time. It cancels the study if it returns a true value.
-        It may call cancel() and len() of the study, but nothing else.
+        once for its error and once for its time. The function cancels the study if it returns a
+        true value. It may call cancel() and len() of the study, but no other method.
 
     Use it in a `with` block to free its memory and file at the end of the block.
 
@@ -196,8 +197,8 @@ class Study(_calls.Closing):
             self._set_error(error, unit)
         if (reference is None and solution is None) != (digits is None):
             raise TypeError(
-                "reference or solution and digits, which says how many of its digits can be "
-                "trusted, go together"
+                "give reference or solution together with digits, the number of its digits that "
+                "can be trusted"
             )
         if reference is not None:
             self._set_reference(reference, number(digits, "digits"))
@@ -223,7 +224,7 @@ class Study(_calls.Closing):
     # ---- what is studied -------------------------------------------------------------------------
 
     def _hold(self, kind: Any, function: Any) -> Any:
-        """A function of the library that lives as long as the study."""
+        """A function pointer for the library that is kept alive as long as the study."""
         self._keep.append(kind(function))
         return self._keep[-1]
 
@@ -301,13 +302,14 @@ class Study(_calls.Closing):
         finest: Scalar | None = None,
         quick: bool = False,
     ) -> Study:
-        """Add the standard grid, or its part of one integrator or formulation. Returns the study.
+        """Add the standard grid, or only its settings with one integrator or formulation. Returns
+        the study.
 
         settings: steps or tolerances of each method, 1 to 64. constants: number of constant gains
         in addition to the gain rules, 0 to 4. coarsest: longest step of methods of order 2 and
-        above [s], by default from the speed of the motion. finest: smallest rtol [-], default
-        1e-13, or 1e-11 if derivatives are computed by differences. quick: the quick grid with at
-        most 5 settings of each integrator.
+        above [s], by default derived from the speed of the motion. finest: smallest rtol [-],
+        default 1e-13, or 1e-11 if derivatives are computed by differences. quick: the quick grid
+        with at most 5 settings of each integrator.
         """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
@@ -339,9 +341,9 @@ class Study(_calls.Closing):
     def run(self) -> Study:
         """Compute the reference and run the entries that are not done. Returns the study.
 
-        A study without entries first adds its grid. A reference that cannot be trusted and a spent
-        budget are Python warnings. If a function of the mechanism raises, the entry fails, and its
-        message contains the exception.
+        A study without entries first adds its grid. If the reference cannot be trusted, or the time
+        budget is spent, a Python warning is issued. If a function of the mechanism raises, the
+        entry fails, and its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -364,8 +366,8 @@ class Study(_calls.Closing):
         lib.baum_study_cancel(self._owner.address)
 
     def _long(self, function: Any, *arguments: Any) -> tuple[Status, str]:
-        """A call that may take long, and its message. An exception of a function of the user is
-        raised here, whichever thread called it."""
+        """Make a call that may take long, and return its message. An exception of a user function
+        is raised here, in whichever thread it occurred."""
 
         def call() -> tuple[Status, str]:
             return self._owner.call(function, *arguments), _calls.message()
@@ -452,13 +454,13 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """The cheapest setting for an error [-] that it also keeps from perturbed starts and over
+        """The cheapest setting whose error is at most this [-], also from perturbed starts and over
         twice the span. Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
-        """The most accurate setting for a CPU time [s] on this machine. Raises baum.Error if there
-        is none."""
+        """The most accurate setting whose run takes at most this CPU time [s] on this machine.
+        Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
     def _answer(self, function: Any, *arguments: Any) -> Recommendation:

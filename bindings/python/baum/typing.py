@@ -42,11 +42,11 @@ class HasQuaternion(Protocol):
     def as_quat(self) -> Any: ...
 
 
-# A unit quaternion w, x, y, z, a rotation matrix 3 x 3, or a rotation of SciPy.
+# A unit quaternion (w, x, y, z), a rotation matrix (3 x 3), or a rotation of SciPy.
 OrientationLike = Union[ArrayLike, HasQuaternion]
 Axis = Literal["x", "y", "z"]
 
-# A compiled function: an address, a function pointer of ctypes, an object with an address.
+# A compiled function: its address, a function pointer of ctypes, or an object with `address`.
 Compiled = Union[int, CFuncPtr, HasAddress]
 FunctionOfQ = Union[Callable[[float, Array], ArrayLike], Compiled]
 FunctionOfQV = Union[Callable[[float, Array, Array], ArrayLike], Compiled]
@@ -59,6 +59,7 @@ Manifold = Union[Callable[..., ArrayLike], Compiled]
 Formulation = Literal[
     "default", "unstabilized", "baumgarte", "projection", "index2", "ggl", "index3"
 ]
+Coordinate = Literal["first", "displacement", "angle", "angle_b", "x", "y"]
 Start = Literal["assemble", "exact", "as_given"]
 Solver = Literal["auto", "klu", "qr", "block"]
 Cost = Literal["work", "cpu"]

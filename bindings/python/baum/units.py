@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Units of the columns of channels; "-" for pure numbers, "" where the user's functions decide."""
+"""Units of the columns of channels; "-" for pure numbers, "" if they depend on user functions."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from . import _abi
 from .channels import Channel, width
+from .definitions import COORDINATES
 
 if TYPE_CHECKING:
     from .definitions import Kind
@@ -34,7 +35,8 @@ def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
         return ("J",) * width(mechanism, channel)
     joint = mechanism.find("joint", channel.struct.joint)
     if quantity == _Q.BAUM_JOINT_COORDINATE:
-        return _coordinate(joint), _RATES[_coordinate(joint)]
+        unit = _coordinate(joint, list(COORDINATES)[channel.struct.coordinate])
+        return unit, _RATES[unit]
     if quantity == _Q.BAUM_JOINT_REACTION:
         return _reaction(joint, width(mechanism, channel))
     joints = [joint] if joint else [one for one in mechanism if one.family == "joint"]
@@ -44,7 +46,7 @@ def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
     return _rates(rows, quantity == _Q.BAUM_PHI_RATE)
 
 
-# Derivatives by time of the positions of a body or of all.
+# Quantities that are positions of bodies (0) or their first or second time derivatives (1, 2).
 _OF_BODY = {
     _Q.BAUM_Q: 0,
     _Q.BAUM_V: 1,
@@ -70,9 +72,9 @@ def _rates(units: Units, order: int) -> Units:
     return units
 
 
-def _coordinate(joint: Joint) -> str:
+def _coordinate(joint: Joint, name: str) -> str:
     assert joint.kind is not None
-    return "rad" if joint.kind.name in ("planar_revolute", "spatial_revolute") else "m"
+    return "rad" if joint.kind.coordinate(name).startswith("angle") else "m"
 
 
 def _rows(joint: Joint) -> Units:
@@ -81,9 +83,10 @@ def _rows(joint: Joint) -> Units:
     if joint.kind.units:
         return joint.kind.units
     values = joint.definition
-    coordinate_of = values.get("joint_b") or values.get("joint")
-    if coordinate_of is not None:
-        return (_coordinate(coordinate_of),)
+    if "joint_b" in values:
+        return (_coordinate(values["joint_b"], values["coordinate_b"]),)
+    if "joint" in values:
+        return (_coordinate(values["joint"], values["coordinate"]),)
     return ("",) * int(values["rows"])
 
 

@@ -49,7 +49,7 @@ class Workspace(_calls.Closing):
     def _evaluate(
         self, function: Any, shape: Any, t: Scalar, q: ArrayLike, v: ArrayLike | None = None
     ) -> Array:
-        """An array from a function of (t, q) or (t, q, v)."""
+        """The array that a library function of (t, q) or (t, q, v) returns."""
         out: Array = np.empty(shape)
         state = [self._q(q)] if v is None else [self._q(q), self._v(v)]
         self._call(function, number(t, "t"), *map(address, state), address(out))

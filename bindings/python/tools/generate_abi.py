@@ -3,9 +3,9 @@
 
 usage: generate_abi.py [--check] [INCLUDE_DIR [FOLDER]]
 
-Reads baum/baum.h and baum/catalog.h and the headers that they include. It knows the C that these
-headers use and refuses anything else, so no declaration is omitted silently. --check writes nothing
-and fails if the output would change.
+Reads baum/baum.h and baum/catalog.h and the headers that they include. It parses only the C
+constructs that these headers use and fails on any other, so no declaration is omitted silently.
+--check writes nothing and fails if the output would change.
 """
 
 import argparse
@@ -22,7 +22,7 @@ WIDTH = 100
 
 
 def load_words():
-    """The module of the package that translates texts; the package itself needs the library."""
+    """Load baum/_words.py alone, because importing the package needs the compiled library."""
     spec = importlib.util.spec_from_file_location("_words", FOLDER / "_words.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from .gains import Gains
 '''
 
-# The structs that Python reads, and what each of them is.
+# The structs that become named tuples, and the docstrings of these.
 RECORDS = {
     "baum_mobility": "What a mechanism can do at its assembled initial configuration.",
     "baum_report": "What an evaluation of the accelerations costs, and which work it skips.",
@@ -75,14 +75,14 @@ RECORDS = {
     "baum_catalog_error": "How far a run is from the reference of the catalogue.",
 }
 
-# What Python adds to a struct: name, type, comment.
+# Fields that exist only in Python: name, type, comment.
 ADDED = {
     "baum_catalog_entry": [
         ("parameters", "dict[str, CatalogParameter]", "Its parameters by name."),
     ],
 }
 
-# Types of fields in Python, by type in ctypes and by name.
+# Python types of fields, by ctypes type in PYTHON and by field name in WORDS, which has priority.
 PYTHON = {
     "c_double": "float",
     "c_bool": "bool",
@@ -119,7 +119,7 @@ NUMBERS = {
 
 
 def read_headers(include, name="baum/baum.h", seen=None):
-    """Text of a header and of those it includes, each once, included ones first."""
+    """Return the text of a header after that of the headers it includes, each header once."""
     seen = set() if seen is None else seen
     seen.add(name)
     text = (include / name).read_text(encoding="utf-8")
@@ -132,7 +132,7 @@ def read_headers(include, name="baum/baum.h", seen=None):
 
 
 def strip(text):
-    """Without comments, preprocessor lines, extern "C" and inline functions."""
+    """Remove comments, preprocessor lines, extern "C" and inline functions."""
     text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
     text = re.sub(r"//[^\n]*", " ", text)
     text = re.sub(r"#ifdef __cplusplus\n.*?#endif", " ", text, flags=re.S)
@@ -142,7 +142,8 @@ def strip(text):
 
 
 def expand_lists(text):
-    """The X-macros of the interface: what BAUM_X makes of each line of a list."""
+    """Expand the X-macros of the interface: apply the definition of BAUM_X to each line of a
+    list."""
     text = text.replace("\\\n", " ")
     lists = {}
     for name, body in re.findall(r"#define (\w+_LIST)\(X\) *(.*)", text):
@@ -160,7 +161,7 @@ def expand_lists(text):
 
 
 def split(text):
-    """Declarations, each on one line, ended by a semicolon outside braces."""
+    """Yield the declarations, which end at a semicolon outside braces, each as one line."""
     depth, start = 0, 0
     for at, char in enumerate(text):
         depth += (char == "{") - (char == "}")
@@ -175,7 +176,7 @@ def split(text):
 
 
 def field_comments(text, struct):
-    """What a header says of the fields of a struct, by name."""
+    """Return the comments in a header on the fields of a struct, by name of the field."""
     body = re.search(rf"typedef struct {struct} \{{(.*?)\n\}} {struct};", text, flags=re.S)[1]
     body = re.sub(r"\n\s*\*(?!/)", "\n", body)
     name = r"(\w+)(?:\[\w+\])*;"
@@ -191,7 +192,7 @@ def field_comments(text, struct):
 
 
 def record(text, struct, fields):
-    """A struct as a class of named tuples, without its size."""
+    """Write a struct as a NamedTuple class; `fields` are without struct_size."""
     comments = field_comments(text, struct)
     types = {
         field: WORDS.get(field) or PYTHON[re.match(r"[a-z_0-9]+", spelled)[0]]
@@ -221,17 +222,19 @@ def record(text, struct, fields):
 
 
 class Types:
-    """Names that were declared so far, and how C types are spelled in ctypes."""
+    """Knows the names declared so far and translates C types to ctypes."""
 
     def __init__(self):
         self.structs, self.enums, self.functions, self.handles = set(), set(), set(), set()
 
     def spell(self, base, stars):
-        """The ctypes name of `base` with that many stars."""
+        """Return the ctypes name of the C type `base` followed by this number of stars."""
         if stars == 0:
             return self._value(base)
         if base == "char" and stars == 1:
             return "c_char_p"
+        if base == "char" and stars == 2:
+            return "POINTER(c_char_p)"
         if base in self.functions and stars == 1:
             return base
         if base in ("void", "double") and stars == 1 or base in self.handles and stars == 1:
@@ -255,8 +258,8 @@ class Types:
 
 
 def declarators(types, text, in_struct=False):
-    """Names and ctypes of `const double *a, b[2]`."""
-    match = re.fullmatch(r"(?:const )?(\w+) ?(.*)", text)
+    """Yield names and ctypes of declarators such as `const double *a, b[2]`."""
+    match = re.fullmatch(r"(?:const )?(\w+) ?(.*)", text.replace("*const *", "**"))
     base = match[1]
     for part in match[2].split(","):
         name = re.fullmatch(r"\s*(\**)\s*(\w+)((?:\s*\[\w+\])*)\s*", part)
@@ -273,7 +276,7 @@ def declarators(types, text, in_struct=False):
 
 
 def arguments(types, text):
-    """The ctypes of an argument list."""
+    """Return the ctypes of an argument list."""
     if text.strip() == "void":
         return []
     return [spelled for part in text.split(",") for _, spelled in declarators(types, part.strip())]
@@ -283,7 +286,7 @@ def arguments(types, text):
 
 
 def wrap(opening, items, closing, indent="    "):
-    """`opening items closing` on one line, or the items on lines of their own."""
+    """Join the parts on one line, or wrap the items on indented lines if it is too long."""
     line = opening + ", ".join(items) + closing
     if len(line) <= WIDTH:
         return line
@@ -298,7 +301,7 @@ def wrap(opening, items, closing, indent="    "):
 
 
 class Writer:
-    """Collects the parts of the module, one method per kind of declaration."""
+    """Collects the parts of _abi.py, with one method per kind of declaration."""
 
     def __init__(self):
         self.types = Types()
@@ -352,12 +355,12 @@ class Writer:
         self._line(f"{name} = {kind}({values})")
 
     def _line(self, text):
-        """One statement, two lines below a class."""
+        """Append a statement, after two empty lines if a class precedes it."""
         after_class = self.parts and "class " in self.parts[-1]
         self.parts.append(("\n\n" if after_class else "") + text + "\n")
 
     def module(self, version):
-        """The whole text."""
+        """Return the whole text of _abi.py."""
         defaults = [f'    {name}: "{name}_init",' for name in self.initialised]
         structs = [f"    {name}," for name in self.structs]
         return "".join(
@@ -365,13 +368,13 @@ class Writer:
                 HEAD.format(version=version),
                 f'\nVERSION = "{version}"\n',
                 *self.parts,
-                "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
+                "\n\n# Result and argument types of every function.\nPROTOTYPES = {\n",
                 "\n".join(self.prototypes["BAUM_API"]),
                 "\n}\n",
-                "\n# Those of the library of the catalogue.\nCATALOG_PROTOTYPES = {\n",
+                "\n# The same for the library of the catalogue.\nCATALOG_PROTOTYPES = {\n",
                 "\n".join(self.prototypes["BAUM_CATALOG_API"]),
                 "\n}\n",
-                "\n# Structs that the caller fills, and the function that sets their defaults.\n",
+                "\n# Structs that the caller fills, and the functions that set their defaults.\n",
                 "DEFAULTS = {\n",
                 "\n".join(defaults),
                 "\n}\n",
@@ -393,7 +396,7 @@ RULES = [
 
 
 def translate(declaration, writer):
-    """Hand one declaration to the writer."""
+    """Call the method of the writer that matches a declaration."""
     for pattern, method in RULES:
         match = re.fullmatch(pattern, declaration)
         if match:
@@ -403,7 +406,7 @@ def translate(declaration, writer):
 
 
 def generate(include):
-    """The texts of _abi.py and _records.py for the headers in `include`, by name."""
+    """Return the texts of _abi.py and _records.py for the headers in `include`, by file name."""
     seen = set()
     text = "\n".join(
         read_headers(Path(include), f"baum/{name}.h", seen) for name in ("baum", "catalog")

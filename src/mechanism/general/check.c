@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks whether the derivatives that a user gives are those of the user's functions.
+/* Checks whether the derivatives that user functions give agree with differences of user functions.
  *
- * The check compares a given value g with differences d at a sequence of shrinking steps. The value
- * is right as soon as
+ * The check compares a given value g with differences d for a sequence of decreasing steps. g is
+ * accepted if
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * holds at one step. The second term allows for the rounding of an entry that is small beside the
- * others of its row. The value is wrong if this never holds, and if the best d and one more d
- * differ from it by more than the error of d: 20 times the disagreement of the two orders
- * (difference.c), plus that of neighbouring steps, plus rounding. At a kink, such as dry friction
- * at rest, the two sides differ by as much at any step. The function has no derivative there, and
- * the check passes.
+ * holds for one step. The second term allows for the rounding of an entry that is small compared
+ * with the others of its row. g is rejected if this holds for no step, and if the best d and at
+ * least one more d differ from g by more than the error of d. This error is 20 times the difference
+ * of the two orders (difference.c), plus the difference from the previous step, plus rounding. At a
+ * kink, such as dry friction at rest, the derivatives on both sides differ by the same amount for
+ * every step. The function has no derivative there, and the check passes.
  *
- * The check evaluates the design configuration and three configurations near it, where no value is
- * zero or symmetric by chance. Phi is not zero there, so the derivatives must be those of the
- * function and not only hold where the constraint is met. If a function refuses a configuration,
- * the check skips it; if it refuses all of them, the check fails. (A function may refuse the design
- * configuration for a good reason: free velocities are taken as zero there.)
+ * The check evaluates the design configuration and three configurations near it, in which no value
+ * is zero or symmetric by chance. Phi is not zero there, so derivatives that are only correct for
+ * Phi = 0 are rejected. If a function fails in a configuration, the check skips this configuration;
+ * if it fails in all, the check fails. (A function may fail in the design configuration because
+ * free velocities are set to zero there.)
  */
 #include "mechanism/general/check.h"
 
@@ -34,25 +34,25 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* Results for the entries of one ray so far. */
+/* Results for the entries of one ray (see difference.h) so far. */
 typedef struct trial {
   baum_i_estimate now;
-  double *previous; /* value one step before */
+  double *previous; /* value for the previous step */
   double *value;    /* best */
-  double *error;    /* error of the best value; < 0 once the given value is found right */
+  double *error;    /* error of the best value; < 0: the given value is accepted */
   double *quality;  /* error of the best value, relative to the variation of the function */
-  double *step;     /* of the best */
-  double *wrong;    /* number of steps at which the given value looks wrong */
+  double *step;     /* step of the best value */
+  double *wrong;    /* number of steps for which the given value looks wrong */
 } trial;
 
-/* The given values along a ray, and the sizes that determine their rounding. */
+/* The given values for one ray, and the sizes that determine their rounding. */
 typedef struct column {
   const baum_i_claim *claim;
   const baum_i_stencil *stencil;
   const baum_i_field *field;
   const baum_i_ray *ray;
   const double *row_size; /* (size) of the field, or NULL */
-  int first;              /* entry i of the ray is first + i stride of the claim */
+  int first;              /* entry i of the ray is entry first + i stride of the claim */
   int stride;
 } column;
 
@@ -85,7 +85,7 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Keep the results of the best step. The first step has an error of NaN and is never the best. */
+/* Update the results of the best step. The first step has the error NaN and is never the best. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -98,7 +98,7 @@ static void keep_best(const trial *t, int i, double value, double error, double 
   }
 }
 
-/* Judge the given values by the present step; true when all are found right. */
+/* Compare the given values with the present differences. Returns true if all are accepted. */
 static bool judge_step(const column *c, const trial *t, double step)
 {
   bool right = true;
@@ -121,7 +121,7 @@ static bool judge_step(const column *c, const trial *t, double step)
   return right;
 }
 
-/* Difference of the derivatives of the two sides at this distance. */
+/* Return the difference of the one-sided derivatives for this step. */
 static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
                    double step, int i)
 {
@@ -130,7 +130,7 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* Where the function is smooth, the difference of the sides vanishes with the distance. */
+/* If a function is smooth, the difference of the one-sided derivatives decreases with the step. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
   double far = kink(c, at, &t->now, t->step[i], i);
@@ -138,7 +138,8 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
-/* Wrong at the best step and at one more: a single step may be wrong by rounding. */
+/* Tell whether a value is wrong for the best step and at least one more, because rounding may
+ * affect a single step. */
 static bool is_wrong(const column *c, const trial *t, int i)
 {
   double deviation = fabs(given(c, i) - t->value[i]);
@@ -168,7 +169,7 @@ static baum_status compare(const column *c, const baum_i_local *at)
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
-      return BAUM_OK; /* differences are useless so near the edge of the function's domain */
+      return BAUM_OK; /* differences are useless so close to the edge of the domain */
     }
     if (status == BAUM_OK && judge_step(c, &t, step)) {
       return BAUM_OK;
@@ -187,8 +188,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* A field whose entries are put in the places of their derivatives, so that messages name the
- * derivative. */
+/* A field whose entries are moved to the indices of their derivatives, so that messages name the
+ * derivatives. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;
@@ -226,7 +227,7 @@ baum_status baum_i_compare_entries(const baum_i_user_function *function, const c
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &derived, ray, &here);
 }
 
-/* Largest given entry of each row, times the relevant change of its coordinate. */
+/* Find the largest given entry of each row, multiplied by the scale of its coordinate. */
 static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
                           baum_i_variable variable, int size, double *direction, double *row_size)
 {
@@ -285,7 +286,7 @@ static baum_status make_place(const baum_mechanism *mechanism, place *p)
   return p->q && p->v ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A number in (-1, 1) away from 0. */
+/* Return the k-th quasi-random number with alternating sign and a magnitude between 0.2 and 1. */
 static double spread(int k)
 {
   double size = 0.6 + 0.4 * baum_i_golden(k);
@@ -293,8 +294,8 @@ static double spread(int k)
 }
 
 enum { CONFIGURATIONS = 4 };
-/* [1/s] Velocities below this many scales count as zero: their effect is lost in the rounding of
- * q. */
+/* [1/s] Scaled velocities below this are set to zero, because differences of q would be lost in
+ * rounding. */
 static const double REST = 1e-12;
 
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
@@ -319,7 +320,8 @@ baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
   return BAUM_OK;
 }
 
-/* Configuration 0 is the design one with the given velocities. The others are near it and move. */
+/* Set configuration k. Configuration 0 is the design configuration with the given velocities. The
+ * others are near it and have non-zero velocities. */
 static void set_configuration(place *p, int k)
 {
   static const double times[CONFIGURATIONS] = {0.0, 0.0, 0.37, 1.3};
@@ -364,7 +366,7 @@ static baum_status check_element(const baum_i_element *element, place *p)
   if (any) {
     return BAUM_OK;
   }
-  set_configuration(p, 0); /* for the message of the design configuration */
+  set_configuration(p, 0); /* sets the message for the design configuration */
   return element->definition->check_derivatives(element, &p->point);
 }
 
@@ -383,8 +385,7 @@ baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
 {
   BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_check_derivatives"));
   place p;
-  baum_i_kept_message kept;
-  baum_i_message_keep(&kept);
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = make_place(mechanism, &p);
   if (status == BAUM_OK) {
     status = check_elements(mechanism, &p);

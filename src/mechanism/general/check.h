@@ -8,34 +8,34 @@
 /* A given derivative to check. */
 typedef struct baum_i_claim {
   const baum_i_user_function *function; /* "jacobian", with its shape */
-  const char *source;                   /* function that was differenced, for the message: "phi" */
-  const double *given;                  /* its values at the place */
+  const char *source;                   /* name of the differenced function, "phi" */
+  const double *given;                  /* its values at this point */
 } baum_i_claim;
 
-/* Compare with the derivative of order 1 or 2 of a field along a ray. Returns BAUM_OK also where
- * differences cannot decide, otherwise BAUM_ERR_ARGUMENT: `joint 2 "circle": gamma()[0] is 3 but
- * differences of phi give 2`. */
+/* Compare a claim with the derivative of order 1 or 2 of a field along a ray. Returns BAUM_OK, also
+ * if differences cannot decide, or BAUM_ERR_ARGUMENT with a message like `joint 2 "circle":
+ * gamma()[0] is 3 but differences of phi give 2`. */
 baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
                                const baum_i_field *field, const baum_i_ray *ray,
                                const baum_i_local *at);
 
-/* Compare (size x nl) with the derivatives of a field by q or v. */
+/* Compare a claim (size x nl) with the derivatives of a field by q or v. */
 baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
                                    baum_i_variable variable, const baum_i_local *at);
 
-/* An entry of a function's output that is the derivative of another one. */
+/* An entry of the output of a function that is the derivative of another entry. */
 typedef struct baum_i_derived {
   int entry;
   int of;
 } baum_i_derived;
 
-/* Compare entries of a function (field->size) with the derivatives of other entries along a ray.
- * Also returns a failure of the function at this point. */
+/* Compare entries of the output of a function (field->size) with the derivatives of other entries
+ * along a ray. If the function fails at this point, its status is returned. */
 baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
                                    const baum_i_field *field, const baum_i_derived *pairs,
                                    int pair_count, const baum_i_ray *ray, const baum_i_local *at);
 
-/* Compare a function that must not depend on velocities with itself at rest. */
+/* Check that a function does not depend on velocities: compare its values with those at rest. */
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
                                      const baum_i_field *field, const baum_i_local *at);
 

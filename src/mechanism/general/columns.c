@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mechanism/general/columns.h"
 
-/* The column of a body's velocity i among its own: a planar body rotates about z. */
-static int column(const baum_i_body *body, int width, int i)
+/* Return the column of velocity i of a body among the `width` columns. In space a planar body
+ * rotates about z. */
+BAUM_I_INLINE int column(const baum_i_body *body, int width, int i)
 {
   return width == BAUM_I_SPACE && i == 2 && body->type->frame == BAUM_I_FRAME_BODY ? 5 : i;
 }
@@ -30,7 +31,7 @@ void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_sp
   }
 }
 
-void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+BAUM_I_INLINE void pack_wide(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed)
 {
   for (int row = 0; row < rows; row++) {
@@ -40,6 +41,16 @@ void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span 
         *packed++ = wide[column(body, width, i)];
       }
     }
+  }
+}
+
+void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                             int rows, const double *wide, double *packed)
+{
+  if (width == BAUM_I_PLANE) { /* planar elements avoid the cost of column() */
+    pack_wide(mechanism, span, BAUM_I_PLANE, rows, wide, packed);
+  } else {
+    pack_wide(mechanism, span, BAUM_I_SPACE, rows, wide, packed);
   }
 }
 
@@ -59,7 +70,7 @@ void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_sp
   const ptrdiff_t size = (ptrdiff_t)span->body_count * width;
   for (int k = 0; k < span->body_count; k++, wide += width * size) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
-    if (width == BAUM_I_PLANE) { /* which has the first nv columns */
+    if (width == BAUM_I_PLANE) { /* a planar body has the first nv columns */
       pack(mechanism, span, width, body->nv, wide, packed);
       packed += (ptrdiff_t)body->nv * span->nl;
       continue;
@@ -88,5 +99,13 @@ void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_jo
   if (blocks->jtl_q) {
     baum_i_columns_pack_square(mechanism, &joint->span, width, wide->jtl_q,
                                blocks->jtl_q + joint->square);
+  }
+}
+
+void baum_i_columns_pack_force(const baum_mechanism *mechanism, const baum_i_force *force,
+                               int width, const double *wide, double *squares)
+{
+  if (squares) {
+    baum_i_columns_pack_square(mechanism, &force->span, width, wide, squares + force->square);
   }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Packing of columns. Kernels write the same number of columns for each body: three in the plane,
- * x, y and angle; six in space, the velocity of the origin in ground axes and the angular velocity
- * in body axes. Packing keeps the columns that a body has. A planar particle has no angle, a
- * spatial one no angular velocity, ground has no columns. In space a planar body has x, y and the
- * rotation about z.
+/* Packing of columns. Functions of element types (kernels) write the same columns for each body. In
+ * the plane there are three: x, y and angle. In space there are six: the velocity of the origin in
+ * ground axes and the angular velocity in body axes. Packing copies only the columns that a body
+ * has. A planar particle has no angle, a spatial particle has no angular velocity, and ground has
+ * no columns. In space a planar body has x, y and the rotation about z.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -14,12 +14,12 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* Gather `width` numbers of each body from a vector over v. Absent columns, and all for NULL, are
- * zero. */
+/* Gather `width` numbers of each body from a vector x (nv). Absent columns are zero, and all are
+ * zero if x is NULL. */
 void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
                            const double *x, double *wide);
 
-/* Add such numbers to a vector over v. */
+/* Add `width` numbers of each body to a vector x (nv). */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *x);
 
@@ -29,7 +29,8 @@ BAUM_I_INLINE void baum_i_columns_add_three(const double *three, double *x)
   x[2] += three[2];
 }
 
-/* The same of three for each body; nearly always of bodies with all three, or on the ground. */
+/* The same for three numbers of each of two bodies. Fast if each body has all three columns or is
+ * ground. */
 BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
                                           const double *six, double *x)
 {
@@ -44,7 +45,7 @@ BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const
   }
 }
 
-/* Three numbers of a span of one body. */
+/* The same for three numbers of one body. */
 BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
                                               const baum_i_span *span, const double *three,
                                               double *x)
@@ -56,11 +57,11 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
   }
 }
 
-/* Pack rows of `width` numbers for each body to rows of nl. */
+/* Pack rows with `width` numbers of each body to rows with nl numbers. */
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed);
 
-/* The same in the plane. The fast cases are two bodies with all their columns, and one body and
+/* The same in the plane. Fast for two bodies with all their columns, and for one such body and
  * ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
@@ -84,10 +85,15 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);
 
-/* Pack second derivatives of a joint's rows over all columns to the wanted blocks. nu_q stays zero,
- * because it is zero for all joints with such rows. */
+/* Pack second derivatives of a joint's rows over all columns to the blocks that are not NULL. nu_q
+ * is not set, because it is zero for all joints with such rows. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 int width, const baum_i_joint_blocks *wide,
                                 const baum_i_joint_blocks *blocks);
+
+/* Pack a derivative of a force over all columns to its place in the squares of all forces, unless
+ * these are NULL. */
+void baum_i_columns_pack_force(const baum_mechanism *mechanism, const baum_i_force *force,
+                               int width, const double *wide, double *squares);
 
 #endif

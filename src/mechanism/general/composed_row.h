@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A row G(c_0, c_1) of two coordinates: the two coordinates of a point on a curve, or the
- * coordinates of two coupled joints.
+/* A function G(c_0, c_1) of two coordinates. It is a constraint on the coordinates of a point on a
+ * curve or of two coupled joints, or an angle as a function of its cosine and sine.
  *
- * The row has three columns for each of up to four bodies, in the order of its span. A coordinate
- * uses six of them.
+ * A row has up to four bodies, in the order of its span, and `width` columns for each of them.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 #define BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 
 #include "mechanism/identify.h"
 
-enum { BAUM_I_COMPOSED_BODIES = 4, BAUM_I_COMPOSED_COLUMNS = 3 * BAUM_I_COMPOSED_BODIES };
+enum {
+  BAUM_I_COMPOSED_BODIES = 4,
+  BAUM_I_COMPOSED_COLUMNS = BAUM_I_SPACE * BAUM_I_COMPOSED_BODIES
+};
 
 /* One of the two coordinates. */
 typedef struct baum_i_inner {
   baum_i_coordinate c;
   baum_i_coordinate_blocks blocks; /* with lambda = 1; only for linearize */
-  int at[2];                       /* where the three columns of each of its bodies begin */
+  int columns;                     /* of its two bodies */
+  int at[BAUM_I_PAIR_COLUMNS];     /* their indices among the columns of the row */
 } baum_i_inner;
 
-/* G and its derivatives at both. */
+/* G and its derivatives at (c_0, c_1). */
 typedef struct baum_i_outer {
   double value;
   double first[2];  /* G_0, G_1 */
@@ -27,15 +30,37 @@ typedef struct baum_i_outer {
   double third[4];  /* G_000, G_001, G_011, G_111; only for gamma_q */
 } baum_i_outer;
 
-/* Extract the six columns of a coordinate from the columns of the row. */
-void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
+/* Set the columns of a coordinate in a row. Each body has `width` columns in the coordinate and
+ * `row_width` in the row; `place` are the places of the two bodies in the row. */
+void baum_i_composed_place(baum_i_inner *inner, int width, int row_width, const int place[2]);
 
-/* Write the wanted parts of a row at the places of its joint. */
-void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point,
+/* Extract the columns of a coordinate from the columns of the row. */
+void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double *own);
+
+/* Add J to `gradient`, which has the columns of the row. */
+void baum_i_composed_add_gradient(const baum_i_inner x[2], const baum_i_outer *g, double *gradient);
+double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g);
+
+/* Second derivatives with respect to the columns of the row. New terms are added to them. */
+typedef struct baum_i_composed_blocks {
+  int columns;
+  double *jw_q;
+  double *jtl_q; /* columns x columns */
+  double *gamma_q;
+  double *gamma_v;
+  double *rate_q;
+} baum_i_composed_blocks;
+
+/* w has the columns of the row. */
+void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, const double *w,
+                               double lambda, const baum_i_composed_blocks *out);
+
+/* Write the requested parts of a row to the places of its joint. */
+void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point, int width,
                              const baum_i_inner x[2], const baum_i_outer *g,
                              const baum_i_rows *out);
 /* w (columns of the row); lambda (nc) or NULL. */
-void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *point,
+void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *point, int width,
                                 const baum_i_inner x[2], const baum_i_outer *g, const double *w,
                                 const double *lambda, const baum_i_joint_blocks *blocks);
 

@@ -1,40 +1,183 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks and design values of joints' coordinates. */
+/* Coordinates of joints: checks, values in the design configuration, and revolutions. */
 #include "mechanism/general/coordinate.h"
 
+#include <math.h>
+
 #include "base/message.h"
+#include "base/rotation.h"
+#include "base/text.h"
+
+static const char *const names[] = {
+  [BAUM_COORDINATE_FIRST] = "the first",
+  [BAUM_COORDINATE_DISPLACEMENT] = "displacement",
+  [BAUM_COORDINATE_ANGLE] = "angle",
+  [BAUM_COORDINATE_ANGLE_B] = "angle_b",
+  [BAUM_COORDINATE_X] = "x",
+  [BAUM_COORDINATE_Y] = "y",
+};
+
+const char *baum_i_coordinate_name(baum_joint_coordinate which)
+{
+  return (size_t)which < sizeof names / sizeof *names ? names[which] : "unknown";
+}
+
+/* ---- checks ---- */
+
+/* The index of a coordinate in the list of a joint type, or -1 if the type does not have it. */
+static int find(const baum_i_joint_type *type, baum_joint_coordinate which)
+{
+  int k = 0;
+  while (which != BAUM_COORDINATE_FIRST && type->coordinates[k] != which) {
+    if (type->coordinates[k++] == BAUM_COORDINATE_FIRST) {
+      return -1;
+    }
+  }
+  return k;
+}
+
+static baum_status fail_which(const baum_i_joint *joint, baum_joint_coordinate which,
+                              const char *label, const char *field)
+{
+  char text[BAUM_I_LABEL_SIZE];
+  char list[BAUM_I_LABEL_SIZE] = "";
+  const baum_joint_coordinate *has = joint->type->coordinates;
+  for (int k = 0; has[k] != BAUM_COORDINATE_FIRST; k++) {
+    baum_i_append(list, sizeof list, k > 0 ? ", \"%s\"" : "\"%s\"", baum_i_coordinate_name(has[k]));
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is \"%s\", but %s, a %s, has %s", label, field,
+                     baum_i_coordinate_name(which), baum_i_label(&joint->element, text),
+                     joint->type->definition.kind, list);
+}
 
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
-                                    const char *label, const char *field, const char *purpose)
+                                    baum_joint_coordinate which, const char *label,
+                                    const baum_i_coordinate_fields *fields)
 {
-  BAUM_I_TRY(baum_i_check_joint(mechanism, id, label, field));
+  BAUM_I_TRY(baum_i_check_joint(mechanism, id, label, fields->joint));
   const baum_i_joint *joint = mechanism->joints[baum_i_joint_index(mechanism, id)];
   if (!joint->type->coordinate) {
     char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, a %s, which has no coordinate %s", label,
-                       field, baum_i_label(&joint->element, text), joint->type->definition.kind,
-                       purpose);
+                       fields->joint, baum_i_label(&joint->element, text),
+                       joint->type->definition.kind, fields->purpose);
+  }
+  if (find(joint->type, which) < 0) {
+    return fail_which(joint, which, label, fields->coordinate);
   }
   return joint->type->check_coordinate
            ? joint->type->check_coordinate(mechanism, joint->element.def, label)
            : BAUM_OK;
 }
 
-double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)
+/* ---- one coordinate ---- */
+
+baum_i_joint_coordinate baum_i_joint_coordinate_of(const baum_mechanism *mechanism,
+                                                   baum_joint_id id, baum_joint_coordinate which)
 {
-  /* A coordinate depends on its two bodies only, so they are renumbered 0 and 1. */
+  const baum_i_joint *joint = mechanism->joints[id.index1 - 1];
+  return (baum_i_joint_coordinate){joint, find(joint->type, which)};
+}
+
+bool baum_i_is_angle(const baum_i_joint_coordinate *c)
+{
+  baum_joint_coordinate name = c->joint->type->coordinates[c->number];
+  return name == BAUM_COORDINATE_ANGLE || name == BAUM_COORDINATE_ANGLE_B;
+}
+
+bool baum_i_is_spatial_angle(const baum_i_joint_coordinate *c)
+{
+  return c->joint->type->width == BAUM_I_SPACE && baum_i_is_angle(c);
+}
+
+void baum_i_coordinate_near_zero(const baum_i_joint_coordinate *c, const baum_i_point *point,
+                                 baum_i_coordinate *out)
+{
+  baum_i_point near_zero = *point;
+  near_zero.angles = NULL;
+  baum_i_coordinate_at(c, &near_zero, out);
+}
+
+double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint_coordinate *c)
+{
+  /* A coordinate depends only on its two bodies, which are renumbered 0 and 1 here. */
   int pair[2] = {0, 1};
-  baum_i_frame frames[2] = {baum_i_design_frame(mechanism, joint->span.bodies[0]),
-                            baum_i_design_frame(mechanism, joint->span.bodies[1])};
-  baum_i_spatial_frame spatial[2] = {baum_i_spatial_design_frame(mechanism, joint->span.bodies[0]),
-                                     baum_i_spatial_design_frame(mechanism, joint->span.bodies[1])};
-  baum_i_joint alone = *joint;
+  const int *bodies = c->joint->span.bodies;
+  baum_i_frame frames[2] = {baum_i_design_frame(mechanism, bodies[0]),
+                            baum_i_design_frame(mechanism, bodies[1])};
+  baum_i_spatial_frame spatial[2] = {baum_i_spatial_design_frame(mechanism, bodies[0]),
+                                     baum_i_spatial_design_frame(mechanism, bodies[1])};
+  baum_i_joint alone = *c->joint;
   alone.span.bodies = pair;
   baum_i_point point = {.mechanism = mechanism,
                         .parameters = mechanism->parameters,
                         .frames = frames,
                         .spatial = spatial};
-  baum_i_coordinate c;
-  joint->type->coordinate(&alone, &point, &c);
-  return c.value;
+  const baum_i_joint_coordinate design = {&alone, c->number};
+  baum_i_coordinate out;
+  baum_i_coordinate_at(&design, &point, &out);
+  return out.value;
+}
+
+/* ---- revolutions ---- */
+
+/* The angle last stored for a coordinate, followed by its rate. */
+static double *angle_of(const baum_i_joint_coordinate *c, const baum_i_point *point)
+{
+  int k = BAUM_I_COORDINATES * (c->joint->element.index - 1) + c->number;
+  return point->angles + 2 * (ptrdiff_t)k;
+}
+
+static double *time_of(const baum_i_point *point)
+{
+  return point->angles + baum_i_angles_size(point->mechanism) - 1;
+}
+
+double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_point *point)
+{
+  if (!point->angles) {
+    return 0.0;
+  }
+  const double *angle = angle_of(c, point);
+  return angle[0] + angle[1] * (point->t - *time_of(point));
+}
+
+static double follow(const baum_i_joint_coordinate *c, const baum_i_point *point)
+{
+  baum_i_coordinate now;
+  baum_i_coordinate_at(c, point, &now);
+  double *angle = angle_of(c, point);
+  double expected = angle[0] + 0.5 * (angle[1] + now.rate) * (point->t - *time_of(point));
+  double off = remainder(now.value - expected, BAUM_I_REVOLUTION);
+  angle[0] = expected + off;
+  angle[1] = now.rate;
+  return fabs(off);
+}
+
+double baum_i_follow_angles(baum_i_point *point)
+{
+  double farthest = 0.0;
+  for (int i = 0; point->angles && i < point->mechanism->joint_count; i++) {
+    const baum_i_joint *joint = point->mechanism->joints[i];
+    for (int k = 0; joint->type->coordinates[k] != BAUM_COORDINATE_FIRST; k++) {
+      const baum_i_joint_coordinate c = {joint, k};
+      if (baum_i_is_spatial_angle(&c)) {
+        farthest = fmax(farthest, follow(&c, point));
+      }
+    }
+  }
+  if (point->angles) {
+    *time_of(point) = point->t;
+  }
+  return farthest;
+}
+
+void baum_i_hold_angles(baum_i_point *point, double t)
+{
+  for (int k = 1; point->angles && k < baum_i_angles_size(point->mechanism); k += 2) {
+    point->angles[k] = 0.0;
+  }
+  if (point->angles) {
+    *time_of(point) = t;
+  }
 }

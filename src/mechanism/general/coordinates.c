@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized coordinates of the user: q and v of any size, with functions for the mass M(q, t) and
- * the force g(q, v, t). v = q', or q' = N(q) v with the functions of coordinates_manifold.c.
+/* User coordinates: generalized coordinates q and v of any size with user functions for the mass
+ * M(q, t) and the force g(q, v, t). Either v = q', or q' = N(q) v with the user functions of
+ * coordinates_manifold.c.
  *
- * Derivatives of g that are not given come from differences (difference.c). Derivatives of M a
- * always do.
+ * Derivatives of g that are not given, and all derivatives of M a, are finite differences
+ * (difference.c).
  */
 #include <math.h>
 #include <string.h>
@@ -164,7 +165,7 @@ static baum_status potential(const baum_i_body *body, baum_i_point *point, doubl
 
 /* ---- derivatives ---- */
 
-/* v^T M v / 2, v held fixed. */
+/* v^T M v / 2 as a function of q and t. */
 static baum_status kinetic_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_body *body = context;
@@ -179,7 +180,7 @@ static baum_status kinetic_field(const void *context, const baum_i_local *at, do
   return BAUM_OK;
 }
 
-/* v^T M' v / 2 along the motion. */
+/* Compute v^T M' v / 2 along the motion. */
 static baum_status kinetic_rate(const baum_i_body *body, const baum_i_local *at, double *out)
 {
   double rate = baum_i_local_rate(at);
@@ -203,7 +204,7 @@ static baum_status power(const baum_i_body *body, baum_i_point *point, double su
   return BAUM_OK;
 }
 
-/* M a, a held fixed. */
+/* M a as a function of q and t. */
 typedef struct inertia {
   const baum_i_body *body;
   const double *a;
@@ -262,8 +263,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
     for (int j = 0; j < i; j++) {
       double a = block[i * n + j];
       double b = block[j * n + i];
-      /* Far above rounding, even where large terms cancel in an entry, and far below any
-       * mistake. */
+      /* The tolerance is far above rounding errors, even if large terms cancel, and far below the
+       * effect of any mistake. */
       double size = sqrt(fabs(block[i * n + i] * block[j * n + j]));
       if (fabs(a - b) > 1e-6 * fmax(fabs(a), fabs(b)) + 1e-9 * size) {
         return baum_i_fail(BAUM_ERR_ARGUMENT,
@@ -276,8 +277,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
   return BAUM_OK;
 }
 
-/* Checked in the design configuration only, because M may have no meaning at coordinates near
- * it. */
+/* Check that the diagonal of M is not negative. Only the design configuration is checked, because M
+ * may be meaningless at other coordinates. */
 static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, const double *block)
 {
   int n = body->nv;
@@ -294,7 +295,7 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   return BAUM_OK;
 }
 
-/* Check constant_mass: compare with the design configuration at t = 0. */
+/* Check constant_mass: compare M with that of the design configuration at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {

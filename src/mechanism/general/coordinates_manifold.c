@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With m(s) = move(q, s v): m' = rate and m'' = d/ds rate(m(s), v) at s = 0, and the difference of
- * q and m(1) is v.
+/* Checks the user functions of a manifold. With m(s) = move(q, s v), they satisfy m' = rate(q, v)
+ * and m'' = d/ds rate(m(s), v) at s = 0, and difference(q, m(1)) = v.
  */
 #include "mechanism/general/coordinates_manifold.h"
 
@@ -58,7 +58,7 @@ int baum_i_coordinates_positions(const baum_coordinates_def *def)
   return def->position_count > 0 ? def->position_count : def->size;
 }
 
-/* Whether q is off the manifold by more than the rounding of typed numbers. */
+/* Tell whether q is off the manifold by more than the rounding of numbers entered by hand. */
 static bool is_off(const baum_coordinates_def *def, const double *normal)
 {
   static const double NEAR = 1e-6;
@@ -150,7 +150,7 @@ static baum_status compare_second(const baum_i_body *body, const baum_i_ray *ray
   return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, ray, &here);
 }
 
-/* Move to another configuration and compare `difference` with that displacement. */
+/* Move to another configuration and compare the result of `difference` with the displacement. */
 static baum_status compare_difference(const baum_i_body *body, const baum_i_local *at)
 {
   static const double AGREEMENT = 1e-6;
@@ -164,17 +164,18 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
     if (!(fabs(dx[i] - 0.3 * at->v[i]) <= AGREEMENT * at->scale[i] * baum_i_local_rate(at))) {
       char text[BAUM_I_ENTRY_SIZE];
       baum_i_user_function f = function(body, "difference", body->nv);
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but move() moved by %.9g",
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g, but move() moved q by %.9g",
                          baum_i_user_entry(&f, i, text), dx[i], 0.3 * at->v[i]);
     }
   }
   return BAUM_OK;
 }
 
-/* A share of the relevant changes that counts as rounding. */
+/* Displacements below this, relative to the scales, count as rounding. */
 static const double ROUNDING = 1e-9;
 
-/* `normalize` moved q, which a short move along v had taken by `way`, relative to the scales. */
+/* Fail if `normalize` changes q by more than `way`, the largest change of q in the preceding step.
+ * Changes are relative to the scales. */
 static baum_status compare_normalized(const baum_i_body *body, const double *scale, double way,
                                       const double *moved, const double *normal)
 {
@@ -182,27 +183,28 @@ static baum_status compare_normalized(const baum_i_body *body, const double *sca
     if (fabs(normal[i] - moved[i]) > (way + ROUNDING) * scale[i]) {
       char text[BAUM_I_ENTRY_SIZE];
       baum_i_user_function f = function(body, "normalize", body->nq);
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s is %.9g after move went to %.9g; it must give the nearest q",
-                         baum_i_user_entry(&f, i, text), normal[i], moved[i]);
+      return baum_i_fail(
+        BAUM_ERR_ARGUMENT,
+        "%s is %.9g after move() gave %.9g; normalize() must return the nearest q on the manifold",
+        baum_i_user_entry(&f, i, text), normal[i], moved[i]);
     }
   }
   return BAUM_OK;
 }
 
-/* Walk along v through more than a revolution: `normalize` must not change q by as much as a short
- * move does, such as from one sign of a quaternion to the other. */
+/* Move along v in short steps through more than a revolution. `normalize` must change q by less
+ * than a step does; for example, it must not change the sign of a quaternion. */
 static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
 {
   enum { MOVES = 100 };
-  static const double SHORT = 0.1; /* relevant changes in a move */
+  static const double SHORT = 0.1; /* length of a step, relative to the scales */
   baum_i_local here = *at;
   double *moved = baum_i_take(&here, body->nq);
   double *normal = baum_i_take(&here, body->nq);
   const double *scale = at->point->mechanism->position_scale + body->q;
   memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
   double way = 0.0;
-  for (int k = 0; k < MOVES && isfinite(way); k++) { /* to where the functions fail, at most */
+  for (int k = 0; k < MOVES && isfinite(way); k++) { /* stop if the functions fail */
     way = 0.0;
     memcpy(moved, normal, (size_t)body->nq * sizeof *moved);
     move(body, SHORT / baum_i_local_rate(at), at->v, moved);

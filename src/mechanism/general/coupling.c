@@ -8,13 +8,19 @@
  * joints give c and its derivatives. The third derivative of a law, which only gamma_q needs, comes
  * from differences of the second one.
  *
- * The row acts on the bodies of joint_a and joint_b, each once. Where the joints share a body,
- * their columns add up.
+ * Spatial angles are known only up to revolutions. A revolution of a changes Phi by 2 pi ratio, a
+ * revolution of b by 2 pi. Of the resulting values of Phi, the one nearest to zero is taken. The
+ * row therefore does not depend on counted revolutions, unless there is a law, or the ratio of two
+ * angles is not rational.
+ *
+ * The row acts on the bodies of joint_a and joint_b. If the joints share a body, it is listed once,
+ * and the columns of both joints are added.
  */
 #include <math.h>
 #include <string.h>
 
 #include "base/message.h"
+#include "base/rotation.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
 #include "mechanism/general/columns.h"
@@ -22,7 +28,7 @@
 #include "mechanism/general/coordinate.h"
 
 /* Parameters. */
-enum { RATIO, OFFSET, PARAMETER_COUNT };
+enum { RATIO, OFFSET, PERIOD, PARAMETER_COUNT };
 
 /* Entries of the law. */
 enum { VALUE, SLOPE, CURVATURE, LAW_SIZE };
@@ -34,45 +40,45 @@ static const baum_i_def_field fields[] = {
   BAUM_I_OPTIONAL(baum_coupling_def, offset, OPTIONAL, "rad or m"),
   BAUM_I_FIELD(baum_coupling_def, law, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_coupling_def, user, USER),
+  BAUM_I_FIELD(baum_coupling_def, coordinate_a, COORDINATE),
+  BAUM_I_FIELD(baum_coupling_def, coordinate_b, COORDINATE),
   {0},
 };
 
+/* Ratios of spatial angles may have denominators up to 1000, more than wheels have teeth. */
+static const double SMALLEST_PART = 0.999e-3;
+static const double ROUNDING = 1e-12;
+
 /* ---- definition ---- */
 
-/* The joint of number 0 (joint_a) or 1 (joint_b) of a checked definition. */
-static const baum_i_joint *coupled(const baum_mechanism *mechanism, const void *given, int number)
+/* The coordinate of joint_a (number 0) or of joint_b (number 1) in a checked definition. */
+static baum_i_joint_coordinate coupled(const baum_mechanism *mechanism, const void *given,
+                                       int number)
 {
   const baum_coupling_def *def = given;
-  baum_joint_id id = number == 0 ? def->joint_a : def->joint_b;
-  return mechanism->joints[id.index1 - 1];
-}
-
-static baum_status check_one(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
-                             const char *field)
-{
-  BAUM_I_TRY(baum_i_check_coordinate(mechanism, id, label, field, "to couple"));
-  char text[BAUM_I_LABEL_SIZE];
-  return mechanism->joints[id.index1 - 1]->type->width == BAUM_I_PLANE
-           ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: %s is %s, a joint in space, which cannot be coupled", label, field,
-                         baum_i_joint_label(mechanism, id.index1 - 1, text));
+  return number == 0 ? baum_i_joint_coordinate_of(mechanism, def->joint_a, def->coordinate_a)
+                     : baum_i_joint_coordinate_of(mechanism, def->joint_b, def->coordinate_b);
 }
 
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
+  static const baum_i_coordinate_fields a = {"joint_a", "coordinate_a", "to couple"};
+  static const baum_i_coordinate_fields b = {"joint_b", "coordinate_b", "to couple"};
   const baum_coupling_def *def = given;
-  BAUM_I_TRY(check_one(mechanism, def->joint_a, label, "joint_a"));
-  BAUM_I_TRY(check_one(mechanism, def->joint_b, label, "joint_b"));
-  if (def->joint_a.index1 == def->joint_b.index1) {
-    char text[BAUM_I_LABEL_SIZE];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: joint_a and joint_b are both %s", label,
-                       baum_i_joint_label(mechanism, def->joint_a.index1 - 1, text));
+  BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_a, def->coordinate_a, label, &a));
+  BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_b, def->coordinate_b, label, &b));
+  char text[BAUM_I_LABEL_SIZE];
+  const baum_i_joint *joint = mechanism->joints[def->joint_a.index1 - 1];
+  bool same = def->joint_a.index1 == def->joint_b.index1;
+  if (same && coupled(mechanism, def, 0).number == coupled(mechanism, def, 1).number) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: joint_a and joint_b are both %s, with the same coordinate", label,
+                       baum_i_label(&joint->element, text));
   }
   return BAUM_OK;
 }
 
-/* Place of a body among the first `count` bodies; count if it is not among them. */
+/* Index of a body among the first `count` bodies, or `count` if it is not among them. */
 static int find(const int *bodies, int count, int body)
 {
   int k = 0;
@@ -82,16 +88,35 @@ static int find(const int *bodies, int count, int body)
   return k;
 }
 
+/* The smallest change of Phi by revolutions of spatial angles: the greatest common divisor of the
+ * changes by one revolution of a and one of b. 0 if there are no spatial angles or no divisor above
+ * SMALLEST_PART revolutions.
+ */
+static double period_of(const baum_i_joint_coordinate *a, const baum_i_joint_coordinate *b,
+                        double ratio)
+{
+  double period = baum_i_is_spatial_angle(a) ? BAUM_I_REVOLUTION * fabs(ratio) : 0.0;
+  double rest = baum_i_is_spatial_angle(b) ? BAUM_I_REVOLUTION : 0.0;
+  while (rest > SMALLEST_PART * BAUM_I_REVOLUTION) {
+    double next = fabs(remainder(period, rest));
+    period = rest;
+    rest = next > ROUNDING * BAUM_I_REVOLUTION ? next : 0.0;
+  }
+  return rest > 0.0 ? 0.0 : period;
+}
+
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
   const baum_coupling_def *def = joint->element.def;
   parameters[RATIO] = def->ratio;
   parameters[OFFSET] = def->offset;
+  const baum_i_joint_coordinate a = coupled(mechanism, def, 0);
+  const baum_i_joint_coordinate b = coupled(mechanism, def, 1);
+  parameters[PERIOD] = def->law ? 0.0 : period_of(&a, &b, def->ratio);
   if (isnan(def->offset)) {
-    double a = baum_i_design_coordinate(mechanism, coupled(mechanism, def, 0));
-    double b = baum_i_design_coordinate(mechanism, coupled(mechanism, def, 1));
-    parameters[OFFSET] = b - def->ratio * a;
+    parameters[OFFSET] = baum_i_design_coordinate(mechanism, &b) -
+                         def->ratio * baum_i_design_coordinate(mechanism, &a);
   }
   return BAUM_OK;
 }
@@ -104,7 +129,8 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "law", LAW_SIZE, 0, def->user};
 }
 
-/* The point at which the law is called and differentiated; it refers to values (q, v, scale). */
+/* The arguments for calling and differentiating the law. The result points into values (q, v,
+ * scale). */
 static baum_i_local place_at(baum_i_point *point, const double values[3])
 {
   return (baum_i_local){.point = point,
@@ -134,31 +160,41 @@ static baum_status law_at(const baum_i_joint *joint, const baum_i_local *at, dou
 
 /* ---- the row ---- */
 
-/* One coupling at a point. */
+/* One coupling in a state of the mechanism. */
 typedef struct state {
-  const baum_i_joint *joints[2];
+  baum_i_joint_coordinate of[2];
   baum_i_inner x[2];
-  double values[3]; /* coordinate of joint_a, zero, scale: a place */
+  int width;
+  double values[3]; /* q, v, scale of place_at(): the coordinate of joint_a, zero, scale */
   baum_i_outer g;
 } state;
 
 static void set_inner(const baum_i_joint *joint, const baum_i_point *point, int number, state *s)
 {
-  const baum_i_joint *of = coupled(point->mechanism, joint->element.def, number);
-  s->joints[number] = of;
-  of->type->coordinate(of, point, &s->x[number].c);
-  for (int k = 0; k < 2; k++) {
-    s->x[number].at[k] = 3 * find(joint->span.bodies, joint->span.body_count, of->span.bodies[k]);
+  const baum_i_joint *of = s->of[number].joint;
+  const baum_i_span *span = &joint->span;
+  const int place[2] = {find(span->bodies, span->body_count, of->span.bodies[0]),
+                        find(span->bodies, span->body_count, of->span.bodies[1])};
+  baum_i_composed_place(&s->x[number], of->type->width, s->width, place);
+  if (point->parameters[joint->element.parameter + PERIOD] > 0.0) {
+    baum_i_coordinate_near_zero(&s->of[number], point, &s->x[number].c);
+  } else {
+    baum_i_coordinate_at(&s->of[number], point, &s->x[number].c);
   }
 }
 
 static void set_places(const baum_i_joint *joint, const baum_i_point *point, state *s)
 {
+  s->of[0] = coupled(point->mechanism, joint->element.def, 0);
+  s->of[1] = coupled(point->mechanism, joint->element.def, 1);
+  s->width = s->of[0].joint->type->width > s->of[1].joint->type->width
+               ? s->of[0].joint->type->width
+               : s->of[1].joint->type->width;
   set_inner(joint, point, 0, s);
   set_inner(joint, point, 1, s);
   s->values[0] = s->x[0].c.value;
   s->values[1] = 0.0;
-  s->values[2] = s->joints[0]->type->is_angle ? 1.0 : point->mechanism->length;
+  s->values[2] = baum_i_is_angle(&s->of[0]) ? 1.0 : point->mechanism->length;
 }
 
 static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
@@ -167,8 +203,11 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   double f[LAW_SIZE];
   baum_i_local at = place_at(point, s->values);
   BAUM_I_TRY(law_at(joint, &at, f));
-  s->g = (baum_i_outer){
-    .value = s->x[1].c.value - f[VALUE], .first = {-f[SLOPE], 1.0}, .second = {-f[CURVATURE]}};
+  double period = point->parameters[joint->element.parameter + PERIOD];
+  double value = s->x[1].c.value - f[VALUE];
+  s->g = (baum_i_outer){.value = period > 0.0 ? remainder(value, period) : value,
+                        .first = {-f[SLOPE], 1.0},
+                        .second = {-f[CURVATURE]}};
   return BAUM_OK;
 }
 
@@ -176,7 +215,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 {
   state s;
   BAUM_I_TRY(state_at(joint, point, &s));
-  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
+  baum_i_composed_put_row(joint, point, s.width, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -217,13 +256,13 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
     BAUM_I_TRY(set_third(joint, point, &s));
   }
   double w_wide[BAUM_I_COMPOSED_COLUMNS] = {0.0};
-  baum_i_columns_gather(point, &joint->span, BAUM_I_PLANE, w, w_wide);
+  baum_i_columns_gather(point, &joint->span, s.width, w, w_wide);
   for (int i = 0; i < 2; i++) {
-    double six[6];
-    baum_i_composed_narrow(&s.x[i], w_wide, six);
-    s.joints[i]->type->coordinate_linearize(s.joints[i], point, six, 1.0, &s.x[i].blocks);
+    double own[BAUM_I_PAIR_COLUMNS];
+    baum_i_composed_narrow(&s.x[i], w_wide, own);
+    baum_i_coordinate_linearize(&s.of[i], point, own, 1.0, &s.x[i].blocks);
   }
-  baum_i_composed_put_blocks(joint, point, s.x, &s.g, w_wide, lambda, blocks);
+  baum_i_composed_put_blocks(joint, point, s.width, s.x, &s.g, w_wide, lambda, blocks);
   return BAUM_OK;
 }
 

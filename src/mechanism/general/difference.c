@@ -4,21 +4,21 @@
  *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h              c = 3/4, -3/20, 1/60,   error h^6 f(7)/140
  *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
  *
- * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant
- * changes the best steps are near 2^-8 and 2^-6. The steps here are a little smaller, so functions
- * that vary three times as fast as announced lose no accuracy. The errors are about 1e-13 and
- * 1e-11.
+ * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. If s is
+ * measured in relevant changes (the scale of a coordinate), the best steps are near 2^-8 and 2^-6.
+ * The steps used are a little smaller, so that functions that vary three times as fast as the scale
+ * suggests lose no accuracy. The errors are about 1e-13 and 1e-11.
  *
- * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two
- * orders agree to 1e-7, the sixth order is good to about 1e-11; first derivatives can require 1e-9.
- * Where they do not agree, the announced scale is too large for F, and the step shrinks until they
- * do. A scale that is wrong by 1e6 costs time, but no accuracy. The search ends when the
- * disagreement is rounding.
+ * The same values give differences of fourth order (c = 2/3, -1/12 and 4/3, -1/12). If the two
+ * orders agree to 1e-7, the error of the sixth order is about 1e-11; for first derivatives 1e-9 can
+ * be required. If they do not agree, the scale is too large for F, and the step is reduced until
+ * they agree. A scale that is wrong by a factor of 1e6 costs time, but no accuracy. The search ends
+ * if the difference of the orders is only rounding.
  *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
  *
- * If q is not a vector, moving q rounds it. F inherits this rounding error, however small F is.
+ * If q is not a vector, moving q rounds it, which causes an error of F even if F is small.
  *
  * Central differences use both sides: F is evaluated up to 3 h before and after the present time.
  */
@@ -40,7 +40,8 @@ const baum_i_stencil baum_i_stencil_first = {
   .agreement = 1e-9,
 };
 
-/* For fields with an error of 1e-11, because dividing it by a small step would enlarge it. */
+/* For fields that have an error of 1e-11. Steps are larger, because this error is divided by the
+ * step. */
 static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
@@ -114,7 +115,7 @@ typedef struct probe {
   double *free;
 } probe;
 
-/* The step d from x, rounded so that x + d, x + 2 d, x + 3 d need no rounding. */
+/* Return the step d from x, rounded so that x + d, x + 2 d and x + 3 d are exact. */
 static double exact_step(double x, double d)
 {
   double farthest = fabs(x) + 3.0 * fabs(d);
@@ -185,7 +186,7 @@ static void clear_estimate(const baum_i_estimate *out, int size)
   }
 }
 
-/* Add the pair at distance k + 1; centre is NULL for first derivatives. */
+/* Add the pair of values at the distance of k + 1 steps. centre is NULL for first derivatives. */
 static void add_pair(const baum_i_stencil *stencil, int k, const double *plus, const double *minus,
                      const double *centre, const baum_i_estimate *out, int size)
 {
@@ -219,9 +220,8 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* Evaluate F where q alone is moved by half a relevant change. The size of F there bounds the
- * effect of the rounding of q, because F itself may be zero all along a motion. A failure there is
- * ignored. */
+/* Estimate the effect of the rounding of q by the size of F after q has been moved by half a
+ * relevant change. (At the point itself F may be zero.) A failure of F there is ignored. */
 static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;
@@ -263,9 +263,9 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Keep the entries that improved. best (size) is the smallest disagreement of the orders so far,
- * relative to the variation of F; < 0 when good enough. Returns true when a smaller step is not
- * worth trying. */
+/* Store the entries that have improved. best (size) is the smallest difference of the orders so
+ * far, relative to the variation of F, or < 0 if it is small enough. Returns true if a smaller step
+ * would not help. */
 static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
                           int size)
 {
@@ -279,8 +279,7 @@ static bool keep_improved(const baum_i_estimate *now, double agreement, double *
       best[i] = -1.0;
       continue;
     }
-    /* Continue while this helps, and while the orders disagree by far more than rounding
-     * explains. */
+    /* Continue while smaller steps help, or while the orders differ by far more than rounding. */
     double apart = now->error[i] / now->variation[i];
     bool helps = apart < 0.5 * best[i];
     bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];
@@ -308,7 +307,7 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
   for (int k = 0; k < stencil->steps; k++) {
     here.point->retry = false;
     status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
-    /* A function that fails at this distance may be near the edge of its domain. */
+    /* A function that fails at this distance may be close to the edge of its domain. */
     if (status != BAUM_OK && !here.point->retry) {
       return status;
     }

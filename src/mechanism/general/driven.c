@@ -7,20 +7,12 @@
 #include "base/message.h"
 #include "base/rotation.h"
 #include "mechanism/general/columns.h"
-#include "mechanism/general/coordinate.h"
 
-const baum_i_joint *baum_i_driven_by(const baum_mechanism *mechanism, const void *def)
+const baum_i_coordinate_fields baum_i_driver_fields = {"joint", "coordinate", "to drive"};
+
+static baum_i_joint_coordinate driven_by(const baum_i_joint *driver, const baum_i_point *point)
 {
-  const baum_i_driver_head *head = def; /* of a checked definition */
-  return mechanism->joints[head->joint.index1 - 1];
-}
-
-/* ---- definition ---- */
-
-baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_i_driver_head *head = def;
-  return baum_i_check_coordinate(mechanism, head->joint, label, "joint", "to drive");
+  return driver->type->driven(point->mechanism, driver->element.def);
 }
 
 /* ---- motion ---- */
@@ -63,11 +55,10 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
     if (!isfinite(s[i])) {
       char label[BAUM_I_LABEL_SIZE];
       point->retry = true;
-      return baum_i_fail(
-        BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
-        baum_i_label(&driver->element, label), source, s[i], names[i],
-        baum_i_driven_by(point->mechanism, driver->element.def)->type->is_angle ? "rad" : "m",
-        per[i]);
+      const baum_i_joint_coordinate driven = driven_by(driver, point);
+      return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
+                         baum_i_label(&driver->element, label), source, s[i], names[i],
+                         baum_i_is_angle(&driven) ? "rad" : "m", per[i]);
     }
   }
   return BAUM_OK;
@@ -75,20 +66,16 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
-/* The coordinate, and how far it is from s. Of an angle in space whole revolutions do not matter.
- * They are taken off both before these are compared, because the difference of two large angles is
- * rounded. */
-static double find_offset(const baum_i_joint *driven, const baum_i_point *point, double s,
-                          baum_i_coordinate *c)
+/* Evaluates the coordinate and returns its difference from s; for an angle in space, modulo whole
+ * revolutions. These are subtracted from coordinate and s first, because the difference of two
+ * large angles would have a large rounding error. */
+static double find_offset(const baum_i_joint_coordinate *driven, const baum_i_point *point,
+                          double s, baum_i_coordinate *c)
 {
-  if (!driven->type->is_angle || driven->type->width != BAUM_I_SPACE) {
-    driven->type->coordinate(driven, point, c);
-    return c->value - s;
-  }
-  baum_i_point near_zero = *point;
-  near_zero.angles = NULL;
-  driven->type->coordinate(driven, &near_zero, c);
-  return remainder(c->value - remainder(s, BAUM_I_REVOLUTION), BAUM_I_REVOLUTION);
+  baum_i_coordinate_near_zero(driven, point, c);
+  return baum_i_is_spatial_angle(driven)
+           ? remainder(c->value - remainder(s, BAUM_I_REVOLUTION), BAUM_I_REVOLUTION)
+           : c->value - s;
 }
 
 baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
@@ -98,15 +85,15 @@ baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *poin
   if (out->phi || out->nu || out->gamma) {
     BAUM_I_TRY(motion_of(joint, point, s));
   }
-  const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
+  const baum_i_joint_coordinate driven = driven_by(joint, point);
   baum_i_coordinate c;
-  double offset = find_offset(driven, point, s[0], &c);
+  double offset = find_offset(&driven, point, s[0], &c);
   if (out->phi) {
     out->phi[joint->row] = offset;
   }
   if (out->jacobian) {
-    baum_i_columns_pack_any(point->mechanism, &joint->span, driven->type->width, 1, c.gradient,
-                            out->jacobian + joint->jacobian);
+    baum_i_columns_pack_any(point->mechanism, &joint->span, driven.joint->type->width, 1,
+                            c.gradient, out->jacobian + joint->jacobian);
   }
   if (out->nu) {
     out->nu[joint->row] = s[1];
@@ -120,31 +107,30 @@ baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *poin
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                                     const double *lambda, const baum_i_joint_blocks *blocks)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  const baum_i_joint *driven = baum_i_driven_by(mechanism, joint->element.def);
-  const int width = driven->type->width;
+  const baum_i_joint_coordinate driven = driven_by(joint, point);
+  const int width = driven.joint->type->width;
   double w_wide[BAUM_I_PAIR_COLUMNS];
   baum_i_columns_gather(point, &joint->span, width, w, w_wide);
   baum_i_coordinate_blocks c;
-  driven->type->coordinate_linearize(driven, point, w_wide, lambda ? lambda[joint->row] : 0.0, &c);
+  baum_i_coordinate_linearize(&driven, point, w_wide, lambda ? lambda[joint->row] : 0.0, &c);
   const baum_i_joint_blocks wide = {c.jw_q, c.jtl_q, c.gamma_q, c.gamma_v, NULL};
-  baum_i_columns_pack_blocks(mechanism, joint, width, &wide, blocks);
+  baum_i_columns_pack_blocks(point->mechanism, joint, width, &wide, blocks);
   return BAUM_OK;
 }
 
 void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
 {
-  const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
+  const baum_i_joint *driven = driven_by(joint, point).joint;
   driven->type->place(driven, point, at);
 }
 
-/* Of a joint in space. */
+/* Only for a driven joint in space. */
 void baum_i_driver_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
                               const double *lambda, double six[BAUM_I_SPACE])
 {
-  const baum_i_joint *driven = baum_i_driven_by(point->mechanism, joint->element.def);
+  const baum_i_joint_coordinate driven = driven_by(joint, point);
   baum_i_coordinate coordinate;
-  driven->type->coordinate(driven, point, &coordinate);
+  baum_i_coordinate_at(&driven, point, &coordinate);
   for (int k = 0; k < BAUM_I_SPACE; k++) {
     six[k] -= lambda[0] * coordinate.gradient[BAUM_I_SPACE + k];
   }

@@ -15,10 +15,24 @@ static const baum_i_def_field fields[] = {
   BAUM_I_NUMBERS(baum_driver_def, acceleration, FINITE, "rad/s^2 or m/s^2", 0.0),
   BAUM_I_FIELD(baum_driver_def, law, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_driver_def, user, USER),
+  BAUM_I_FIELD(baum_driver_def, coordinate, COORDINATE),
   {0},
 };
 
 /* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_driver_def *def = given;
+  return baum_i_check_coordinate(mechanism, def->joint, def->coordinate, label,
+                                 &baum_i_driver_fields);
+}
+
+static baum_i_joint_coordinate driven(const baum_mechanism *mechanism, const void *given)
+{
+  const baum_driver_def *def = given;
+  return baum_i_joint_coordinate_of(mechanism, def->joint, def->coordinate);
+}
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
@@ -36,7 +50,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 
 enum { LAW_SIZE = 3 };
 
-/* Call the user's law at any time. */
+/* Calls the user's law at time t. */
 static baum_status law_at(const baum_i_joint *joint, baum_i_point *point, double t,
                           double s[LAW_SIZE])
 {
@@ -64,7 +78,7 @@ static baum_status law_field(const void *joint, const baum_i_local *at, double *
   return law_at(joint, at->point, at->t, out);
 }
 
-/* A law may be defined for a limited time. At times when it fails, nothing is compared. */
+/* A law may be defined for a limited time only, so the check is skipped where the law fails. */
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
   static const baum_i_derived pairs[] = {{1, 0}, {2, 1}};
@@ -87,10 +101,10 @@ static const baum_i_joint_type type = {
   .definition = {.kind = "driver",
                  .size = sizeof(baum_driver_def),
                  .fields = fields,
-                 .check = baum_i_driver_check,
+                 .check = check,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS,
                  .check_derivatives = check_derivatives},
-  BAUM_I_DRIVER_MEMBERS(law),
+  BAUM_I_DRIVER_MEMBERS(driven, law),
   .lower = lower,
 };
 

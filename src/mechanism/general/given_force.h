@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A force given by user functions, for user coordinates or a user force: its value, its potential,
- * and its derivatives, which are given or come from differences.
+/* A force given by user functions, of user coordinates or of a user force: its value, its
+ * potential, and its derivatives, which are given or computed by differences.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
 #define BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
@@ -10,7 +10,7 @@
 typedef struct baum_i_given_force {
   const baum_i_element *element;
   baum_force_fn *force;
-  baum_force_fn *by[2]; /* derivatives by q and by v, as baum_i_variable; or NULL */
+  baum_force_fn *by[2]; /* derivatives by q and by v (baum_i_variable), or NULL */
   baum_q_fn *potential; /* or NULL */
   bool depends_on_velocity;
   void *user;
@@ -28,7 +28,7 @@ typedef struct baum_i_given_force {
 baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,
                                   double *out); /* (nl) */
 
-/* Derivative by q or v (nl x nl). Does nothing where out is NULL. */
+/* Compute the derivative by q or v (nl x nl). Does nothing if out is NULL. */
 baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
                                      baum_i_variable variable, double *out);
 
@@ -38,7 +38,7 @@ baum_status baum_i_given_force_potential(const baum_i_given_force *given, const 
 baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
                                      double *sum);
 
-/* Compare the derivatives that are given with differences; the `check` of types. */
+/* Compare the derivatives that are given with differences. */
 baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver along a cubic spline, natural or periodic. The natural spline continues with its end
- * slopes, so s'' stays continuous. */
+/* Driver whose law is a natural or periodic cubic spline. Outside of its times a natural spline
+ * continues with its end slopes, so s'' is continuous. */
 #include <baum/spline.h>
 
 #include <math.h>
@@ -14,10 +14,10 @@
 #include "mechanism/general/driven.h"
 #include "mechanism/general/user_function.h"
 
-/* With fewer points a natural spline is a straight line and a periodic one is constant. */
+/* With fewer points a natural spline would be a straight line and a periodic spline constant. */
 enum { COUNT_MIN = 3 };
 
-/* Relative difference of first and last value of a periodic spline that counts as rounding. */
+/* First and last value of a periodic spline count as equal up to this relative difference. */
 static const double SAME_VALUE = 1e-12;
 
 static const baum_i_def_field fields[] = {
@@ -26,6 +26,7 @@ static const baum_i_def_field fields[] = {
   BAUM_I_ARRAY(baum_spline_driver_def, values, OWN_ARRAY, FINITE, count, count),
   BAUM_I_FIELD(baum_spline_driver_def, count, OWN_COUNT),
   BAUM_I_FIELD(baum_spline_driver_def, periodic, FLAG),
+  BAUM_I_FIELD(baum_spline_driver_def, coordinate, COORDINATE),
   {0},
 };
 
@@ -41,7 +42,7 @@ static baum_status check_given(const baum_spline_driver_def *def, const char *la
   return baum_i_check_given(label, "values", def->values != NULL);
 }
 
-/* Check both numbers and the slope from the previous point. */
+/* Check point k: its time, its value, and the slope from the previous point. */
 static baum_status check_knot(const baum_spline_driver_def *def, int32_t k, const char *label)
 {
   const double *t = def->times + k;
@@ -81,7 +82,8 @@ static baum_status check_closed(const baum_spline_driver_def *def, const char *l
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spline_driver_def *def = given;
-  BAUM_I_TRY(baum_i_driver_check(mechanism, def, label));
+  BAUM_I_TRY(
+    baum_i_check_coordinate(mechanism, def->joint, def->coordinate, label, &baum_i_driver_fields));
   BAUM_I_TRY(check_given(def, label));
   for (int32_t k = 0; k < def->count; k++) {
     BAUM_I_TRY(check_knot(def, k, label));
@@ -89,10 +91,15 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return def->periodic ? check_closed(def, label) : BAUM_OK;
 }
 
+static baum_i_joint_coordinate driven(const baum_mechanism *mechanism, const void *given)
+{
+  const baum_spline_driver_def *def = given;
+  return baum_i_joint_coordinate_of(mechanism, def->joint, def->coordinate);
+}
+
 /* ---- memory of an element's copy ---- */
 
-/* The numbers of an element are the times and values of the definition and the second derivatives
- * of the spline. */
+/* Memory of an element: the spline, and its times, values and second derivatives. */
 typedef struct curve {
   baum_i_cubic_spline spline;
   double numbers[];
@@ -136,7 +143,7 @@ static void release(void *copy)
 
 /* ---- motion ---- */
 
-/* The time in the range of the spline that corresponds to t. */
+/* Return the time in the range of the spline that corresponds to t. */
 static double time_within(const baum_spline_driver_def *def, double t)
 {
   double first = def->times[0];
@@ -170,7 +177,7 @@ static const baum_i_joint_type type = {
                  .own = own,
                  .release = release,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
-  BAUM_I_DRIVER_MEMBERS(motion),
+  BAUM_I_DRIVER_MEMBERS(driven, motion),
 };
 
 BAUM_I_DEFINE(joint, spline_driver, type)

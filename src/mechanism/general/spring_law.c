@@ -14,7 +14,7 @@ static baum_i_user_function function(const baum_i_spring_law *spring)
   return (baum_i_user_function){spring->element, "law", ENTRIES, 0, spring->user};
 }
 
-/* One coordinate, the length, and one velocity, its rate. */
+/* Call the law. q is the length, and v its rate. */
 static baum_status call(const baum_i_spring_law *spring, const baum_i_local *at,
                         double out[ENTRIES])
 {

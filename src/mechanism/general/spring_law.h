@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of springs: the tension as a function of a length and its rate. For a torsion spring
- * these are an angle and its rate.
+/* Common part of springs: the tension as a function of a length and its rate. Of a torsion spring
+ * these are an angle and its rate, of a joint spring a coordinate and its rate.
  *
- *   T = k (l - l_0) + c l',   V = k (l - l_0)^2 / 2,   or the user's law without V
+ *   T = k (l - l_0) + c l', V = k (l - l_0)^2 / 2, or a user's law T(l, l') without V
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
 #define BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
 
-#include <baum/planar.h>
+#include <baum/mechanism.h>
 
 #include "mechanism/identify.h"
 
@@ -17,9 +17,9 @@ enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBE
 typedef struct baum_i_spring_law {
   const baum_i_element *element;
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
-  baum_spring_fn *law;   /* replaces the numbers; or NULL */
+  baum_spring_fn *law;   /* replaces the numbers unless NULL */
   void *user;
-  bool depends_on_rate; /* the law does */
+  bool depends_on_rate; /* whether the law depends on l' */
 } baum_i_spring_law;
 
 /* T and its derivatives by l and l'. */
@@ -29,7 +29,7 @@ typedef struct baum_i_tension {
   double by_rate;
 } baum_i_tension;
 
-/* The user's law: BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+/* Call the user's law. Returns BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                    double length, double rate, baum_i_tension *out);
 
@@ -53,7 +53,7 @@ static inline double baum_i_spring_potential(const baum_i_spring_law *spring, do
   return spring->law ? 0.0 : 0.5 * spring->numbers[BAUM_I_STIFFNESS] * stretch * stretch;
 }
 
-/* Add the power of the tension at l' without that of V. A user's law has no V. */
+/* Add the power of the tension, except the part that changes V. A user's law has no V. */
 static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
                                               double length, double rate, double sum[BAUM_I_POWERS])
 {
@@ -67,8 +67,7 @@ static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, b
   return status;
 }
 
-/* Compare the derivatives that a user's law gives with differences; scale is a relevant change of
- * length. */
+/* Compare the derivatives that a user's law gives with differences. scale is that of the length. */
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                     double length, double rate, double scale);
 

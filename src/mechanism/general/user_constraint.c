@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints by user functions: Phi(q, t), and any of
+/* Constraints by user functions. Phi(q, t) is required, and any of the following may be given:
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
- * Missing functions are replaced by differences (difference.c). Along a straight line q + s v, t +
- * s there is no acceleration, and Phi'' = J a - gamma, so
+ * Missing functions are replaced by differences (difference.c). Phi'' = J a - gamma, and a = 0
+ * along the straight line q + s v, t + s, so
  *
  *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
  *
- * The second form is more accurate and is used when J and nu are given. Second derivatives of Phi
- * without J:
+ * The second form is more accurate and is used if J and nu are given. If J is not given, second
+ * derivatives of Phi are
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
- * If nothing moves, the time scale is unknown. Differences in t then assume one relevant change per
- * unit of time. For a constraint that varies much more slowly, give nu and gamma.
+ * At rest the time scale of Phi is unknown. Differences in t then assume a time scale of one
+ * second. For a constraint that varies much more slowly, give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static int rows(const void *given)
   return def->row_count;
 }
 
-/* The errors of second and of first derivatives by difference.c. */
+/* Return the relative error of the derivatives by difference.c that are used. */
 static double noise(const void *given)
 {
   const baum_user_constraint_def *def = given;
@@ -105,7 +105,7 @@ static baum_status minus_phi_field(const void *context, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* nu - J v, nu zero when not given. */
+/* nu - J v as a function of (q, t). nu is zero if it is not given. */
 static baum_status minus_rate_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = context;
@@ -150,7 +150,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
   return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
-/* Whether Phi changes with t alone, judged by a small step to both sides. */
+/* Find whether Phi changes with t at constant q, by a small step in both directions. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -167,13 +167,13 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   return BAUM_OK;
 }
 
-/* Find the line of motion: its direction, its speed, and whether Phi may change with t. */
+/* Find the ray along the motion, its rate, and whether Phi may change with t. */
 static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
                              bool *moves)
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* In fast motion the step does not depend on this, so it only matters if nu is missing. */
+  /* In fast motion the step does not depend on `moves`, so it matters only if nu is missing. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
@@ -231,12 +231,12 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
-  const double *lambda; /* (rows), zeros when not given */
+  const double *lambda; /* (rows), zeros if not given */
   double *jw_q;         /* NULL where not wanted */
   double *jtl_q;
 } second;
 
-/* J w, then J^T lambda: rows + nl values. */
+/* Write J w, then J^T lambda: rows + nl values. */
 static baum_status products_field(const void *context, const baum_i_local *at, double *out)
 {
   const second *s = context;
@@ -277,14 +277,15 @@ static baum_status products_by_columns(const second *s, const baum_i_local *at)
   return BAUM_OK;
 }
 
-/* (J_i)_qj of all rows, i first where q is no vector; work (2 nl + rows). */
+/* Compute the derivative by q_j of column i of J, for all rows. If q is not a vector, q is first
+ * moved along j, then along i. work (2 nl + rows). */
 static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, int i, int j,
                              double *work, double *out)
 {
   double *direction = work;
   double *first = work + at->nl;
   double *other = first + at->nl;
-  double *turned = at->span ? first : direction; /* where the part along j is */
+  double *turned = at->span ? first : direction; /* contains the part along j */
   baum_i_field field = field_of(phi_at, joint);
   baum_i_ray ray = {.dq = direction, .dq_first = at->span ? first : NULL, .rate = 1.0};
   memset(direction, 0, 2 * (size_t)at->nl * sizeof *direction);
@@ -303,7 +304,7 @@ static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* value: (J_ki)_qj of all rows k. */
+/* Add the contributions of value, which is (J_ki)_qj of all rows k. */
 static void add_curvature(const second *s, const double *value, int i, int j, int nl)
 {
   for (int k = 0; k < s->joint->rows; k++) {
@@ -316,7 +317,7 @@ static void add_curvature(const second *s, const double *value, int i, int j, in
   }
 }
 
-/* Where q is a vector, Phi_ij = Phi_ji. */
+/* If q is a vector, Phi_ij = Phi_ji, and each pair is computed once. */
 static baum_status products_by_pairs(const second *s, const baum_i_local *at)
 {
   baum_i_local here = *at;
@@ -342,8 +343,8 @@ static baum_status linearize_products(const second *s, const baum_i_local *at)
   return def_of(s->joint)->jacobian ? products_by_columns(s, at) : products_by_pairs(s, at);
 }
 
-/* Differentiate (size x nl) a function that may itself come from differences. Does nothing where
- * out is NULL. */
+/* Write the derivative of a function to out (size x nl), unless out is NULL. The function may
+ * itself use differences. */
 static baum_status linearize_by(const baum_i_joint *joint, baum_i_field_fn *call, bool is_given,
                                 baum_i_variable variable, const baum_i_local *at, double *out)
 {
@@ -404,7 +405,7 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Uses the more accurate of the two forms, because jacobian and nu are already checked. */
+/* Use the second form of gamma if possible; jacobian and nu have already been checked. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

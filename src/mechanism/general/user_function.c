@@ -13,8 +13,8 @@
 
 int64_t baum_i_scratch_size(int columns, int rows)
 {
-  /* Differences may be nested twice, with a dozen vectors at each level and up to three matrices at
-   * a time. */
+  /* Differences may be nested twice. Each level needs about a dozen vectors, and there are up to
+   * three matrices at a time. */
   int64_t vectors = 48 * ((int64_t)columns + rows);
   int64_t matrices = 3 * ((int64_t)columns * rows);
   return vectors + matrices;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User functions: the coordinates they receive, the call, and the check of the result.
+/* Calls of user functions: the coordinates that they receive, the call, and the check of the
+ * result.
  *
- * A user function receives the coordinates of its bodies one after the other, in the order named,
- * and fills a zeroed array. If it returns > 0, or values that are not finite, the call fails with
- * point->retry set, because a smaller step may help. If it returns < 0, the run stops.
+ * A user function receives the coordinates of its bodies one after the other, in the order of the
+ * definition, and fills a zeroed array. If it returns > 0, or values that are not finite, the call
+ * fails with point->retry set, because a smaller step may help. If it returns < 0, the run stops.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 #define BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
@@ -11,37 +12,38 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* Number of doubles of point->scratch that an element may use. columns is the larger number of its
- * local columns, of q or of v. */
+/* Return the number of doubles of point->scratch that an element may use. columns is the larger of
+ * its numbers of local positions and velocities. */
 int64_t baum_i_scratch_size(int columns, int rows);
 
-/* The point at which user functions are evaluated. A function that needs memory copies the struct
- * and takes from its copy, so all memory is given back when it returns. */
+/* The point at which user functions are evaluated. A function that needs memory makes a copy of
+ * this struct and takes memory from the copy, so all memory is free again when the function
+ * returns. */
 typedef struct baum_i_local {
   baum_i_point *point;
-  const baum_i_span *span; /* whose q is moved on the manifold; NULL: q is a vector, ql = nl */
+  const baum_i_span *span; /* if q must be moved on a manifold; NULL: q is a vector, ql = nl */
   int ql;
   int nl;
   double t;
   const double *q;     /* (ql) */
   const double *v;     /* (nl), zeros at position level */
-  const double *scale; /* (nl) a relevant change of each coordinate */
+  const double *scale; /* (nl) scale of each coordinate */
   double *free;        /* the rest of point->scratch */
 } baum_i_local;
 
-/* The block of an element in the array of all; NULL where there is none. */
+/* Return the block of an element at `offset`, or NULL if blocks is NULL. */
 static inline double *baum_i_block_at(double *blocks, int offset)
 {
   return blocks ? blocks + offset : NULL;
 }
 
-/* Gather the columns of a span at a point. */
+/* Return the local positions and velocities of a span at a point. */
 baum_i_local baum_i_gather(baum_i_point *point, const baum_i_span *span);
 
-/* Gather any vector over v, such as accelerations. */
+/* Return the local part of any vector (nv), such as accelerations. */
 const double *baum_i_gather_vector(baum_i_local *local, const baum_i_span *span, const double *x);
 
-/* Take count doubles, not cleared. */
+/* Take count doubles from the free memory. They are not cleared. */
 double *baum_i_take(baum_i_local *local, int count);
 
 /* Description of a user function, for messages: `joint 2 "circle": phi()`. */
@@ -49,7 +51,7 @@ typedef struct baum_i_user_function {
   const baum_i_element *element;
   const char *name; /* "phi" */
   int rows;         /* of the output */
-  int cols;         /* of the output; 0 when it is a vector */
+  int cols;         /* of the output; 0 if it is a vector */
   void *user;
 } baum_i_user_function;
 
@@ -62,14 +64,14 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
-/* The first and the last part of a call, for functions with other arguments. Only point and t of
- * `at` are used. */
+/* The parts of a call before and after the user function, for user functions with other arguments.
+ * Of `at`, only point and t are used. */
 void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out);
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out);
 
-/* Fail after baum_i_listen() because a function returned `answer` != 0. The message includes the
- * function's own. */
+/* Fail because a user function returned `answer` != 0. The message includes one that the function
+ * set since baum_i_listen(). */
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
                                  baum_i_point *point);
 

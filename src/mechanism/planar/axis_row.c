@@ -13,8 +13,7 @@
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2])
 {
-  /* Scaled first, so that the length of a very long or short axis neither overflows nor
-   * vanishes. */
+  /* Divided by the largest number first, so that squares neither overflow nor vanish. */
   double largest = fmax(fabs(axis[0]), fabs(axis[1]));
   double x = axis[0] / largest;
   double y = axis[1] / largest;
@@ -85,9 +84,9 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
     unit[i] = lambda;
     times_hessian(&x, unit, out->jtl_q + (size_t)6 * i);
   }
-  times_hessian(&x, v, out->gamma_v);
+  times_hessian(&x, v, out->rate_q);
   for (int i = 0; i < 6; i++) {
-    out->gamma_v[i] *= -2.0;
+    out->gamma_v[i] = -2.0 * out->rate_q[i];
   }
   set_gamma_q(&x, v, out->gamma_q);
 }
@@ -118,17 +117,19 @@ baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point 
   return baum_i_planar_linearize(joint, point, w, lambda, linearize_normal, blocks);
 }
 
-void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+void baum_i_axis_joint_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
                                   baum_i_coordinate *out)
 {
+  (void)number;
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   baum_i_axis_coordinate(&pair, pair.numbers + BAUM_I_AXIS, out);
 }
 
-void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
-                                            const double w[6], double lambda,
-                                            baum_i_coordinate_blocks *out)
+void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, int number,
+                                            const baum_i_point *point, const double w[6],
+                                            double lambda, baum_i_coordinate_blocks *out)
 {
+  (void)number;
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   baum_i_axis_linearize(&pair, pair.numbers + BAUM_I_AXIS, w, lambda, out);
 }

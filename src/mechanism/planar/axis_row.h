@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of body_b's marker from body_a's along a direction fixed in body_a. Along the normal of
- * an axis it is the first row of the translational joint and the row of the pin in a slot. Along
- * the axis it is their coordinate. The rack and pinion and the point on a curve use it, too.
+/* Distance of the marker on body_b from the marker on body_a along a direction fixed in body_a. The
+ * distance along the normal of an axis is the first row of the translational joint and the row of
+ * the pin in a slot. The distance along the axis is the coordinate of these joints. The rack and
+ * pinion and the point on a curve also use this distance.
  *
- * Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u,
- * p_b the arm of body_b's marker, r the origins, and D = r_b + p_b - r_a (u . p_a is constant, both
- * being of body_a):
+ * Let e be the direction in body axes, u = A_a e, n = k x u, p the arms of the markers, r the
+ * origins, and D = r_b + p_b - r_a. u . p_a is constant, because both vectors are fixed in body_a.
+ * The distance f is
  *
  *   f     = u . (D - p_a)
  *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                           (6)
- *   H     = f_qq: symmetric, with only
+ *   H     = f_qq, symmetric; its non-zero entries are
  *           angle_a, r_a: -n;  angle_a, r_b: n;  angle_a, angle_b: n . (k x p_b) = u . p_b;
  *           angle_a, angle_a: -u . D;  angle_b, angle_b: -u . p_b
  *   gamma = -v^T H v = w_a^2 u . D - 2 w_a n . (P_b' - r_a') + w_b^2 u . p_b,  P_b = r_b + p_b
  *
- * (J w)_q = H w, (J^T lambda)_q = lambda H, gamma_v = -2 H v, and gamma_q has
+ * (J w)_q = H w, (J^T lambda)_q = lambda H, gamma_v = -2 H v, and gamma_q has the entries
  *
  *   r_a: -w_a^2 u;  r_b: w_a^2 u;  angle_b: (w_a - w_b)^2 u . (k x p_b);
  *   angle_a: w_a^2 n . D + 2 w_a u . (r_b' - r_a') - (2 w_a w_b - w_b^2) n . p_b
@@ -26,12 +27,13 @@
 
 /* ---- an axis in definitions ---- */
 
-/* Find the unit axis and its normal k x axis (or NULL) in the axes of body_a, whose design frame is
- * `a`. If `point` is given (not NaN), the definition's axis is in ground axes, as the point is. */
+/* Find the unit axis `along` and its normal k x along in the axes of body_a, whose design frame is
+ * `a`. normal may be NULL. If `point` is given (not NaN), both point and axis of the definition are
+ * in ground axes. */
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2]);
 
-/* ---- the row; inline, so that common subexpressions are evaluated once ---- */
+/* ---- the row; inline, so that the compiler evaluates common terms once ---- */
 
 /* Common terms of the equations above. */
 typedef struct baum_i_axis {
@@ -66,7 +68,7 @@ static inline baum_i_axis baum_i_axis_at(const baum_i_planar_pair *pair, const d
   return x;
 }
 
-/* direction: unit vector in the axes of body_a. */
+/* Return f. direction is a unit vector in the axes of body_a. */
 static inline double baum_i_axis_value(const baum_i_planar_pair *pair, const double direction[2])
 {
   baum_i_axis x = baum_i_axis_at(pair, direction);
@@ -86,7 +88,7 @@ static inline void baum_i_axis_gradient(const baum_i_planar_pair *pair, const do
   gradient[5] = -x.n_arm; /* u . (k x p) = -n . p */
 }
 
-/* So that gradient . a = value'' + gamma. */
+/* Return gamma, for which f'' = gradient . a - gamma. */
 static inline double baum_i_axis_gamma(const baum_i_planar_pair *pair, const double direction[2])
 {
   baum_i_axis x = baum_i_axis_at(pair, direction);
@@ -96,30 +98,30 @@ static inline double baum_i_axis_gamma(const baum_i_planar_pair *pair, const dou
   return w_a * w_a * x.u_span - 2.0 * w_a * baum_i_axis_dot(x.n, relative) + w_b * w_b * x.u_arm;
 }
 
-/* All of the above. */
+/* Compute all members of a coordinate. */
 void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double direction[2],
                             baum_i_coordinate *out);
 
-/* Sets every entry. */
+/* Compute all second derivatives. */
 void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double direction[2],
                            const double w[6], double lambda, baum_i_coordinate_blocks *out);
 
-/* The same as the first row of a joint. */
+/* Compute the second derivatives for the first row of a joint. */
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
 
-/* ---- members of types whose numbers, after both points, begin with an axis and its normal, and
- * whose one row that is not linear is the projection on the normal ---- */
+/* ---- members of types whose own numbers begin with an axis and its normal, and whose only
+ * nonlinear row is the distance along the normal ---- */
 
 enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
 
 baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
                                         const double *w, const double *lambda,
                                         const baum_i_joint_blocks *blocks);
-void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+void baum_i_axis_joint_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
                                   baum_i_coordinate *out);
-void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
-                                            const double w[6], double lambda,
-                                            baum_i_coordinate_blocks *out);
+void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, int number,
+                                            const baum_i_point *point, const double w[6],
+                                            double lambda, baum_i_coordinate_blocks *out);
 
 #endif

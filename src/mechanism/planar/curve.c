@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Point on a curve, planar: a function of the user, fixed in body_a, vanishes at body_b's point
- * (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an implicit
- * curve instead of a parameter and its equation). With d from body_a's marker to body_b's:
+/* Point on a curve, planar. The user's function F(x, y) is zero on a curve that is fixed in body_a,
+ * and the point of body_b stays on this curve. (Point-follower and cam of Nikravesh 1988, chapter
+ * 4, and Haug 1989, chapter 3, but with an implicit curve instead of a curve parameter and its
+ * equation.) With d from the marker on body_a to the marker on body_b:
  *
- *   (x, y) = A_a^T d, both projections of axis_row.c, on (1, 0) and (0, 1)
+ *   (x, y) = A_a^T d, the distances of axis_row.h along (1, 0) and (0, 1)
  *   Phi    = F(x, y)                     (1)
  *
  * J, gamma and second derivatives follow from the chain rule of composed_row.c. The third
- * derivatives of F, which only gamma_q needs, come from differences of the second ones.
+ * derivatives of F, which only gamma_q needs, are differences of the second derivatives.
  */
 #include <string.h>
 
@@ -16,7 +17,7 @@
 #include "mechanism/general/composed_row.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Entries of the curve function. */
+/* Entries of the result of the curve function. */
 enum { F, F_X, F_Y, F_XX, F_XY, F_YY, CURVE_SIZE };
 
 static const baum_i_def_field fields[] = {
@@ -36,8 +37,8 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "curve", CURVE_SIZE, 0, def->user};
 }
 
-/* The point at which the curve is called and differentiated, in the axes of the curve; it refers to
- * values (q, v, scale). */
+/* Return the point at which the curve function is called and differentiated, in the axes of the
+ * curve. It refers to values, which contain q, v and scale. */
 static baum_i_local place_at(baum_i_point *point, const double values[6])
 {
   return (baum_i_local){.point = point,
@@ -64,17 +65,17 @@ static baum_status curve_at(const baum_i_joint *joint, const baum_i_local *at, d
 typedef struct state {
   baum_i_planar_pair pair;
   baum_i_inner x[2];
-  double values[6]; /* x, y; zeros; their scales: a place */
+  double values[6]; /* x, y; zeros; scales: see place_at() */
   baum_i_outer g;
 } state;
 
 static void set_places(const baum_i_joint *joint, const baum_i_point *point, state *s)
 {
+  static const int bodies[2] = {0, 1};
   s->pair = baum_i_planar_pair_at(joint, point);
   for (int i = 0; i < 2; i++) {
     baum_i_axis_coordinate(&s->pair, axes[i], &s->x[i].c);
-    s->x[i].at[0] = 0;
-    s->x[i].at[1] = 3;
+    baum_i_composed_place(&s->x[i], BAUM_I_PLANE, BAUM_I_PLANE, bodies);
     s->values[i] = s->x[i].c.value;
     s->values[2 + i] = 0.0;
     s->values[4 + i] = point->mechanism->length;
@@ -96,7 +97,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 {
   state s;
   BAUM_I_TRY(state_at(joint, point, &s));
-  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
+  baum_i_composed_put_row(joint, point, BAUM_I_PLANE, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -114,7 +115,7 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
 {
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
-  double by_column[6]; /* of F_xx, F_xy, F_yy by x and by y */
+  double by_column[6]; /* F_xx, F_xy, F_yy by x and by y */
   BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column));
   s->g.third[0] = by_column[0];
   s->g.third[1] = by_column[1];
@@ -137,7 +138,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   for (int i = 0; i < 2; i++) {
     baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
   }
-  baum_i_composed_put_blocks(joint, point, s.x, &s.g, w_six, lambda, blocks);
+  baum_i_composed_put_blocks(joint, point, BAUM_I_PLANE, s.x, &s.g, w_six, lambda, blocks);
   return BAUM_OK;
 }
 

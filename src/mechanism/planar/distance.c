@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint, planar: a massless rod keeps two points at distance L. With d from body_a's
- * point to body_b's and F, G of separation.h:
+/* Distance joint, planar: a massless rod keeps two points at distance L. With d from the point on
+ * body_a to the point on body_b, and F, G of separation.h:
  *
- *   Phi   = (d . d - L^2) / (2 L)          (1), change of length to first order, smooth at d = 0
+ *   Phi   = (d . d - L^2) / (2 L)          (1), about the change of length, smooth at d = 0
  *   J     = G^T d / L                                (6)
  *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
  *
  *   (J w)_q = F_qq w / L,   (J^T lambda)_q = lambda F_qq / L,   gamma_v = -2 F_qq v / L
  *   gamma_q = -(G^T (w_a^2 p_a - w_b^2 p_b) + [ 0 0 c_a  0 0 -c_b ]) / L
- *             with c = 2 w d' . p + w^2 d . (k x p) of each body
+ *             where c = 2 w d' . p + w^2 d . (k x p) for each body
  */
 #include <math.h>
 
@@ -17,7 +17,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Own numbers, after both points. */
+/* Parameters of the joint, which follow the two points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 static const baum_i_def_field fields[] = {

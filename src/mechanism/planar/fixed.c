@@ -9,7 +9,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/pin_rows.h"
 
-/* Own numbers, after both points. */
+/* Parameters of the joint, which follow the two points. */
 enum { ANGLE = 0, OWN_COUNT = 1 };
 
 static const baum_i_def_field fields[] = {
@@ -30,7 +30,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   return BAUM_OK;
 }
 
-/* ---- one joint; second derivatives are the pin's: the row of the angle is linear ---- */
+/* ---- one joint; the row of the angle is linear, so second derivatives are the pin's ---- */
 
 static void one_phi(const baum_i_planar_pair *pair, double *out)
 {
@@ -55,7 +55,7 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
 static void weld(const double *parameters, bool from_a, const double *known, double *q)
 {
   baum_i_frame_kind kind = known ? BAUM_I_FRAME_BODY : BAUM_I_FRAME_GROUND;
-  baum_i_frame f = baum_i_frame_at(kind, known, NULL);
+  baum_i_frame f = baum_i_frame_at(kind, known);
   const double *p = parameters + (from_a ? 0 : 2);
   const double *s = parameters + (from_a ? 2 : 0);
   double angle = parameters[BAUM_I_PLANAR_NUMBERS + ANGLE];

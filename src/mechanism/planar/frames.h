@@ -6,7 +6,7 @@
 #include "mechanism/identify.h"
 
 struct baum_i_frames_kernel {
-  /* frames (body_count + 1) of a mechanism at q, and v or NULL for rest. */
+  /* Set frames (body_count + 1) of a mechanism at q and v. v = NULL means rest. */
   void (*set)(const baum_mechanism *mechanism, const double *q, const double *v,
               baum_i_frame *frames);
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The frames of all bodies in batches: first the angles, then their sines and cosines as vectors,
- * then the frames. Where all bodies are planar bodies, no table of coordinates is needed.
+/* Computes the frames of all bodies in batches: first the angles, then their sines and cosines as
+ * vectors, then the frames. If all bodies are planar bodies, no table of coordinates is needed.
  */
 #include <math.h>
 
@@ -9,7 +9,7 @@
 #include "base/sincos.h"
 #include "mechanism/planar/frames.h"
 
-/* Bodies in a batch, in whole vectors. */
+/* Number of bodies in a batch, and of doubles in a vector. */
 enum { SOME = 32, LANES = 4 };
 
 typedef double vector __attribute__((vector_size(LANES * sizeof(double))));
@@ -36,8 +36,9 @@ BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
   return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
 }
 
-/* Bodies without an angle get zero. Angles are stored as vectors, because they are read as vectors
- * at once: after stores of single numbers the load would stall. */
+/* Gather the angles; bodies without an angle get 0. Angles are stored as vectors, because they are
+ * loaded as vectors immediately afterwards, and such a load would wait for stores of single
+ * numbers. */
 BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
   int i = 0;
@@ -54,7 +55,7 @@ BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *an
   }
 }
 
-/* Returns false if an angle is beyond the range of baum_i_sincos(). */
+/* Return false if an angle is outside of the range of baum_i_sincos(). */
 static bool set_sines(const double *restrict angle, int count, double *restrict sine,
                       double *restrict cosine)
 {
@@ -70,7 +71,7 @@ static bool set_sines(const double *restrict angle, int count, double *restrict 
   return (far[0] | far[1] | far[2] | far[3]) == 0;
 }
 
-/* Use the C library for angles beyond the range, and for infinite ones. */
+/* Use the C library for angles outside of the range, including infinite ones. */
 static void set_far_sines(const double *angle, int count, double *sine, double *cosine)
 {
   for (int i = 0; i < count; i++) {

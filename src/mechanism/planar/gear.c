@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gear, planar: two wheels a, b on a carrier c roll on each other without slipping
- * (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). Seen from the carrier the pitch circles go by
- * at the same speed, outwards R_a w_a = -R_b w_b:
+/* Gear, planar: two wheels a and b on a carrier c roll on each other without slip (Nikravesh 1988,
+ * chapter 4; Haug 1989, chapter 3). Relative to the carrier both pitch circles have the same speed
+ * at the point of contact, R_a w_a = -R_b w_b for external gears:
  *
  *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1)
  *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9), constant
  *   gamma = 0, and so are all second derivatives
  *
- * Its reaction consists of moments alone, which add up to zero, because the forces of the teeth and
- * of the wheels' pins form couples.
+ * The reaction consists only of moments, whose sum is zero, because the forces of the teeth and of
+ * the wheels' pins form couples.
  */
 #include <math.h>
 
@@ -55,7 +55,7 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return check_carrier(mechanism, def, label);
 }
 
-/* Left side of the row, by the three angles. */
+/* Return Phi + offset for the three angles. */
 static double rolled(const double *numbers, double a, double b, double carrier)
 {
   return numbers[RADIUS_A] * (a - carrier) + numbers[RADIUS_B] * (b - carrier);

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pin in a slot (point on a line), planar: body_b's point stays on an axis fixed in body_a, and
- * body_b may rotate (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in
- * body_a, n = A_a (k x e), d from body_a's marker to body_b's:
+ * body_b may rotate (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in the
+ * axes of body_a, n = A_a (k x e), and d from the marker on body_a to the marker on body_b:
  *
- *   Phi = n . d             (1), a row of axis_row.c
+ *   Phi = n . d             (1), see axis_row.h
  *
- *   coordinate = A_a e . d, again of axis_row.c
+ *   coordinate = A_a e . d, see axis_row.h
  */
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Own numbers, after both points. */
+/* Parameters of the joint, which follow the two points. */
 enum { OWN_COUNT = BAUM_I_AXIS_NUMBERS };
 
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_FIELDS(baum_planar_pin_in_slot_def),
-  BAUM_I_NUMBERS(baum_planar_pin_in_slot_def, axis, DIRECTION, "[-]", 1.0, 0.0),
+  BAUM_I_NUMBERS(baum_planar_pin_in_slot_def, axis, DIRECTION, "", 1.0, 0.0),
   {0},
 };
 
@@ -58,6 +58,7 @@ static const baum_i_joint_type type = {
                       OWN_COUNT, 1),
   .lower = lower,
   .linearize = baum_i_axis_joint_linearize,
+  .coordinates = {BAUM_COORDINATE_DISPLACEMENT},
   .coordinate = baum_i_axis_joint_coordinate,
   .coordinate_linearize = baum_i_axis_joint_coordinate_linearize,
 };

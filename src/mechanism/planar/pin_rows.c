@@ -5,7 +5,7 @@
  *   J     = [ I   k x p_a   -I   -k x p_b ]                     (2 x 6)
  *   gamma = p_a w_a^2 - p_b w_b^2                               (2)
  *
- * so that lambda is the force on body_b. For linearize, with w here any six numbers:
+ * lambda is the force on body_b. The second derivatives, with any vector w of six numbers, are
  *
  *   (J w)_q        columns angle_a: -p_a w_3, angle_b: p_b w_6
  *   (J^T lambda)_q angle_a, angle_a: -p_a . lambda; angle_b, angle_b: p_b . lambda
@@ -36,7 +36,7 @@ void baum_i_pin_gamma(const baum_i_planar_pair *pair, double *gamma)
   gamma[1] = pair->a.arm[1] * a - pair->b.arm[1] * b;
 }
 
-/* Columns angle_a (p times a) and angle_b (p times b) of two rows. */
+/* Set the columns angle_a to p_a a and angle_b to p_b b in two rows. */
 static void set_angle_columns(const double p_a[2], double a, const double p_b[2], double b,
                               double *six)
 {

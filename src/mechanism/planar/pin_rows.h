@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two rows of coincident markers: all rows of the revolute joint and the first two of the fixed
- * joint. */
+/* The two rows that make two markers coincide: all rows of the revolute joint, and the first two
+ * rows of the fixed joint. */
 #ifndef BAUM_I_MECHANISM_PLANAR_PIN_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PIN_ROWS_H
 

@@ -11,8 +11,8 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* Relative tolerance. Decimal numbers can place a particle and a pin at the same point only up to
- * rounding. */
+/* Relative tolerance for equal points. Points that are given as decimal numbers are equal only up
+ * to rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */
@@ -73,7 +73,7 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 
 /* ---- points ---- */
 
-/* Either all numbers of a point are given, or none. */
+/* Tell whether a point is given. Either both of its numbers are given or none. */
 static bool is_given(const double point[2])
 {
   return !isnan(point[0]);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Common part of planar joints and forces: points and markers.
  *
- * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
- * p' = k x p = (-p_y, p_x):
+ * A marker is a point fixed on a body, at s in body axes. Its arm is p = A s, the vector from the
+ * origin of the body in ground axes. With p' = k x p = (-p_y, p_x):
  *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
- * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b (general/columns.h).
+ * The functions that evaluate one joint (kernels) write the six columns x_a y_a angle_a x_b y_b
+ * angle_b (general/columns.h).
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_H
@@ -15,7 +16,7 @@
 #include "base/pair.h"
 #include "mechanism/general/columns.h"
 
-/* The fields that every planar joint and spring definition begins with. */
+/* The first fields of every definition of a planar joint or spring. */
 typedef struct baum_i_planar_head {
   size_t struct_size;
   const char *name;
@@ -26,7 +27,7 @@ typedef struct baum_i_planar_head {
   double point_b[2];
 } baum_i_planar_head;
 
-/* Their entries in a table of fields. */
+/* The entries of these fields in a table of fields. */
 #define BAUM_I_PLANAR_BODIES(DEF) BAUM_I_FIELD(DEF, body_a, BODY), BAUM_I_FIELD(DEF, body_b, BODY)
 #define BAUM_I_PLANAR_FIELDS(DEF)                                     \
   BAUM_I_PLANAR_BODIES(DEF), BAUM_I_OPTIONAL(DEF, point, POINT, "m"), \
@@ -39,7 +40,7 @@ typedef struct baum_i_marker {
   double w;     /* angular velocity of the body */
 } baum_i_marker;
 
-/* p alone, as a pair. */
+/* Compute only p, as a pair. */
 static inline baum_i_pair baum_i_arm_on(const baum_i_frame *f, const double *s)
 {
   return f->c * baum_i_load(s) + f->s * baum_i_turned(baum_i_load(s));
@@ -63,7 +64,7 @@ static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body
   return baum_i_marker_on(&point->frames[body], s);
 }
 
-/* Velocities over the six columns. */
+/* Write the velocities of both bodies in the order of the six columns. */
 static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_frame *b,
                                             double six[6])
 {
@@ -73,41 +74,43 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* Checks of definitions whose single fields are already checked. */
+/* Checks of definitions. The table of fields has already been checked. */
 
 /* Check that a body has a position in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);
 
-/* Check body_a and body_b, as above, and that they differ. */
+/* Check that body_a and body_b have positions in the plane and differ. */
 baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* The `check` of definitions with bodies and points, which must be given in exactly one way: */
+/* `check` functions of definitions with bodies and points. Points must be given in exactly one way:
+ * either `point`, or `point_a` and `point_b`. */
 baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
                                            const char *label);
-/* without `point`, for elements with a length; */
+/* Elements with a length: `point` is not allowed. */
 baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
-/* with an angle of both bodies, or of body_a. */
+/* Also check that both bodies have an angle (turning), or that body_a has one (axis). */
 baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
                                         const char *label);
 baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
                                      const char *label);
 
-/* Check that a body that passed the checks above has an angle (ground has); likewise both
- * bodies. */
+/* Check that one body, or both bodies, have an angle, as planar bodies and ground have. The checks
+ * above must have passed. */
 baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Find the points on both bodies from an element's definition and the design configuration: s[0..1]
- * on a, s[2..3] on b. Returns BAUM_ERR_ARGUMENT if `point` is away from a particle. */
+/* Find the points on both bodies, in body axes, from the definition of an element and the design
+ * configuration: s[0..1] on body_a, s[2..3] on body_b. Returns BAUM_ERR_ARGUMENT if a body is a
+ * particle and `point` is not at the particle. */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                  double s[4]);
 
-/* Include the points of a joint's definition; for the `extent` function of types. */
+/* The `extent` function of joint types: include the points of the definition. */
 void baum_i_planar_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                           baum_i_box *box);
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies in the plane, with the centre of mass at (x, y) and v = q': rigid bodies, q = (x, y,
- * angle), and particles, q = (x, y).
+/* Rigid bodies with q = (x, y, angle) and particles with q = (x, y) in the plane. (x, y) is the
+ * centre of mass, and v = q'.
  *
  *   M = diag(m, m, I)   or diag(m, m)
- *   g = (m g_x, m g_y, 0)   or without the last, by gravity; V = -m (g_x x + g_y y)
+ *   g = (m g_x, m g_y, 0) or (m g_x, m g_y), gravity; V = -m (g_x x + g_y y)
  *
- * Nothing of M and g depends on q or v, so there is nothing to linearize.
+ * M and g do not depend on q or v, so there is no linearize().
  */
 #include <string.h>
 
@@ -13,7 +13,7 @@
 
 #include "mechanism/definition.h"
 
-/* Parameters; the last one of rigid bodies alone. */
+/* Parameters. Only rigid bodies have INERTIA. */
 enum { MASS, INERTIA, PARAMETER_COUNT };
 
 /* ---- common to both ---- */

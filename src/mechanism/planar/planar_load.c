@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load on one body, planar: force f at the point s, and torque t, both multiplied by the input u if
- * there is one. With p = A s, over x, y, angle, and with u included in f and t:
+/* Load on one body, planar: force f at the point s, and torque t. If there is an input u, both are
+ * multiplied by it; f and t below include u. With p = A s, g over (x, y, angle) is
  *
  *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
  *                  V = -f . (r + p) when t = 0
  *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
  *
- * where x x y = x_1 y_2 - x_2 y_1. A load with a torque has no potential, because the work of a
- * torque depends on the number of revolutions. A load with an input has none, because changes of
- * the input would change the potential without doing work.
+ * where a x b = a_1 b_2 - a_2 b_1 for vectors a, b. A load with a torque has no potential, because
+ * the work of a torque depends on the number of revolutions. A load with an input has no potential,
+ * because changes of the input would change the potential without work.
  */
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -27,7 +27,7 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* `input` uses former padding after `follows_body`. */
+/* In older versions `input` was padding after `follows_body`. */
 static const size_t former[] = {
   offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
   0,
@@ -35,7 +35,7 @@ static const size_t former[] = {
 
 /* ---- definition ---- */
 
-/* A particle has neither axes nor an angle. */
+/* Check a load on a particle, which has neither axes nor an angle. */
 static baum_status check_on_particle(const baum_planar_load_def *def, const char *label)
 {
   if (def->point[0] != 0.0 || def->point[1] != 0.0) {
@@ -94,7 +94,7 @@ typedef struct load {
   bool has_potential;
 } load;
 
-/* Set f, in ground axes and with the input; returns the input. */
+/* Set f, in ground axes and multiplied by the input. Returns the input. */
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {
@@ -135,7 +135,7 @@ static void set_force_q(const load *l, double out[9])
 
 /* ---- type ---- */
 
-/* Does not compute terms that only energy and derivatives need. */
+/* Add the force, without the terms that only energy and derivatives need. */
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
@@ -177,8 +177,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     load l = load_at(element, point);
     double three[9] = {0.0};
     set_force_q(&l, three);
-    baum_i_columns_pack_square(point->mechanism, &element->span, BAUM_I_PLANE, three,
-                               blocks->force_q + element->square);
+    baum_i_columns_pack_force(point->mechanism, element, BAUM_I_PLANE, three, blocks->force_q);
   }
   return BAUM_OK;
 }

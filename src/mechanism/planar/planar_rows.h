@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar joints by kernels, which evaluate one joint over six columns from its two markers.
+/* Common part of planar joints. A joint is defined by kernels, functions that evaluate one joint
+ * over six columns from its two markers.
  *
- * The loops over a group and the packing are written once, here. They are inline: the file of a
- * joint has constant kernels, so its loop compiles without calls through pointers.
+ * The loops over a group and the packing of columns are written once, here. They are inline, and
+ * the kernels are constants in the file of a joint, so the compiled loop calls no functions through
+ * pointers.
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
@@ -15,21 +17,21 @@
 enum {
   BAUM_I_PLANAR_COLUMNS = 6,
   BAUM_I_PLANAR_ROWS = 3,    /* largest number of rows of a planar joint */
-  BAUM_I_PLANAR_NUMBERS = 4, /* parameters begin with s_a and s_b */
+  BAUM_I_PLANAR_NUMBERS = 4, /* s_a and s_b, with which parameters begin */
 };
 
 /* One joint at a point. */
 typedef struct baum_i_planar_pair {
   const double *s_a;
   const double *s_b;
-  const double *numbers; /* of the joint, after both points */
+  const double *numbers; /* own numbers of the joint */
   const baum_i_frame *frame_a;
   const baum_i_frame *frame_b;
   baum_i_marker a;
   baum_i_marker b;
 } baum_i_planar_pair;
 
-/* Second derivatives of up to three rows over six columns; jtl_q sums over the rows. */
+/* Second derivatives of up to three rows over six columns. jtl_q is summed over the rows. */
 typedef struct baum_i_planar_blocks {
   double jw_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
   double jtl_q[BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS];
@@ -37,14 +39,14 @@ typedef struct baum_i_planar_blocks {
   double gamma_v[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
 } baum_i_planar_blocks;
 
-/* Sets rows values, or rows x 6. */
+/* Sets a value of each row, or six columns of each row. */
 typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
 
-/* w (6), lambda (rows); out is zeroed before. */
+/* Sets second derivatives for w (6) and lambda (rows). out is zeroed before. */
 typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
                                          const double *lambda, baum_i_planar_blocks *out);
 
-/* From the joint's parameters and the frames of its bodies. */
+/* Compute the markers from the joint's parameters and the frames of its bodies. */
 static inline baum_i_planar_pair baum_i_planar_pair_of(const double *numbers, const baum_i_frame *a,
                                                        const baum_i_frame *b)
 {
@@ -67,14 +69,13 @@ static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint
                                &point->frames[joint->span.bodies[1]]);
 }
 
-/* Angle of body_b as seen from body_a, continuous over turns. */
+/* Return the angle of body_b relative to body_a, continuous over revolutions. */
 static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
 {
   return pair->frame_b->angle - pair->frame_a->angle;
 }
 
-/* The kernels of a joint; static const in its file, so that the loop below needs no calls through
- * pointers. */
+/* The kernels of a joint. */
 typedef struct baum_i_planar_kernels {
   int rows;
   baum_i_planar_kernel *phi;
@@ -105,7 +106,8 @@ BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
                       jacobian + joint->jacobian);
 }
 
-/* Phi, J and gamma share terms, so all are evaluated before the first is stored. */
+/* Evaluate Phi, J and gamma, and store them afterwards, so that the compiler computes their common
+ * terms once. */
 BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
                                          const baum_i_planar_pair *pair,
                                          const baum_i_planar_kernels *kernels,
@@ -163,7 +165,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* Define the member functions of a type by its kernels. */
+/* Define `evaluate` and `linearize` of a type by its kernels. */
 #define BAUM_I_PLANAR_EVALUATE(ROWS, PHI, JACOBIAN, GAMMA)                          \
   static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point, \
                               const baum_i_rows *out)                               \
@@ -179,7 +181,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
     return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
   }
 
-/* Common members of definitions and types of joints of two bodies. The parameters begin with the
+/* Common members of definitions and types of joints with two bodies. The parameters are the two
  * points, followed by OWN numbers. */
 #define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)                                 \
   .kind = (TITLE), .size = sizeof(baum_##NAME##_def), .fields = fields, .check = (CHECK), \
@@ -193,8 +195,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
-/* Lower the points; the joint then lowers its own numbers. Fails if `point` is away from a
- * particle. */
+/* Set the points in the parameters; the joint then sets its own numbers. Statuses of
+ * baum_i_planar_points(). */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel between two points, planar. With d from body_a's point to body_b's,
- * l = |d|, stiffness k, damping c, free length l_0, and F = l^2 / 2, G of separation.h:
+/* Spring and damper in parallel between two points, planar. With d from the point on body_a to the
+ * point on body_b, l = |d|, stiffness k, damping c, free length l_0, and F = l^2 / 2 and G of
+ * separation.h:
  *
  *   T   = k (l - l_0) + c l'                       tension
  *   h   = l_q = G^T d / l                          (6)
@@ -9,8 +10,8 @@
  *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
  *   g_v = -c h h^T                                                            (6 x 6)
  *
- * For a user's law T(l, l'), which has no V, k and c are its derivatives.
- * At l = 0 there is no direction, and force and derivatives are zero.
+ * A user's law T(l, l') has no V, and k and c are its derivatives. At l = 0 the direction is
+ * undefined, and force and derivatives are set to zero.
  */
 #include <float.h>
 #include <math.h>
@@ -19,7 +20,7 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters; s_a and s_b come first. */
+/* Parameters. s_a and s_b precede the numbers of the law. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_i_def_field fields[] = {
@@ -60,7 +61,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 typedef struct spring {
   baum_i_separation line;
-  double length; /* l, 0 when there is no direction */
+  double length; /* l, or 0 if the direction is undefined */
   double rate;
   double h[6];
 } spring;
@@ -74,7 +75,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   s.line = baum_i_separation_of(&a, &b);
   s.length = baum_i_separation_length(&s.line);
   if (s.length < DBL_MIN) {
-    /* The reciprocal of a denormal length is not finite. */
+    /* The reciprocal of a denormal number is not finite. */
     return (spring){.line = s.line};
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
@@ -134,8 +135,8 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* Add -T h as pairs: T e and its moment on body a, the opposite on b. Every evaluation calls this
- * function, but none of the others. */
+/* Add -T h: T e and its moment to body_a, and the opposite to body_b, with e = d / l. Pairs make
+ * this fast, because every evaluation calls this function. */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;
@@ -200,13 +201,11 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     double v[6];
     baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
     set_force_q(&s, &t, v, six);
-    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six,
-                               blocks->force_q + element->square);
+    baum_i_columns_pack_force(point->mechanism, element, BAUM_I_PLANE, six, blocks->force_q);
   }
   if (blocks->force_v) {
     set_force_v(&s, &t, six);
-    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six,
-                               blocks->force_v + element->square);
+    baum_i_columns_pack_force(point->mechanism, element, BAUM_I_PLANE, six, blocks->force_v);
   }
   return BAUM_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Torsion spring and damper in parallel between two bodies, planar. With the relative angle
- * phi = angle_b - angle_a, which counts revolutions, stiffness k, damping c, free angle phi_0, over
- * the six columns x_a y_a angle_a x_b y_b angle_b:
+/* Torsion spring and damper in parallel between two bodies, planar. The relative angle phi =
+ * angle_b - angle_a is continuous over revolutions. With stiffness k, damping c and free angle
+ * phi_0, over the six columns x_a y_a angle_a x_b y_b angle_b:
  *
  *   T   = k (phi - phi_0) + c phi'                 restoring torque
  *   h   = phi_q = (0 0 -1 0 0 1)                   (6)
@@ -9,7 +9,7 @@
  *   V   = k (phi - phi_0)^2 / 2
  *   g_q = -k h h^T,   g_v = -c h h^T               (6 x 6)
  *
- * For a user's law T(phi, phi'), which has no V, k and c are its derivatives.
+ * A user's law T(phi, phi') has no V, and k and c are its derivatives.
  */
 #include <math.h>
 
@@ -92,14 +92,9 @@ static baum_status torque_at(const baum_i_force *force, baum_i_point *point, bau
 static void put_square(const baum_i_force *force, const baum_mechanism *mechanism, double factor,
                        double *squares)
 {
-  if (squares) {
-    double six[36] = {0.0};
-    six[6 * 2 + 2] = -factor;
-    six[6 * 2 + 5] = factor;
-    six[6 * 5 + 2] = factor;
-    six[6 * 5 + 5] = -factor;
-    baum_i_columns_pack_square(mechanism, &force->span, BAUM_I_PLANE, six, squares + force->square);
-  }
+  const double six[36] = {
+    [6 * 2 + 2] = -factor, [6 * 2 + 5] = factor, [6 * 5 + 2] = factor, [6 * 5 + 5] = -factor};
+  baum_i_columns_pack_force(mechanism, force, BAUM_I_PLANE, six, squares);
 }
 
 /* ---- type ---- */

@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rack and pinion, planar: body_b's pinion, of pitch radius R about its point, rolls on the rack of
- * body_a, of direction e (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With d from body_a's
- * marker to body_b's, u = A_a e, and s = u . d the displacement of axis_row.c:
+/* Rack and pinion, planar. The pinion on body_b has its centre at the marker and the pitch radius
+ * R. It rolls on the rack on body_a, whose direction is e (Nikravesh 1988, chapter 4; Haug 1989,
+ * chapter 3). With d from the marker on body_a to the marker on body_b, u = A_a e, and the
+ * displacement s = u . d of axis_row.h:
  *
  *   Phi   = s - R (angle_b - angle_a) - offset        (1)
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6)
- *   gamma = that of s, as are all second derivatives: the angles are linear
+ *   gamma and all second derivatives are those of s, because the row is linear in the angles
  *
- * At the contact the pinion is at rest relative to the rack: its centre moves at R w u, and its
- * point at R n, n = k x u, at R w u + w k x R n = 0. So the pitch line is at R n from the centre.
+ * At the contact the pinion is at rest relative to the rack. Its centre has the velocity R w u. Its
+ * point at R n from the centre, with n = k x u, has the velocity R w u + w k x R n = 0, so this is
+ * the point of contact.
  */
 #include <math.h>
 
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Own numbers, after both points. */
+/* Parameters of the joint, which follow the two points. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_FIELDS(baum_planar_rack_and_pinion_def),
-  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, axis, DIRECTION, "[-]", 1.0, 0.0),
+  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, axis, DIRECTION, "", 1.0, 0.0),
   BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, radius, NOT_ZERO, "m", 0.0),
   BAUM_I_OPTIONAL(baum_planar_rack_and_pinion_def, offset, OPTIONAL, "m"),
   {0},
@@ -28,7 +30,7 @@ static const baum_i_def_field fields[] = {
 
 /* ---- definition ---- */
 
-/* Displacement along the rack minus the arc rolled by the pinion. */
+/* Return the displacement along the rack minus the arc length that the pinion has rolled. */
 static double rolled(const baum_i_planar_pair *pair)
 {
   return baum_i_axis_value(pair, pair->numbers + AXIS) -

@@ -16,8 +16,10 @@ BAUM_I_PLANAR_EVALUATE(2, baum_i_pin_phi, baum_i_pin_jacobian, baum_i_pin_gamma)
 
 BAUM_I_PLANAR_LINEARIZE(baum_i_pin_linearize)
 
-static void coordinate(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out)
+static void coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
+                       baum_i_coordinate *out)
 {
+  (void)number;
   const baum_i_frame *a = &point->frames[joint->span.bodies[0]];
   const baum_i_frame *b = &point->frames[joint->span.bodies[1]];
   *out = (baum_i_coordinate){
@@ -28,10 +30,11 @@ static void coordinate(const baum_i_joint *joint, const baum_i_point *point, bau
 }
 
 /* The coordinate is linear. */
-static void coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+static void coordinate_linearize(const baum_i_joint *joint, int number, const baum_i_point *point,
                                  const double w[6], double lambda, baum_i_coordinate_blocks *out)
 {
   (void)joint;
+  (void)number;
   (void)point;
   (void)w;
   (void)lambda;
@@ -44,7 +47,7 @@ static const baum_i_joint_type type = {
   .is_pin = true,
   .lower = baum_i_planar_lower_points,
   .linearize = linearize,
-  .is_angle = true,
+  .coordinates = {BAUM_COORDINATE_ANGLE},
   .check_coordinate = baum_i_planar_check_angles,
   .coordinate = coordinate,
   .coordinate_linearize = coordinate_linearize,

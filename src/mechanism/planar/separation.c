@@ -10,7 +10,7 @@ void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36])
   const double columns[6][2] = {{-1.0, 0.0}, {0.0, -1.0}, {g[0], g[1]},
                                 {1.0, 0.0},  {0.0, 1.0},  {g[2], g[3]}};
   for (int j = 0; j < 6; j++) {
-    /* Column j of G^T G; the matrix is symmetric, so it may be set as a row. */
+    /* Column j of G^T G is set as row j, because the matrix is symmetric. */
     baum_i_separation_spread(s, columns[j], hessian + (size_t)6 * j);
   }
   /* p_a = (-g[1], g[0]), p_b = (g[3], -g[2]) */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The line between two markers, and half of its squared length with first and second derivatives.
- * The distance joint and the spring use it.
+ * Used by the distance joint and the spring.
  *
- * With d = P_b - P_a, p the arms, over the six columns x_a y_a angle_a x_b y_b angle_b:
+ * P are the markers, p their arms, and d = P_b - P_a. The columns are x_a y_a angle_a x_b y_b
+ * angle_b:
  *
  *   F = d . d / 2,   d' = G v,   G = [ -I   -k x p_a   I   k x p_b ]         (2 x 6)
  *   F_q  = G^T d                                                             (6)
@@ -30,7 +31,8 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
   };
 }
 
-/* hypot() is slower and only needed where squares could overflow or vanish. */
+/* Return the length of (x, y). hypot() is slower and only necessary if squares could overflow or
+ * vanish. */
 static inline double baum_i_length_of(double x, double y)
 {
   double square = x * x + y * y;
@@ -58,8 +60,8 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
 /* F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Length in the design configuration between the points s_a, s_b on both bodies of a span;
- * points holds (s_a, s_b). */
+/* Return the distance, in the design configuration, of the points s_a and s_b on the two bodies of
+ * a span. points is (s_a, s_b). */
 double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
                                    const double points[4]);
 

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Translational joint (slider), planar: body_b slides along an axis fixed in body_a and does not
- * rotate relative to it. With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to
- * body_b's:
+ * rotate relative to it. With e the unit axis in the axes of body_a, n = A_a (k x e), and d from
+ * the marker on body_a to the marker on body_b:
  *
- *   Phi = [ n . d                           distance from the axis, a row of axis_row.c
+ *   Phi = [ n . d                           distance from the axis, see axis_row.h
  *           angle_b - angle_a - angle ]     J = [ 0 0 -1 0 0 1 ], gamma = 0
  *
- *   coordinate = A_a e . d, again of axis_row.c
+ *   coordinate = A_a e . d, see axis_row.h
  */
 #include <math.h>
 
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Own numbers, after both points. */
+/* Parameters of the joint, which follow the two points. */
 enum { ANGLE = BAUM_I_AXIS_NUMBERS, OWN_COUNT };
 
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_FIELDS(baum_planar_translational_def),
-  BAUM_I_NUMBERS(baum_planar_translational_def, axis, DIRECTION, "[-]", 1.0, 0.0),
+  BAUM_I_NUMBERS(baum_planar_translational_def, axis, DIRECTION, "", 1.0, 0.0),
   BAUM_I_OPTIONAL(baum_planar_translational_def, angle, OPTIONAL, "rad"),
   {0},
 };
@@ -67,6 +67,7 @@ static const baum_i_joint_type type = {
                       baum_i_planar_check_turning, OWN_COUNT, 2),
   .lower = lower,
   .linearize = baum_i_axis_joint_linearize,
+  .coordinates = {BAUM_COORDINATE_DISPLACEMENT},
   .coordinate = baum_i_axis_joint_coordinate,
   .coordinate_linearize = baum_i_axis_joint_coordinate_linearize,
 };

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial joints whose rows are products of vectors (spatial_rows.h): a table for each.
+/* Spatial joints whose rows are products of vectors (spatial_rows.h). Each joint is a table.
  *
- * x_a, y_a, z_a and x_b, y_b, z_b are the axes of the joint on both bodies, z along its axis; e
- * leads from body_a's point to body_b's.
+ * x_a, y_a, z_a and x_b, y_b, z_b are the axes of the joint on body_a and body_b, with z along the
+ * axis of the definition; e points from body_a's point to body_b's.
  */
 #include <string.h>
 
 #include "base/message.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Shorter, two axes that are opposite in the design configuration leave their angle open. */
+/* Limit of 1 + cosine for opposite axes, and of the sine for parallel ones. Beyond it the x axis,
+ * and so the zero of the angle, would not be determined. */
 static const double OPPOSITE = 1e-6;
 
 /* ---- checks ---- */
@@ -19,7 +20,7 @@ static baum_status check_points(const baum_mechanism *mechanism, const void *def
   return baum_i_spatial_check_head(mechanism, def, label, false);
 }
 
-/* body_b may be a particle. */
+/* Only body_a needs an orientation; body_b may be a particle. */
 static baum_status check_axis(const baum_mechanism *mechanism, const void *def, const char *label)
 {
   const baum_i_spatial_head *head = def;
@@ -35,15 +36,27 @@ static baum_status check_turning(const baum_mechanism *mechanism, const void *de
   return baum_i_spatial_check_turning(mechanism, head->body_b, label, "body_b");
 }
 
+/* Checks that an optional direction is not the zero vector. (It is NaN if not given.) */
+static baum_status check_direction(const double x[3], const char *label, const char *field)
+{
+  return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (0, 0, 0), must have a direction", label,
+                         field);
+}
+
 static baum_status check_axes(const baum_mechanism *mechanism, const void *def, const char *label)
 {
   const baum_i_spatial_axis_head *given = def;
-  const double *axis = given->axis_b;
   BAUM_I_TRY(check_turning(mechanism, def, label));
-  return axis[0] != 0.0 || axis[1] != 0.0 || axis[2] != 0.0
-           ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis_b is (0, 0, 0), must have a direction",
-                         label);
+  return check_direction(given->axis_b, label, "axis_b");
+}
+
+static baum_status check_planar(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_spatial_planar_def *given = def;
+  BAUM_I_TRY(check_axes(mechanism, def, label));
+  return check_direction(given->x_axis, label, "x_axis");
 }
 
 static baum_status check_two_axes(const baum_mechanism *mechanism, const void *def,
@@ -76,8 +89,8 @@ static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_jo
   return baum_i_spatial_points(mechanism, &joint->element, parameters);
 }
 
-/* An axis in ground axes where the joint is given by `point`, else in those of its body, becomes
- * one in ground axes. */
+/* Converts an axis of the definition to ground axes. It is given in ground axes if the joint is
+ * given by `point`, otherwise in body axes. */
 static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_frame *frame,
                       const double axis[3], double out[3])
 {
@@ -89,8 +102,8 @@ static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_fram
   normalize(out);
 }
 
-/* The three axes that belong to z, nearest to x; ground axes to those of the body. False where x is
- * along z. */
+/* Writes axes x, y, z in body axes, from z and x in ground axes; x is made perpendicular to z.
+ * Returns false if x is parallel to z. */
 static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const double x[3],
                      double out[9])
 {
@@ -111,7 +124,7 @@ static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const
   return true;
 }
 
-/* z along an axis of the definition, x and y anywhere beside it. */
+/* Writes joint axes with z along an axis of the definition, and arbitrary x and y. */
 static void put_any_axes(const baum_mechanism *mechanism, const baum_i_joint *joint, int side,
                          const double axis[3], double out[9])
 {
@@ -143,12 +156,11 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element, label));
 }
 
-/* x_b is x_a, turned as z_a turns to z_b by the shortest way: the angle is 0 in the design
- * configuration. */
-static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_joint *joint,
-                              double *parameters)
+/* Rotates x_a by the smallest rotation that takes z_a to z_b, and makes it x_b. Hence the angle is
+ * 0 in the design configuration. */
+static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                double *parameters)
 {
-  BAUM_I_TRY(lower_axis(mechanism, joint, parameters));
   const baum_i_spatial_axis_head *def = joint->element.def;
   const baum_i_spatial_frame a = baum_i_spatial_design_frame(mechanism, joint->span.bodies[0]);
   const baum_i_spatial_frame b = baum_i_spatial_design_frame(mechanism, joint->span.bodies[1]);
@@ -176,16 +188,69 @@ static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_join
   return fine ? BAUM_OK : fail_opposite(joint);
 }
 
+static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                              double *parameters)
+{
+  BAUM_I_TRY(lower_axis(mechanism, joint, parameters));
+  return lower_axes_b(mechanism, joint, parameters);
+}
+
+/* Writes `axis` (side 0) or `axis_b` in ground axes, and returns the design frame of the body. */
+static baum_i_spatial_frame design_axis(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                        int side, double z[3])
+{
+  const baum_i_spatial_axis_head *def = joint->element.def;
+  const baum_i_spatial_frame frame =
+    baum_i_spatial_design_frame(mechanism, joint->span.bodies[side]);
+  to_ground(&def->head, &frame, side == 0 ? def->axis : def->axis_b, z);
+  return frame;
+}
+
+/* With x_a = z_b and y_b = z_a, both angles are 0 in the design configuration. */
 static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                   double *parameters)
 {
-  const baum_i_spatial_axis_head *def = joint->element.def;
-  BAUM_I_TRY(lower_axis(mechanism, joint, parameters));
-  put_any_axes(mechanism, joint, 1, def->axis_b, parameters + BAUM_I_SPATIAL_AXES_B);
-  return BAUM_OK;
+  double z_a[3];
+  double z_b[3];
+  double normal[3];
+  char label[BAUM_I_LABEL_SIZE];
+  BAUM_I_TRY(lower_points(mechanism, joint, parameters));
+  const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z_a);
+  const baum_i_spatial_frame b = design_axis(mechanism, joint, 1, z_b);
+  baum_i_cross(z_a, z_b, normal);
+  bool fine = put_axes(&a, z_a, z_b, parameters + BAUM_I_SPATIAL_AXES_A) &&
+              put_axes(&b, z_b, normal, parameters + BAUM_I_SPATIAL_AXES_B);
+  return fine ? BAUM_OK
+              : baum_i_fail(BAUM_ERR_ARGUMENT,
+                            "%s: axis and axis_b are parallel in the design configuration, must "
+                            "be perpendicular",
+                            baum_i_label(&joint->element, label));
 }
 
-/* Axes of ground in the design configuration. */
+static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                double *parameters)
+{
+  static const double ground[2][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  const baum_spatial_planar_def *def = joint->element.def;
+  double *axes = parameters + BAUM_I_SPATIAL_AXES_A;
+  double z[3];
+  double x[3];
+  char label[BAUM_I_LABEL_SIZE];
+  BAUM_I_TRY(lower_points(mechanism, joint, parameters));
+  const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z);
+  bool given = baum_i_spatial_is_given(def->x_axis);
+  if (given) {
+    to_ground(joint->element.def, &a, def->x_axis, x);
+  }
+  if (!(given ? put_axes(&a, z, x, axes)
+              : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is along axis, must not be",
+                       baum_i_label(&joint->element, label));
+  }
+  return lower_axes_b(mechanism, joint, parameters);
+}
+
+/* The joint axes on both bodies are the ground axes in the design configuration. */
 static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                double *parameters)
 {
@@ -201,7 +266,7 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
 
 /* ---- rows ---- */
 
-/* Both points coincide: e = 0. */
+/* The points of body_a and body_b coincide: e = 0. */
 #define POINT_ROWS                                                  \
   {BAUM_I_X_GROUND, BAUM_I_APART}, {BAUM_I_Y_GROUND, BAUM_I_APART}, \
   {                                                                 \
@@ -222,11 +287,22 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
     BAUM_I_Y_A, BAUM_I_APART  \
   }
 
-/* Sine and cosine of the angle about the axis; the displacement along it. */
-#define ANGLE        .coordinate = {{BAUM_I_Y_A, BAUM_I_X_B}, {BAUM_I_X_A, BAUM_I_X_B}}
-#define DISPLACEMENT .coordinate = {{BAUM_I_Z_A, BAUM_I_APART}}
-#define COORDINATE                         \
-  .coordinate = baum_i_spatial_coordinate, \
+/* ANGLE: products that are sine and cosine of the angle about z. ALONG: displacement on an axis. */
+#define ANGLE                 \
+  {                           \
+    {BAUM_I_Y_A, BAUM_I_X_B}, \
+    {                         \
+      BAUM_I_X_A, BAUM_I_X_B  \
+    }                         \
+  }
+#define ALONG(AXIS)      \
+  {                      \
+    {                    \
+      AXIS, BAUM_I_APART \
+    }                    \
+  }
+#define COORDINATES(...)                                                 \
+  .coordinates = {__VA_ARGS__}, .coordinate = baum_i_spatial_coordinate, \
   .coordinate_linearize = baum_i_spatial_coordinate_linearize
 
 #define SAME_DIRECTION .directed_count = 1, .directed = {{BAUM_I_Z_A, BAUM_I_Z_B}}
@@ -253,9 +329,9 @@ static const baum_i_def_field spatial_revolute_fields[] = {
 
 static const baum_i_spatial_joint_type revolute = {
   {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5),
-   .is_angle = true, COORDINATE},
+   COORDINATES(BAUM_COORDINATE_ANGLE)},
   .rows = {POINT_ROWS, PARALLEL_ROWS},
-  ANGLE,
+  .coordinate_rows = {ANGLE},
   SAME_DIRECTION,
 };
 
@@ -268,8 +344,13 @@ static const baum_i_def_field spatial_universal_fields[] = {
 
 static const baum_i_spatial_joint_type universal = {
   {BAUM_I_SPATIAL_JOINT(spatial_universal, "spatial universal joint", check_two_axes,
-                        lower_two_axes, 4)},
+                        lower_two_axes, 4),
+   COORDINATES(BAUM_COORDINATE_ANGLE, BAUM_COORDINATE_ANGLE_B)},
   .rows = {POINT_ROWS, {BAUM_I_Z_A, BAUM_I_Z_B}},
+  /* The first angle is that of z_b about z_a relative to body_a. The second is that of body_b about
+   * z_b, hence minus that of z_a relative to body_b. */
+  .coordinate_rows = {{{BAUM_I_Y_A, BAUM_I_Z_B}, {BAUM_I_X_A, BAUM_I_Z_B}},
+                      {{BAUM_I_X_B, BAUM_I_Z_A}, {BAUM_I_Y_B, BAUM_I_Z_A}}},
 };
 
 BAUM_I_DEFINE(joint, spatial_universal, universal.type)
@@ -282,9 +363,9 @@ static const baum_i_def_field spatial_cylindrical_fields[] = {
 static const baum_i_spatial_joint_type cylindrical = {
   {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes,
                         4),
-   COORDINATE},
+   COORDINATES(BAUM_COORDINATE_DISPLACEMENT, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, LINE_ROWS},
-  DISPLACEMENT,
+  .coordinate_rows = {ALONG(BAUM_I_Z_A), ANGLE},
   SAME_DIRECTION,
 };
 
@@ -297,9 +378,9 @@ static const baum_i_def_field spatial_prismatic_fields[] = {
 
 static const baum_i_spatial_joint_type prismatic = {
   {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5),
-   COORDINATE},
+   COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {PARALLEL_ROWS, LINE_ROWS, {BAUM_I_X_A, BAUM_I_Y_B}},
-  DISPLACEMENT,
+  .coordinate_rows = {ALONG(BAUM_I_Z_A)},
   .directed_count = 2,
   .directed = {{BAUM_I_Z_A, BAUM_I_Z_B}, {BAUM_I_X_A, BAUM_I_X_B}},
 };
@@ -308,12 +389,15 @@ BAUM_I_DEFINE(joint, spatial_prismatic, prismatic.type)
 
 static const baum_i_def_field spatial_planar_fields[] = {
   BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
+  BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-"),
   {0},
 };
 
 static const baum_i_spatial_joint_type planar = {
-  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_axes, lower_axes, 3)},
+  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3),
+   COORDINATES(BAUM_COORDINATE_X, BAUM_COORDINATE_Y, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, {BAUM_I_Z_A, BAUM_I_APART}},
+  .coordinate_rows = {ALONG(BAUM_I_X_A), ALONG(BAUM_I_Y_A), ANGLE},
   SAME_DIRECTION,
 };
 
@@ -345,9 +429,9 @@ static const baum_i_def_field spatial_point_on_line_fields[] = {
 static const baum_i_spatial_joint_type point_on_line = {
   {BAUM_I_SPATIAL_JOINT(spatial_point_on_line, "spatial point on a line", check_axis, lower_axis,
                         2),
-   COORDINATE},
+   COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {LINE_ROWS},
-  DISPLACEMENT,
+  .coordinate_rows = {ALONG(BAUM_I_Z_A)},
 };
 
 BAUM_I_DEFINE(joint, spatial_point_on_line, point_on_line.type)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks of the fields that spatial elements share, and their points in body axes.
+/* Checks the fields that spatial elements share, and converts their points to body axes.
  *
  * A point given in ground axes of the design configuration becomes s = A^T (point - r).
  */
@@ -9,7 +9,7 @@
 
 #include "base/message.h"
 
-/* Decimal numbers put a particle and a joint at the same place only to rounding. */
+/* A particle and the point of its joint, both typed as decimals, coincide except for rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */
@@ -125,7 +125,7 @@ baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const voi
                                                head->point_b);
 }
 
-/* A point in ground axes to a body's axes. */
+/* Converts a point from ground axes to body axes. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[3],
                             const char *label, double s[3])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What spatial joints and forces share: frames, and the fields that their definitions begin with.
- * Kernels write over the six columns of each body (general/columns.h). A planar body takes part in
- * spatial joints and stays in its plane.
+ * They compute derivatives over six columns for each body (general/columns.h), also for a planar
+ * body, which may take part in spatial joints and stays in its plane.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
@@ -30,32 +30,32 @@ typedef struct baum_i_spatial_head {
     BAUM_I_OPTIONAL(DEF, point, POINT, "m"), BAUM_I_OPTIONAL(DEF, point_a, POINT, "m"), \
     BAUM_I_OPTIONAL(DEF, point_b, POINT, "m")
 
-/* Check that a body has a place in space; and an orientation. */
+/* Checks that a body has a position; _turning(): also an orientation. */
 baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
                                          const char *label, const char *field);
 
-/* Check that a vector of three, if it is given, is zero where the body is a particle. */
+/* Checks that s is zero or not given if the body is a particle. */
 baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
                                                   const char *label, const char *field,
                                                   const char *unit, const double s[3]);
 
-/* Check the head: bodies that differ, and points that are given in exactly one way, not by `point`
- * where the element has a length. */
+/* Checks that the bodies differ, and that the points are given either by `point` or by point_a and
+ * point_b. An element with a length cannot use `point`. */
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
-/* Points of a checked element on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point`
- * away from it: BAUM_ERR_ARGUMENT. */
+/* Writes the points of a checked element in body axes: s[0..2] on a, s[3..5] on b. Fails with
+ * BAUM_ERR_ARGUMENT if a body is a particle that is not at `point`. */
 baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                   double s[6]);
 
-/* Include the points of a joint's definition; the `extent` of types. */
+/* Extends the box by the points of a joint's definition; the `extent` of spatial joints. */
 void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                            baum_i_box *box);
 
-/* All of a point, or nothing. */
+/* Either all entries of an optional point are given or none, which are NaN then. */
 static inline bool baum_i_spatial_is_given(const double point[3])
 {
   return !isnan(point[0]);

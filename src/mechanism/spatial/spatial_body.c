@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies in space: particles, q = r and v = r', and rigid bodies, q = (r, p), the centre of mass
+/* Bodies in space. A particle has q = r and v = r'. A rigid body has q = (r, p), the centre of mass
  * in ground axes and a unit quaternion, and v = (r', w), w the angular velocity in body axes.
  *
  *   p' = p o (0, w) / 2
- *   M  = diag(m E, I), constant; of a particle m E
+ *   M = diag(m E, I), constant; for a particle M = m E
  *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r
  *
- * A displacement (dr, dth) moves p to p o exp(dth), dth in body axes. The difference of two p is
- * the logarithm of p^-1 o p'.
+ * A displacement (dr, dth), dth in body axes, changes p to p o exp(dth). The difference from p_1 to
+ * p_2 is the logarithm of p_1^-1 o p_2.
  */
 #include <string.h>
 
@@ -17,14 +17,15 @@
 #include "base/rotation.h"
 #include "mechanism/definition.h"
 
-/* Parameters; the inertia, of rigid bodies alone, is a 3 x 3 matrix. */
+/* Parameters. Only rigid bodies have the inertia, a 3 x 3 matrix. */
 enum { MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
 
-/* Of a quaternion that was typed in. */
+/* Allowed deviation of the length of a given quaternion from 1; a user may type few digits. */
 static const double NEAR_UNIT = 1e-6;
 
-/* Of the largest moment. A slender rod has no inertia about its axis, and M no inverse: with this
- * moment the motion of Bricard's mechanism of such rods is off by 2e-11 m in 5 s. */
+/* Least principal moment relative to the largest. It replaces the zero moment of a slender rod
+ * about its axis, which would make M singular. Bricard's mechanism of such rods then moves wrong by
+ * only 2e-11 m in 5 s. */
 static const double SMALLEST_MOMENT = 1e-10;
 static const double ROUNDING = 1e-9;
 
@@ -32,7 +33,7 @@ static const baum_i_def_field body_fields[] = {
   BAUM_I_NUMBERS(baum_spatial_body_def, mass, POSITIVE, "kg", 1.0),
   BAUM_I_NUMBERS(baum_spatial_body_def, inertia, FINITE, "kg m^2", 1.0, 1.0, 1.0),
   BAUM_I_NUMBERS(baum_spatial_body_def, position, FINITE, "m", 0.0),
-  BAUM_I_NUMBERS(baum_spatial_body_def, orientation, FINITE, "-", 1.0),
+  BAUM_I_NUMBERS(baum_spatial_body_def, orientation, FINITE, "", 1.0),
   BAUM_I_OPTIONAL(baum_spatial_body_def, velocity, FREE, "m/s"),
   BAUM_I_OPTIONAL(baum_spatial_body_def, angular_velocity, FREE, "rad/s"),
   BAUM_I_FIELD(baum_spatial_body_def, held, START_FLAG),
@@ -41,7 +42,7 @@ static const baum_i_def_field body_fields[] = {
 
 /* ---- definition ---- */
 
-/* From xx, yy, zz, xy, xz, yz. */
+/* Makes a matrix from xx, yy, zz, xy, xz, yz. */
 static void matrix_of(const double inertia[6], double out[9])
 {
   static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
@@ -50,44 +51,14 @@ static void matrix_of(const double inertia[6], double out[9])
   }
 }
 
-/* Principal moments of a symmetric matrix, rising, by Jacobi's rotations (1846): three sweeps leave
- * rounding. */
-static void principal(const double matrix[9], double moments[3])
-{
-  double a[9];
-  memcpy(a, matrix, sizeof a);
-  for (int n = 0; n < 18; n++) {
-    static const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    int i = pairs[n % 3][0];
-    int j = pairs[n % 3][1];
-    double angle = 0.5 * atan2(2.0 * a[3 * i + j], a[4 * i] - a[4 * j]);
-    double c = cos(angle);
-    double s = sin(angle);
-    for (int k = 0; k < 3; k++) { /* columns, then rows */
-      double x = a[3 * k + i];
-      double y = a[3 * k + j];
-      a[3 * k + i] = c * x + s * y;
-      a[3 * k + j] = c * y - s * x;
-    }
-    for (int k = 0; k < 3; k++) {
-      double x = a[3 * i + k];
-      double y = a[3 * j + k];
-      a[3 * i + k] = c * x + s * y;
-      a[3 * j + k] = c * y - s * x;
-    }
-  }
-  moments[0] = fmin(a[0], fmin(a[4], a[8]));
-  moments[2] = fmax(a[0], fmax(a[4], a[8]));
-  moments[1] = a[0] + a[4] + a[8] - moments[0] - moments[2];
-}
-
 static baum_status check_inertia(const baum_spatial_body_def *def, const char *label)
 {
   double matrix[9];
   double m[3];
+  double axes[9];
   matrix_of(def->inertia, matrix);
-  principal(matrix, m);
-  if (!(m[1] > 0.0 && m[0] >= -ROUNDING * m[2])) {
+  baum_i_principal_axes(matrix, m, axes);
+  if (!(m[1] > ROUNDING * m[2] && m[0] >= -ROUNDING * m[2])) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: inertia has the principal moments %g, %g and %g kg m^2; two must be "
                        "> 0, and none < 0",
@@ -120,9 +91,10 @@ static void lower(const baum_i_body *body, double *parameters)
 {
   const baum_spatial_body_def *def = body->element.def;
   double moments[3];
+  double axes[9];
   parameters[MASS] = def->mass;
   matrix_of(def->inertia, parameters + INERTIA);
-  principal(parameters + INERTIA, moments);
+  baum_i_principal_axes(parameters + INERTIA, moments, axes);
   double missing = fmax(0.0, SMALLEST_MOMENT * moments[2] - moments[0]);
   for (int i = 0; i < 9; i += 4) {
     parameters[INERTIA + i] += missing;
@@ -223,12 +195,17 @@ static baum_status body_masses(const baum_i_body_group *group, baum_i_point *poi
   return BAUM_OK;
 }
 
-/* The gyroscopic moment is that of a velocity; at rest there is none. */
+/* Only the gyroscopic moment depends on velocity. It is zero if I is a multiple of E. */
 static bool depends_on_velocity(const void *given)
 {
   const baum_spatial_body_def *def = given;
   const double *x = def->inertia;
   return x[0] != x[1] || x[1] != x[2] || x[3] != 0.0 || x[4] != 0.0 || x[5] != 0.0;
+}
+
+static const double *inertia(const baum_i_body *body, const double *parameters)
+{
+  return parameters + body->element.parameter + INERTIA;
 }
 
 static double mass_of(const baum_i_body *body, const baum_i_point *point)
@@ -258,34 +235,33 @@ static baum_status force(const baum_i_body_group *group, baum_i_point *point, do
     const baum_i_body *body = group->bodies[i];
     const double *w = point->v + body->v + 3;
     double momentum[3];
-    double moment[3];
-    baum_i_turn(point->parameters + body->element.parameter + INERTIA, w, momentum);
-    baum_i_cross(momentum, w, moment);
-    for (int k = 0; k < 3; k++) {
-      out[body->v + 3 + k] += moment[k];
-    }
+    double gyroscopic[3];
+    baum_i_turn(inertia(body, point->parameters), w, momentum);
+    baum_i_cross(momentum, w, gyroscopic);
+    const double *moment = point->moments ? point->moments + body->v + 3 : gyroscopic;
+    baum_i_add_scaled3(1.0, moment, out + body->v + 3);
   }
   return force_of_gravity(group, point, out);
 }
 
-/* Column j is (I e_j) x w + (I w) x e_j. */
+/* Column j of g_w is (I e_j) x w + (I w) x e_j. */
 static baum_status linearize(const baum_i_body *body, baum_i_point *point, const double *a,
                              const baum_i_body_blocks *blocks)
 {
   (void)a;
-  const double *inertia = point->parameters + body->element.parameter + INERTIA;
+  const double *tensor = inertia(body, point->parameters);
   const double *w = point->v + body->v + 3;
   double momentum[3];
   if (!blocks->force_v) {
     return BAUM_OK;
   }
-  baum_i_turn(inertia, w, momentum);
+  baum_i_turn(tensor, w, momentum);
   for (int j = 0; j < 3; j++) {
     const double axis[3] = {j == 0, j == 1, j == 2};
     double column[3];
     double first[3];
     double second[3];
-    baum_i_turn(inertia, axis, column);
+    baum_i_turn(tensor, axis, column);
     baum_i_cross(column, w, first);
     baum_i_cross(momentum, axis, second);
     for (int i = 0; i < 3; i++) {
@@ -307,6 +283,7 @@ static const baum_i_body_type body_type = {
   .nv = 6,
   .manifold = manifold,
   .depends_on_velocity = depends_on_velocity,
+  .inertia = inertia,
   .lower = lower,
   .design = design,
   .scale = scale,

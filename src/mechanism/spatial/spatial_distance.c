@@ -2,7 +2,7 @@
 /* Distance joint in space: a rod without mass keeps two points at length L. With e from body_a's
  * point to body_b's (spatial_rows.h):
  *
- *   Phi = (e . e - L^2) / (2 L)        (1), change of length to first order, smooth at e = 0
+ *   Phi = (e . e - L^2) / (2 L)        (1), to first order the change of length; smooth at e = 0
  */
 #include <math.h>
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What all spatial joints compute, from their tables of rows. */
+/* Functions that all spatial joints share; they evaluate the joint's table of rows. */
 #include "mechanism/spatial/spatial_joint.h"
 
-#include <string.h>
+#include "mechanism/general/composed_row.h"
+#include "mechanism/general/coordinate.h"
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
@@ -80,130 +81,76 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
 
 /* ---- coordinates ----
  *
- * A displacement is a product. An angle is atan2(s, c) = Im log z of z = c + i s, whose k-th
- * derivatives are those of log z, times i for each s:
+ * A displacement is one product. An angle is atan2(s, c) = Im log z with z = c + i s. Its
+ * derivatives by c and s follow from those of log z, with a factor i for each derivative by s:
  *
  *   first 1 / z, second -1 / z^2, third 2 / z^3
+ *
+ * The chain rule is that of general/composed_row.h.
  */
 
-/* Derivatives of the angle by (c, s): entry j has j derivatives by s. */
-typedef struct angle {
-  double first[2];
-  double second[3];
-  double third[4];
-} angle;
-
-static angle angle_of(double c, double s)
+static baum_i_outer angle_of(double c, double s)
 {
   double square = c * c + s * s;
-  /* 1 / z, 1 / z^2, 1 / z^3, real and imaginary parts */
+  /* real and imaginary parts of 1 / z, 1 / z^2, 1 / z^3 */
   const double a[2] = {c / square, -s / square};
   const double b[2] = {a[0] * a[0] - a[1] * a[1], 2.0 * a[0] * a[1]};
   const double d[2] = {a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]};
-  return (angle){.first = {a[1], a[0]},
-                 .second = {-b[1], -b[0], b[1]},
-                 .third = {2.0 * d[1], 2.0 * d[0], -2.0 * d[1], -2.0 * d[0]}};
+  return (baum_i_outer){.value = atan2(s, c),
+                        .first = {a[1], a[0]},
+                        .second = {-b[1], -b[0], b[1]},
+                        .third = {2.0 * d[1], 2.0 * d[0], -2.0 * d[1], -2.0 * d[0]}};
 }
 
-/* Within a step, which may be longer than a revolution. */
-static double expected_angle(const baum_i_joint *joint, const baum_i_point *point)
+/* Evaluates cosine and sine into x, and the angle as a function of them. */
+static baum_i_outer cosine_and_sine(const baum_i_spatial_pair *pair,
+                                    const baum_i_spatial_row rows[2], baum_i_inner x[2])
 {
-  if (!point->angles) {
-    return 0.0;
+  static const int bodies[2] = {0, 1};
+  for (int i = 0; i < 2; i++) {
+    baum_i_composed_place(&x[i], BAUM_I_SPACE, BAUM_I_SPACE, bodies);
+    baum_i_spatial_row_at(pair, rows[1 - i], &x[i].c);
   }
-  const double *followed = point->angles + 2 * (ptrdiff_t)(joint->element.index - 1);
-  return followed[0] + followed[1] * (point->t - point->angles[2 * point->mechanism->joint_count]);
+  return angle_of(x[0].c.value, x[1].c.value);
 }
 
-void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+void baum_i_spatial_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
                                baum_i_coordinate *out)
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);
-  const baum_i_spatial_joint_type *type = type_of(joint);
-  if (!type->type.is_angle) {
-    baum_i_spatial_row_at(&pair, type->coordinate[0], out);
+  const baum_i_spatial_row *rows = type_of(joint)->coordinate_rows[number];
+  const baum_i_joint_coordinate own = {joint, number};
+  if (!baum_i_is_angle(&own)) {
+    baum_i_spatial_row_at(&pair, rows[0], out);
     return;
   }
-  baum_i_coordinate x[2]; /* cosine and sine */
-  baum_i_spatial_row_at(&pair, type->coordinate[1], &x[0]);
-  baum_i_spatial_row_at(&pair, type->coordinate[0], &x[1]);
-  const angle g = angle_of(x[0].value, x[1].value);
-  double near = expected_angle(joint, point);
-  double raw = atan2(x[1].value, x[0].value);
-  *out = (baum_i_coordinate){.value = near + remainder(raw - near, BAUM_I_REVOLUTION)};
-  for (int i = 0; i < 2; i++) {
-    out->rate += g.first[i] * x[i].rate;
-    out->gamma += g.first[i] * x[i].gamma;
-    for (int j = 0; j < 2; j++) {
-      out->gamma -= g.second[i + j] * x[i].rate * x[j].rate;
-    }
-    for (int k = 0; k < COLUMNS; k++) {
-      out->gradient[k] += g.first[i] * x[i].gradient[k];
-    }
-  }
+  baum_i_inner x[2];
+  const baum_i_outer g = cosine_and_sine(&pair, rows, x);
+  double near = baum_i_expected_angle(&own, point);
+  *out = (baum_i_coordinate){.value = near + remainder(g.value - near, BAUM_I_REVOLUTION),
+                             .rate = g.first[0] * x[0].c.rate + g.first[1] * x[1].c.rate,
+                             .gamma = baum_i_composed_gamma(x, &g)};
+  baum_i_composed_add_gradient(x, &g, out->gradient);
 }
 
-/* gradient w */
-static double along(const double *gradient, const double *w)
-{
-  double sum = 0.0;
-  for (int i = 0; i < COLUMNS; i++) {
-    sum += gradient[i] * w[i];
-  }
-  return sum;
-}
-
-/* The parts of out that come of x_i, as in general/composed_row.c, which has symmetric second
- * derivatives. */
-static void add_composed(const baum_i_coordinate x[2], const baum_i_spatial_second *second, int i,
-                         const angle *g, const double *w, double lambda,
-                         baum_i_coordinate_blocks *out)
-{
-  double bend_w = 0.0;
-  double bend = 0.0;
-  double bend_rate = 0.0;
-  for (int j = 0; j < 2; j++) {
-    bend_w += g->second[i + j] * along(x[j].gradient, w);
-    bend += g->second[i + j] * x[j].rate;
-    bend_rate += g->second[i + j] * x[j].gamma;
-    for (int k = 0; k < 2; k++) {
-      bend_rate -= g->third[i + j + k] * x[j].rate * x[k].rate;
-    }
-  }
-  baum_i_spatial_add_jw_q(second, w, g->first[i], out->jw_q);
-  for (int k = 0; k < COLUMNS; k++) {
-    double slope = x[i].gradient[k];
-    out->jw_q[k] += bend_w * slope;
-    out->gamma_v[k] += g->first[i] * second->gamma_v[k] - 2.0 * bend * slope;
-    out->gamma_q[k] += g->first[i] * second->gamma_q[k] + bend_rate * slope;
-    out->gamma_q[k] -= 2.0 * bend * second->rate_q[k];
-    for (int n = 0; n < COLUMNS; n++) {
-      double bent = g->second[2 * i] * x[i].gradient[n] + g->second[1] * x[1 - i].gradient[n];
-      out->jtl_q[COLUMNS * k + n] +=
-        lambda * (g->first[i] * second->columns_q[COLUMNS * k + n] + slope * bent);
-    }
-  }
-}
-
-void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
-                                         const double *w, double lambda,
+void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, int number,
+                                         const baum_i_point *point, const double *w, double lambda,
                                          baum_i_coordinate_blocks *out)
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);
-  const baum_i_spatial_joint_type *type = type_of(joint);
+  const baum_i_spatial_row *rows = type_of(joint)->coordinate_rows[number];
+  const baum_i_joint_coordinate own = {joint, number};
+  if (!baum_i_is_angle(&own)) {
+    baum_i_spatial_row_linearize(&pair, rows[0], w, lambda, out);
+    return;
+  }
+  baum_i_inner x[2];
+  const baum_i_outer g = cosine_and_sine(&pair, rows, x);
+  for (int i = 0; i < 2; i++) {
+    baum_i_spatial_row_linearize(&pair, rows[1 - i], w, 1.0, &x[i].blocks);
+  }
   *out = (baum_i_coordinate_blocks){.jw_q = {0.0}};
-  angle g = {.first = {1.0}};
-  baum_i_coordinate x[2] = {{.value = 0.0}};
-  int count = type->type.is_angle ? 2 : 1;
-  for (int i = 0; i < count; i++) {
-    baum_i_spatial_row_at(&pair, type->coordinate[count - 1 - i], &x[i]);
-  }
-  if (count == 2) {
-    g = angle_of(x[0].value, x[1].value);
-  }
-  for (int i = 0; i < count; i++) {
-    baum_i_spatial_second second;
-    baum_i_spatial_second_of(&pair, type->coordinate[count - 1 - i], &second);
-    add_composed(x, &second, i, &g, w, lambda, out);
-  }
+  const baum_i_composed_blocks blocks = {COLUMNS,      out->jw_q,    out->jtl_q,
+                                         out->gamma_q, out->gamma_v, out->rate_q};
+  baum_i_composed_linearize(x, &g, w, lambda, &blocks);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spatial joint as a table: its rows and what its coordinate is made of. The functions of the
- * type struct are the same for all.
+/* A spatial joint is a table of products (spatial_rows.h): its rows, and those that give its
+ * coordinates. The functions of the type struct are the same for all.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
@@ -8,19 +8,20 @@
 #include "mechanism/definition.h"
 #include "mechanism/spatial/spatial_rows.h"
 
-/* The type of a joint; begins with what all types have. */
+/* The type of a spatial joint; begins with the struct that all joint types share. */
 typedef struct baum_i_spatial_joint_type {
   baum_i_joint_type type;
   baum_i_spatial_row rows[BAUM_I_SPATIAL_ROWS];
-  /* Of a displacement, the product that it is; of an angle, those that are its sine and cosine. */
-  baum_i_spatial_row coordinate[2];
-  /* Products that are 1 where the joint is mounted as meant. Where its rows are fulfilled although
-   * it is mounted the wrong way round, one of them is -1, or 0 in a weld turned by a third. */
+  /* For each coordinate: the product that is the displacement, or the two products that are sine
+   * and cosine of the angle. */
+  baum_i_spatial_row coordinate_rows[BAUM_I_COORDINATES][2];
+  /* Products that are 1 in the intended assembly. If the joint is assembled the wrong way round,
+   * which its rows allow, one of them is -1; or 0 in a weld turned by 120 degrees. */
   int directed_count;
   baum_i_spatial_row directed[2];
 } baum_i_spatial_joint_type;
 
-/* The fields of joints with axes, which follow those of the head. */
+/* The fields that joints with axes begin with. */
 typedef struct baum_i_spatial_axis_head {
   baum_i_spatial_head head;
   double axis[3];
@@ -42,10 +43,10 @@ void baum_i_spatial_place(const baum_i_joint *joint, const baum_i_point *point, 
 void baum_i_spatial_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
                                const double *lambda, double six[BAUM_I_SPACE]);
 bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *point);
-void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+void baum_i_spatial_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
                                baum_i_coordinate *out);
-void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
-                                         const double *w, double lambda,
+void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, int number,
+                                         const baum_i_point *point, const double *w, double lambda,
                                          baum_i_coordinate_blocks *out);
 
 #define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS)                        \

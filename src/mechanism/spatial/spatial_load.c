@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load on one body in space: force f at the point s, and moment n, both times the input if there is
- * one. Over r (ground axes) and rotations (body axes), with F = A^T f in body axes:
+/* Load on one body in space: force f at the point s, and moment n. Both are multiplied by the input
+ * if there is one. For r (ground axes) and rotations (body axes), with F = A^T f:
  *
  *   ground axes    g = (f, s x A^T f + A^T n)     rows of rotation: [s]x [F]x + [A^T n]x
  *                  V = -f . (r + A s) where n = 0
  *   follows_body   g = (A f, s x f + n)           rows of r: -A [f]x
  *
- * A constant moment has no potential in space. Nor has a load with an input: its changes would make
- * the potential jump where no work is done.
+ * In space a constant moment has no potential. A load with an input is given none, because a jump
+ * of the input would change the potential although no work is done.
  */
 #include <string.h>
 
@@ -150,7 +150,7 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-/* Column of the rotation about axis j: what the entries of g change at. */
+/* Writes the derivative of g by the rotation about axis j. */
 static void set_column(const load *l, int j, double square[36])
 {
   const double axis[3] = {j == 0, j == 1, j == 2};
@@ -182,8 +182,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     for (int j = 0; j < 3; j++) {
       set_column(&l, j, square);
     }
-    baum_i_columns_pack_square(point->mechanism, &element->span, BAUM_I_SPACE, square,
-                               blocks->force_q + element->square);
+    baum_i_columns_pack_force(point->mechanism, element, BAUM_I_SPACE, square, blocks->force_q);
   }
   return BAUM_OK;
 }

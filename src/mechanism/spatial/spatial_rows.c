@@ -10,7 +10,7 @@ enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 typedef struct vector {
   double value[3];
-  double on[2][3]; /* what turns with body_a and body_b */
+  double on[2][3]; /* u_a and u_b */
   double apart;    /* t */
 } vector;
 
@@ -34,7 +34,7 @@ static vector vector_of(const baum_i_spatial_pair *pair, baum_i_spatial_vector w
   return u;
 }
 
-/* A motion of both bodies in ground axes. */
+/* Velocities and angular velocities of body_a and body_b in ground axes. */
 typedef struct motion {
   double v[2][3];
   double w[2][3];
@@ -123,7 +123,7 @@ double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_ro
   return baum_i_dot3(x.value, y.value);
 }
 
-/* x, y and their first and second derivatives along a motion. */
+/* x and y, each with its first and second derivative along a motion. */
 typedef struct product {
   vector x[3];
   vector y[3];
@@ -162,7 +162,7 @@ void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
   }
 }
 
-/* (J w)_q along a motion w. */
+/* out += (J w)_q for a motion w */
 static void add_first(const baum_i_spatial_pair *pair, const vector *x, const vector *y,
                       const motion *w, double out[COLUMNS])
 {
@@ -206,6 +206,21 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
     for (int j = 0; j < COLUMNS; j++) {
       out[j] += factor * w[i] * second->columns_q[COLUMNS * i + j];
     }
+  }
+}
+
+void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                                  const double *w, double lambda, baum_i_coordinate_blocks *out)
+{
+  baum_i_spatial_second second;
+  baum_i_spatial_second_of(pair, row, &second);
+  *out = (baum_i_coordinate_blocks){.jw_q = {0.0}};
+  baum_i_spatial_add_jw_q(&second, w, 1.0, out->jw_q);
+  memcpy(out->rate_q, second.rate_q, sizeof out->rate_q);
+  memcpy(out->gamma_q, second.gamma_q, sizeof out->gamma_q);
+  memcpy(out->gamma_v, second.gamma_v, sizeof out->gamma_v);
+  for (int k = 0; k < COLUMNS * COLUMNS; k++) {
+    out->jtl_q[k] = lambda * second.columns_q[k];
   }
 }
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel between two points in space. With l = |e|, e from body_a's point to
- * body_b's (spatial_rows.h), h = l_q and the tension T(l, l') of general/spring_law.h:
+/* Spring and damper in parallel between two points in space. With e from body_a's point to body_b's
+ * (spatial_rows.h), l = |e|, h = l_q and the tension T(l, l') of general/spring_law.h:
  *
  *   g   = -T h                                                                (6)
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (l')_q
  *   g_v = -T_l' h h^T
  *
- * from the products of e . e: h = (e . e)_q / (2 l), h_q = ((e . e)_qq / 2 - h h^T) / l. At l = 0
- * there is no direction; force and derivatives are zero there.
+ * where h = (e . e)_q / (2 l) and h_q = ((e . e)_qq / 2 - h h^T) / l. At l = 0 the direction is
+ * undefined; force and derivatives are set to zero there.
  */
 #include <float.h>
 #include <math.h>
@@ -66,7 +66,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct spring {
   baum_i_spatial_pair pair;
   baum_i_spring_law law;
-  double length; /* l, 0 where there is no direction */
+  double length; /* l; 0 if too short to have a direction */
   double rate;
   double h[COLUMNS];
 } spring;
@@ -151,14 +151,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     }
   }
   const baum_mechanism *m = point->mechanism;
-  if (blocks->force_q) {
-    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_q,
-                               blocks->force_q + element->square);
-  }
-  if (blocks->force_v) {
-    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_v,
-                               blocks->force_v + element->square);
-  }
+  baum_i_columns_pack_force(m, element, BAUM_I_SPACE, force_q, blocks->force_q);
+  baum_i_columns_pack_force(m, element, BAUM_I_SPACE, force_v, blocks->force_v);
   return BAUM_OK;
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The library's own evaluation, which goes by blocks. The whole is baum_i_acceleration() itself;
- * the phases are the calls it makes, in their order.
- */
+/* The library's own evaluation, with the block solver. PHASE_WHOLE calls baum_i_acceleration(); the
+ * phases make the calls inside that function, in their order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@
 typedef struct block_solver {
   scene *at;
   baum_i_block_path *path;
-  bool plain; /* with the tables for any processor */
+  bool plain; /* without wide vectors */
 } block_solver;
 
 static void *create(scene *at, bool plain)
@@ -33,7 +32,7 @@ static void *block_create(scene *at)
   return create(at, false);
 }
 
-/* Only where it is not the same as "block". */
+/* Only if it differs from "block". */
 static void *plain_create(scene *at)
 {
   return baum_i_hot_is_wide() ? create(at, true) : NULL;
@@ -117,7 +116,7 @@ static bool block_run(void *self, int last_phase)
          BAUM_OK;
 }
 
-/* Four assignments and back are next to nothing beside an evaluation. */
+/* The eight assignments take negligible time. */
 static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;

@@ -35,13 +35,13 @@ static baum_status car_axis(model *out)
   return model_car_axis(true, out);
 }
 
-/* Sample times are those of tests/data without the start. */
+/* Sample times are those of tests/data, without the start. */
 static const struct {
   const char *name;
   baum_status (*build)(model *out);
   int samples;
   const double *t;
-  int steps; /* of a reference, between two samples */
+  int steps; /* steps of a reference between two samples */
 } PROBLEMS[] = {
   {"A01 pendulum", pendulum, A01_PENDULUM_SAMPLES - 1, A01_PENDULUM_T + 1, 4000},
   {"slider-crank, driven", driven, SLIDER_CRANK_DRIVEN_SAMPLES - 1, SLIDER_CRANK_DRIVEN_T + 1,
@@ -108,7 +108,7 @@ static baum_status refer(gain_problem *problem, const gain_start *start, int ste
 
 /* ---- starts ---- */
 
-/* In (-1, 1): Knuth's generator, so that all machines perturb alike. */
+/* A pseudo-random number in (-1, 1) by Knuth's generator, the same on all machines. */
 static double draw(uint64_t *seed)
 {
   *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -124,8 +124,8 @@ static bool allocate(gain_problem *problem, gain_start *start)
   return start->q != NULL;
 }
 
-/* A hundredth of the scales off, and of the time scale where nothing but time is free;
- * the projection makes a start of it. */
+/* Changes the start by a hundredth of the scales, and the time by a hundredth of the first sample
+ * time, then projects it onto the constraints. */
 static baum_status perturb(gain_problem *problem, int lot, int number, gain_start *start)
 {
   static const double SIZE = 0.01;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Problems on which gain rules are measured, from perturbed starts, with a reference for each. */
+/* Problems for measuring gain rules, with perturbed starts and a reference for each. */
 #ifndef BAUM_BENCH_GAIN_PROBLEMS_H
 #define BAUM_BENCH_GAIN_PROBLEMS_H
 
@@ -7,7 +7,7 @@
 
 enum { GAIN_STARTS = 5 };
 
-/* One start and the motion from there on. */
+/* A start and its reference motion. */
 typedef struct gain_start {
   double t;
   double *q;    /* (nq) */
@@ -20,18 +20,18 @@ typedef struct gain_problem {
   model m;
   int nq;
   int samples;
-  const double *t;     /* (samples) [s] past every start */
-  const double *scale; /* (nq) a length or 1 rad; of a run that is kept */
+  const double *t;     /* (samples) [s] all after the start */
+  const double *scale; /* (nq) length [m] or 1 rad; owned by kept */
   gain_start starts[GAIN_STARTS];
-  double apart; /* of the references, from those at half the steps, over all starts */
+  double apart; /* largest difference of a reference from one with twice the step */
   baum_simulation *kept;
 } gain_problem;
 
 int gain_problem_count(void);
 
-/* Build problem k, perturb its start by a lot of random numbers, and integrate the references: RK4
- * with projection, at steps so small that halving them changes nothing that matters. False, with
- * the reason in baum_message(). */
+/* Builds problem k, perturbs its start with the random numbers of set `lot`, and integrates the
+ * references: RK4 with projection, at small steps. Returns false with the reason in
+ * baum_message(). */
 bool gain_problem_make(int k, int lot, gain_problem *out);
 void gain_problem_clear(gain_problem *problem);
 

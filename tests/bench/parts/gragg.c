@@ -8,7 +8,7 @@ enum { COLUMNS = 8 };
 
 typedef long double state[GRAGG_MOST];
 
-/* n midpoint steps over h. */
+/* Takes n steps of the midpoint rule over h. */
 static void midpoint(const gragg *g, const long double *y, long double h, int n, long double *out)
 {
   state slope;
@@ -29,8 +29,8 @@ static void midpoint(const gragg *g, const long double *y, long double h, int n,
   }
 }
 
-/* Extrapolates to part lengths of zero; returns the difference of the last two values, over the
- * tolerance. */
+/* Extrapolates the midpoint rule to a step of zero; returns the difference of the last two values
+ * over the tolerance. */
 static long double extrapolate(const gragg *g, const long double *y, long double h,
                                long double *out)
 {

@@ -7,13 +7,13 @@
 
 typedef struct problem {
   const char *name; /* a word */
-  const char *what; /* and for how long */
+  const char *what; /* description with duration */
   reference with;
-  double step; /* [s] the longest that may be of use */
+  double step; /* [s] longest useful step */
   baum_status (*build)(model *out);
 } problem;
 
-/* NULL past the end. */
+/* Returns NULL if k is too large. */
 const problem *problem_at(int k);
 
 /* "integrator/formulation" of a pair. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is timed: mechanisms of tests/models at a state. */
+/* Scenes for timing: mechanisms of tests/models in a given state. */
 #ifndef BAUM_BENCH_SCENES_H
 #define BAUM_BENCH_SCENES_H
 
@@ -12,15 +12,15 @@ typedef enum scene_kind {
   SCENE_FOUR_BAR,
   SCENE_CHAIN,
   SCENE_ONE_GUIDE,      /* undriven slider-crank: 8 rows */
-  SCENE_TWO_GUIDES,     /* 2 rows more, redundant */
-  SCENE_THIRD_BY_A_ROD, /* three parallel cranks, without and with a redundant row */
+  SCENE_TWO_GUIDES,     /* two redundant rows more */
+  SCENE_THIRD_BY_A_ROD, /* three parallel cranks, here without a redundant row, below with one */
   SCENE_THREE_CRANKS,
   SCENE_TWO_CRANKS
 } scene_kind;
 
 typedef struct scene {
   scene_kind kind;
-  int n; /* loops or links, else 1 */
+  int n; /* number of loops or links, else 1 */
   model m;
   int bodies;
   baum_workspace *workspace;
@@ -30,7 +30,7 @@ typedef struct scene {
 
 const char *scene_name(scene_kind kind);
 
-/* False, with the reason in baum_message(). */
+/* Returns false with the reason in baum_message(). */
 bool scene_make(scene_kind kind, int n, scene *out);
 void scene_clear(scene *out);
 

@@ -15,7 +15,7 @@ void solver_read_workspace(const baum_workspace *w, double *a, double *lambda)
   memcpy(lambda, w->lambda, (size_t)w->mechanism->nc * sizeof *lambda);
 }
 
-/* ---- the library without blocks: KLU, scaled, checked and refined ---- */
+/* ---- the library without blocks: KLU, with scaling, checks and refinement ---- */
 
 static void *front_create(scene *at)
 {
@@ -94,13 +94,13 @@ static void read_common(const common *c, double *a, double *lambda)
   memcpy(lambda, c->x + c->nv, (size_t)(c->n - c->nv) * sizeof *lambda);
 }
 
-/* ---- KLU: refactored and solved once, pivots kept, neither checked nor refined ---- */
+/* ---- KLU alone: one refactorization with the same pivots and one solution, no checks ---- */
 
 typedef struct klu_solver {
   common c;
-  double *scale; /* (n) found once, which is in KLU's favour */
+  double *scale; /* (n) computed once, not in every evaluation */
   void *backend;
-  baum_i_pattern pattern; /* to time the filling by itself */
+  baum_i_pattern pattern; /* for the time of filling the matrix */
 } klu_solver;
 
 static void klu_destroy(void *self)
@@ -141,8 +141,8 @@ static void *klu_create(scene *at)
   return s;
 }
 
-/* Factoring fills the matrix by itself: the phase of assembly is the same filling, done once more
- * when it is the last phase. */
+/* Factoring includes filling the matrix. The phase of assembly fills it once more, and only if it
+ * is the last phase. */
 static bool klu_run(void *self, int last_phase)
 {
   klu_solver *s = self;
@@ -172,7 +172,7 @@ static const solver KLU = {.name = "klu",
                            .read = klu_read,
                            .destroy = klu_destroy};
 
-/* ---- dense: Gauss with partial pivoting on the whole matrix ---- */
+/* ---- dense Gaussian elimination of the whole matrix with partial pivoting ---- */
 
 enum { LARGEST_DENSE = 200 };
 
@@ -249,7 +249,7 @@ static void dense_fill(const dense_solver *s)
   }
 }
 
-/* Rows are exchanged whole, the right side along with them. */
+/* Exchanges whole rows and their right side. */
 static bool dense_pivot(dense_solver *s, int k)
 {
   int n = s->c.n;
@@ -270,7 +270,7 @@ static bool dense_pivot(dense_solver *s, int k)
   return s->matrix[k * n + k] != 0.0;
 }
 
-/* Upper triangle, and the right side forward. */
+/* Reduces the matrix to an upper triangle, and the right side with it. */
 static bool dense_factor(dense_solver *s)
 {
   int n = s->c.n;

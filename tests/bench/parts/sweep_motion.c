@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A perturbation is a combination of the directions. From differences of neighbours A_k holds, for
- * each direction, the changes of q and, over the rate, of v at the time k. From j to k
- * perturbations grow by at most the Frobenius norm of the matrix that takes A_j to the positions in
- * A_k, the root of the trace of G_j^-1 G_k, where G are Gram matrices.
- */
+/* Growth of perturbations. A perturbation of the start is a combination of given directions. Row d
+ * of A_k is the change of q, and of v over the rate, at time k due to direction d, from central
+ * differences. From time j to k a perturbation grows at most by the square root of trace(G_j^-1
+ * P_k), a Frobenius norm, with the Gram matrices G_j of all columns of A_j and P_k of the columns
+ * of positions in A_k. */
 #include "sweep_motion.h"
 
 #include <math.h>
@@ -26,12 +26,12 @@ void sweep_must(bool fine, const char *what)
 }
 
 typedef struct neighbours {
-  long double change[NUMBERS][2 * SWEEP_NQ]; /* for each direction */
-  long double positions[NUMBERS][NUMBERS];   /* Gram matrices */
-  long double both[NUMBERS][NUMBERS];        /* and then its Cholesky factor */
+  long double change[NUMBERS][2 * SWEEP_NQ]; /* A: a row for each direction */
+  long double positions[NUMBERS][NUMBERS];   /* P */
+  long double both[NUMBERS][NUMBERS];        /* G, then its Cholesky factor L */
 } neighbours;
 
-/* q, and v over the rate, in units of errors. */
+/* Computes z = (q, v / rate) in units of errors; v by differences of q. */
 static void measure(const sweep_scene *s, const sweep_motion *m, const long double *y,
                     long double *z)
 {

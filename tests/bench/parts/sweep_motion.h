@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reference motions in reduced coordinates y, and how much they amplify perturbations. */
+/* Reference motions in reduced coordinates y, and their amplification of perturbations. */
 #ifndef BAUM_BENCH_SWEEP_MOTION_H
 #define BAUM_BENCH_SWEEP_MOTION_H
 
@@ -11,16 +11,16 @@ typedef struct sweep_motion {
   void (*rate)(const void *data, const long double *y, long double *dy);
   void (*q)(const void *data, const long double *y, long double *q);
   const void *data;
-  int n; /* numbers in y */
+  int n; /* size of y */
   long double y[SWEEP_NUMBERS];
-  int directions; /* of perturbations at the start */
+  int directions; /* number of directions that perturb the start */
   long double direction[SWEEP_NUMBERS][SWEEP_NUMBERS];
 } sweep_motion;
 
-/* Samples into s and, where it is asked for, growth; leaves the end in m->y. */
+/* Stores samples and, if `growth`, the growth in s; m->y is at the end afterwards. */
 void sweep_follow(sweep_scene *s, sweep_motion *m, bool growth);
 
-/* End the program unless it is so. */
+/* Ends the program with a message if not `fine`. */
 void sweep_must(bool fine, const char *what);
 
 #endif

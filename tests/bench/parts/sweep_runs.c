@@ -35,15 +35,15 @@ void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv)
 typedef struct outcome {
   sweep_class class;
   baum_status status;
-  double error;     /* largest at a sample */
-  double error_end; /* at the last */
+  double error;     /* largest over all samples */
+  double error_end; /* at the last sample */
   baum_counters c;
   double seconds;
-  const char *doubt; /* kind of the first warning that doubts the motion; "" */
-  char text[400];    /* of it, or why the run has stopped */
+  const char *doubt; /* code of the first warning that doubts the motion, or "" */
+  char text[400];    /* its text, or why the run has stopped */
 } outcome;
 
-/* The first one's code and text. */
+/* Reads the first warning that doubts the motion. */
 static void read_doubts(const baum_simulation *run, outcome *out)
 {
   for (int64_t k = 0; k < out->c.warnings && !out->doubt[0]; k++) {
@@ -105,7 +105,7 @@ static outcome run_once(const sweep_scene *s, const baum_simulation_options *o)
   return out;
 }
 
-/* ---- what is kept of it ---- */
+/* ---- output of a run ---- */
 
 void sweep_csv_head(FILE *csv)
 {
@@ -158,7 +158,7 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = with->integrator;
   o.formulation = with->formulation;
-  o.max_steps = with->fixed ? 1000000 : 10000; /* right ones take up to 8300 */
+  o.max_steps = with->fixed ? 1000000 : 10000; /* right runs take up to 8300 steps */
   *(with->fixed ? &o.step : &o.rtol) = setting;
   outcome r = run_once(scene, &o);
   tally->runs[method][r.class]++;
@@ -172,7 +172,7 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   return r.class;
 }
 
-/* Its place among those of all parts. */
+/* Index of the method in `all`; adds the method if it is new. */
 static int place_of(sweep_tally *all, const sweep_method *method)
 {
   int k = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of bench_sweeps: what they are judged by, and how they are counted. */
+/* Runs of bench_sweeps: how they are judged and counted. */
 #ifndef BAUM_BENCH_SWEEP_RUNS_H
 #define BAUM_BENCH_SWEEP_RUNS_H
 
@@ -9,7 +9,7 @@
 
 enum { SWEEP_METHODS = 64, SWEEP_FAULTS = 8000 };
 
-/* Errors are below 0.01 of the scales, below 0.1, or above. */
+/* Largest error relative to the scales: below 0.01, below 0.1, or above. */
 typedef enum sweep_class {
   SWEEP_RIGHT,
   SWEEP_GREY,
@@ -22,7 +22,7 @@ typedef enum sweep_class {
 typedef struct sweep_method {
   const baum_integrator *integrator;
   baum_formulation formulation;
-  bool fixed; /* takes a step, not rtol */
+  bool fixed; /* fixed step, else variable step with rtol */
 } sweep_method;
 
 typedef struct sweep_fault {
@@ -30,7 +30,7 @@ typedef struct sweep_fault {
   char text[256];
 } sweep_fault;
 
-/* Of one part. */
+/* Counts of one part of the sweeps. */
 typedef struct sweep_tally {
   const char *part;
   FILE *csv; /* or NULL */
@@ -39,16 +39,16 @@ typedef struct sweep_tally {
   int runs[SWEEP_METHODS][SWEEP_CLASSES];
   int doubted[SWEEP_METHODS][SWEEP_CLASSES];
   int fault_count;
-  sweep_fault faults[SWEEP_FAULTS]; /* runs that are wrong, and not doubted */
+  sweep_fault faults[SWEEP_FAULTS]; /* wrong runs without a warning that doubts the motion */
 } sweep_tally;
 
-/* Every method of fixed steps, or of variable ones, with each of its formulations. */
+/* Begins a part with all methods of fixed or of variable step, with each of their formulations. */
 void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv);
-/* setting: step [s] or rtol. */
+/* Runs one method; setting is the step [s] or rtol. */
 sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting);
-/* Counts of a part into those of others. */
+/* Adds the counts of a part to `all`. */
 void sweep_add(const sweep_tally *part, sweep_tally *all);
-/* A line for each method that has run, and the silently wrong runs; returns how many these are. */
+/* Prints a line for each method that has run, and the silently wrong runs; returns their number. */
 int sweep_print(const sweep_tally *tally);
 
 void sweep_csv_head(FILE *csv);

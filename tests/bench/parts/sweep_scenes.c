@@ -8,7 +8,7 @@
 
 static const double GRAVITY = 9.81;
 
-/* Where a body stands in q. */
+/* Writes the pose of a body into q. */
 static void place(long double *q, int body, long double x, long double y, long double angle)
 {
   q[3 * body] = x;
@@ -31,7 +31,7 @@ static baum_planar_body_def rod_def(double mass, double length)
   return def;
 }
 
-/* A uniform rod there. */
+/* A uniform rod with the pose q. */
 static baum_planar_body_def rod_at(double mass, double length, const long double *q)
 {
   baum_planar_body_def def = rod_def(mass, length);
@@ -41,7 +41,7 @@ static baum_planar_body_def rod_at(double mass, double length, const long double
   return def;
 }
 
-/* A crank about the origin. */
+/* Sets the velocity of a crank that rotates about the origin. */
 static void set_turning(baum_planar_body_def *def, double rate)
 {
   def->velocity[0] = -def->position[1] * rate;
@@ -78,7 +78,7 @@ static void null_vector(const linkage *k, const long double *th, long double n[3
   n[2] = sinl(th[1] - th[0]) / k->c;
 }
 
-/* Of n along the curve. */
+/* Derivative of n along the curve. */
 static void null_slope(const linkage *k, const long double *th, const long double n[3],
                        long double dn[3])
 {
@@ -92,7 +92,7 @@ static long double coupling_mass(const linkage *k)
   return k->b * k->a * k->b / 2.0L;
 }
 
-/* Inertia along n. */
+/* I: inertia along n. */
 static long double inertia(const linkage *k, const long double *th, const long double n[3])
 {
   long double m11 = k->a * k->a * k->a / 3.0L + k->b * k->a * k->a;
@@ -139,7 +139,7 @@ static long double linkage_energy(const linkage *k, const long double *y)
   return inertia(k, y, n) * y[3] * y[3] / 2.0L + potential(k, y);
 }
 
-/* Largest violation, and that of the energy over its size. */
+/* Largest of both violations and the relative energy change. */
 static long double linkage_fault(const linkage *k, const long double *y, long double energy,
                                  long double size)
 {
@@ -157,7 +157,8 @@ static void linkage_q(const void *data, const long double *th, long double *q)
   place(q, 2, k->d + k->c / 2.0L * cosl(th[2]), k->c / 2.0L * sinl(th[2]), th[2]);
 }
 
-/* The closure with the joint of coupler and rocker on the left of the diagonal, or on its right. */
+/* Closes the linkage for a crank angle. The joint of coupler and rocker is left or right of the
+ * diagonal. */
 static void close_linkage(const linkage *k, long double crank, bool left, long double th[3])
 {
   long double x = k->d - k->a * cosl(crank);
@@ -212,8 +213,8 @@ static void follow_linkage(sweep_scene *s, const linkage *k, const long double t
 
 typedef struct four_bar {
   const char *name;
-  double lengths[4]; /* [m] crank, coupler, rocker, ground: at a change point */
-  int longer;        /* which of them */
+  double lengths[4]; /* [m] crank, coupler, rocker, ground, exactly at a change point */
+  int longer;        /* index of the length that is multiplied by 1 + by */
   double by;         /* [-] */
   bool left;
 } four_bar;
@@ -231,7 +232,7 @@ static const four_bar FOUR_BARS[SWEEP_FOUR_BARS] = {
   {"drag link", {3.0, 2.0, 4.0, 1.0}, 2, -1e-3, true},
 };
 
-/* Three revolutions at the rate of the start, which gravity does not stop. */
+/* A linkage for `turns` revolutions, fast enough that gravity does not stop it. */
 sweep_scene sweep_four_bar(int k, bool gravity, double turns)
 {
   const four_bar *f = &FOUR_BARS[k];
@@ -269,7 +270,7 @@ static void taut_rate(const void *data, const long double *y, long double *dy)
   long double m12 = -(mu / 2.0L + 1.0L) * sinl(y[1]);
   long double m22 = mu / 3.0L + 1.0L;
   long double force = (mu / 2.0L + 1.0L) * cosl(y[1]) * y[3] * y[3];
-  /* m11 m22 - m12^2, without its cancellation */
+  /* m11 m22 - m12^2 in a form without cancellation */
   long double cosine = cosl(y[1]);
   long double one = (mu / 2.0L + 1.0L) * cosine;
   long double det = mu / 3.0L + mu * mu / 12.0L + one * one;
@@ -332,8 +333,8 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
 
 /* ---- singular configurations ----
  *
- * On their smooth branch all of them are one angle with (i0 + i1 sin^2 th) th'' + i1 sin th cos th
- * th'^2 + k cos th = 0.
+ * On their smooth branch all scenes have one angle th with (i0 + i1 sin^2 th) th'' + i1 sin th cos
+ * th th'^2 + k cos th = 0.
  */
 
 typedef struct swing {
@@ -351,8 +352,8 @@ static void swing_rate(const void *data, const long double *y, long double *dy)
   dy[1] = -(s->i1 * sine * cosine * y[1] * y[1] + s->k * cosine) / (s->i0 + s->i1 * sine * sine);
 }
 
-/* IFToMM benchmark A02 with N = 1 (A Coruna's library of problems): rods of 1 m and 1 kg, cranks
- * upright at the start, which move to the right at 1 m/s. */
+/* IFToMM benchmark A02 with N = 1 (A Coruna's library of problems): rods of 1 m and 1 kg. The
+ * cranks start upright, and their tips move to the right at 1 m/s. */
 static void window_q(const void *data, const long double *y, long double *q)
 {
   long double th = y[0];
@@ -392,7 +393,7 @@ static void slider_q(const void *data, const long double *y, long double *q)
   place(q, 2, 2.0L * cosl(th), 0.0L, 0.0L);
 }
 
-/* Crank and rod of 1 m, and a slider, of 1 kg each. */
+/* A crank and a rod of 1 m each, and a slider; all bodies have 1 kg. */
 static baum_status build_slider(model *m)
 {
   const long double start = 1.0L;
@@ -422,7 +423,7 @@ typedef struct crossing {
   const char *name;
   int bodies;
   double start[2]; /* angle, rate */
-  double gravity;  /* k over it */
+  double gravity;  /* k / gravity */
   long double i0;
   long double i1;
   baum_status (*build)(model *m);

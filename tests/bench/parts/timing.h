@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How long something takes on a machine that others use too: CPU time of this thread, over windows
- * of at least 0.25 ms, of which the 10th percentile of 41 counts; the smallest of the rounds.
- * Medians would measure the neighbours.
- */
+/* Timing on a machine that runs other programs too: CPU time of this thread over 41 windows of at
+ * least 0.25 ms, of which the 10th percentile is taken, then the smallest over some rounds. Medians
+ * would include the load of other programs. */
 #ifndef BAUM_BENCH_TIMING_H
 #define BAUM_BENCH_TIMING_H
 
@@ -10,21 +9,21 @@
 
 enum { TIMING_WINDOWS = 41, TIMING_ROUNDS = 3 };
 
-/* One thing to be timed. `part` is passed on. False: it failed. */
+/* A function to time, called with `part`; returns false if it failed. */
 typedef bool timing_fn(void *self, int part);
 
 /* Thread CPU time [s]. */
 double timing_now(void);
 
-/* One round [s] per call: NaN when a call failed. Windows get fewer where one call takes long, so
- * that a round ends in about a second. */
+/* Time of one call [s] from one round, or NaN if a call failed. If a call takes long, there are
+ * fewer windows, so that a round ends in about a second. */
 double timing_round(timing_fn *function, void *self, int part);
 
-/* The smallest of TIMING_ROUNDS. */
+/* The smallest time of TIMING_ROUNDS rounds. */
 double timing_best(timing_fn *function, void *self, int part);
 
-/* Bytes per second of reading, and of updating in place (read and written), doubles in a working
- * set of so many bytes; NaN when there is no memory. */
+/* Bytes per second when reading and when updating (read and write) an array of doubles of the given
+ * size; NaN if there is no memory. */
 typedef struct timing_bandwidth {
   double read;
   double update;

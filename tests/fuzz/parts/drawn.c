@@ -7,14 +7,14 @@
 
 /* ---- fields ---- */
 
-/* One definition in the making. */
+/* A definition whose fields are being chosen. */
 typedef struct drawing {
   design_mechanism *m;
   fuzz_bytes *b;
   const element_kind *kind;
   element_fields fields;
   any_def *def;
-  int arrays; /* of numbers, so far */
+  int arrays; /* arrays of numbers that are in use */
 } drawing;
 
 static void put(const drawing *d, const element_field *f, const void *value, size_t size)
@@ -64,7 +64,7 @@ static void draw_flag(const drawing *d, const element_field *f)
   put(d, f, &value, sizeof value);
 }
 
-/* One there is, mostly. */
+/* Mostly the handle of an existing element. */
 static any_id draw_id_of(design_mechanism *m, fuzz_bytes *b, int family)
 {
   int roll = fuzz_byte(b);
@@ -142,7 +142,7 @@ static void draw_field(drawing *d, const element_field *f)
 
 /* ---- definitions ---- */
 
-/* Arrays are never shorter than they are said to be. */
+/* Sets arrays to NULL that would be shorter than their stated length. */
 static void drop_short_arrays(const drawing *d, int32_t count)
 {
   const void *none = NULL;
@@ -216,7 +216,8 @@ static void add_one(design_mechanism *m, fuzz_bytes *b)
   m->ids[family][m->counts[family]++] = id;
 }
 
-/* A definition is read back, and set as it is or as another; what is refused changes nothing. */
+/* Reads a definition back and sets it again; then sets another one. If that is refused, the
+ * definition has to be unchanged. */
 static void replace_one(design_mechanism *m, fuzz_bytes *b)
 {
   int family = fuzz_below(b, 3);
@@ -250,7 +251,7 @@ static void ask_for_wrong_element(design_mechanism *m, fuzz_bytes *b)
   (void)fuzz_status(kind->get(m->mechanism, id, &def, (size_t)fuzz_byte(b)));
 }
 
-/* From here on the elements are those of a copy. */
+/* Replaces the mechanism by a copy. The handles of the elements remain valid. */
 static void go_on_with_a_copy(design_mechanism *m)
 {
   baum_mechanism *copy = NULL;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, options and mechanisms drawn from the bytes of a fuzzer: whatever a caller may hand
- * in, sensible or not. Pointers are good or NULL, and arrays as long as they are said to be: nobody
- * can check these.
- */
+/* Definitions, options and mechanisms chosen by the bytes of a fuzzer: everything a caller may
+ * pass, sensible or not. Pointers are valid or NULL, and arrays have at least their stated length,
+ * because the library cannot check these. */
 #ifndef BAUM_FUZZ_DRAWN_H
 #define BAUM_FUZZ_DRAWN_H
 
@@ -11,15 +10,15 @@
 
 enum { DRAWN_MOST = 24, DRAWN_ROOM = 8, DRAWN_NAME = 300 };
 
-/* `user` of all functions of one element. Its functions are those of one unknown, q[0]; every so
- * often one fails. */
+/* `user` of all functions of one element. The functions depend on one unknown, q[0]. In some
+ * elements one call fails. */
 typedef struct design_user {
   int size;   /* of the mass matrix */
-  int calls;  /* until the one that fails; 0: none does */
-  int answer; /* of that, or 0: NaN */
+  int calls;  /* number of the call that fails; 0: none */
+  int answer; /* what that call returns; 0: it succeeds with NaN as its result */
 } design_user;
 
-/* Elements that there are, and what their definitions point to. */
+/* The existing elements, and the data to which their definitions point. */
 typedef struct design_mechanism {
   baum_mechanism *mechanism;
   any_id ids[3][DRAWN_MOST]; /* bodies, joints, forces */
@@ -33,18 +32,18 @@ typedef struct design_mechanism {
   char name[DRAWN_NAME];
 } design_mechanism;
 
-/* 0, 1, 2: body, joint, force. */
+/* Returns 0 for a body, 1 for a joint, 2 for a force. */
 int design_family(const element_kind *kind);
 
-/* What its arrays and name point to is good until the next one is drawn. */
+/* Chooses a definition. Its arrays and its name are valid until the next call. */
 void design_definition(design_mechanism *m, fuzz_bytes *b, const element_kind *kind, any_def *def);
 
-/* A mechanism, and calls of all kinds on it while it is built; not frozen. */
+/* Makes a mechanism with arbitrary calls; it is not frozen. */
 void design_mechanism_make(design_mechanism *m, fuzz_bytes *b);
 void design_mechanism_destroy(design_mechanism *m);
 
-/* Options of which most are good, without `progress` and `user`; at most `steps` steps in a call.
- * Factors on gains of rows are in `factors` (DRAWN_ROOM). */
+/* Chooses options, most of them valid, with at most `steps` steps in a call and without `progress`
+ * and `user`. `factors` (DRAWN_ROOM) receives factors on gains of rows. */
 void design_options(fuzz_bytes *b, int steps, double factors[DRAWN_ROOM],
                     baum_simulation_options *out);
 

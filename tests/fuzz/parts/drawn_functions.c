@@ -18,7 +18,7 @@ static int answer(void *user, double *out)
   return u->answer;
 }
 
-/* ---- user coordinates: of masses 2, 1, 1, ... on springs ---- */
+/* ---- user coordinates: masses 2, 1, 1, ... on springs ---- */
 
 static int mass(double t, const double *q, double *out, void *user)
 {

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a file as a whole or not at all: as a new file beside the old one, which it then replaces.
+/* Writes a file completely or not at all: writes a new file in the same folder and then replaces
+ * the old file by it.
  */
+#include "base/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -9,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/alloc.h"
-#include "study/report.h"
+#include "base/message.h"
 
 enum { TRIES = 100, NAME = 64 };
 
@@ -24,8 +27,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Tells whether the file can be replaced. Replacing would destroy devices, pipes and links, and
- * would lose further names or another owner of a file. */
+/* Tells whether a file may be replaced. Replacing would destroy devices, pipes and links, and would
+ * change the owner of a file or detach its other names. */
 static bool is_replaceable(const struct stat *found)
 {
   return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
@@ -37,7 +40,7 @@ int baum_i_sync_file(FILE *file)
   return done ? 0 : errno;
 }
 
-/* Returns the reason of the first failure, or 0. Always closes the file. */
+/* Writes bytes and closes the file in every case. Returns errno of the first failure, or 0. */
 static int write_bytes(FILE *file, const char *bytes, size_t size)
 {
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
@@ -57,7 +60,8 @@ static baum_status write_in_place(const char *path, const char *bytes, size_t si
   return reason ? fail(path, "written", reason) : BAUM_OK;
 }
 
-/* Creates a file with an unused name in the folder of `path`, its first `folder` characters. */
+/* Creates a file with an unused name in the folder of `path`, which is its first `folder`
+ * characters. */
 static FILE *create_part(const char *path, size_t folder, mode_t mode, char *part, size_t capacity)
 {
   for (int k = 0; k < TRIES; k++) {
@@ -73,7 +77,8 @@ static FILE *create_part(const char *path, size_t folder, mode_t mode, char *par
   return NULL;
 }
 
-/* Writes the folder, and so the new name, to the disk. If that is not possible, nothing is lost. */
+/* Writes the folder, which contains the new name, to the disk. A failure is ignored, because no
+ * data are lost. */
 static void sync_folder(const char *folder)
 {
   int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -83,7 +88,8 @@ static void sync_folder(const char *folder)
   }
 }
 
-/* Replaces `old`, or nothing where it is NULL. `part` has room for the name of the new file. */
+/* Writes the new file and replaces the old one. `old` describes the old file, or is NULL if there
+ * is none. `part` is memory for the name of the new file. */
 static baum_status replace_file(const char *path, const struct stat *old, const char *bytes,
                                 size_t size, char *part, size_t capacity)
 {
@@ -119,10 +125,35 @@ baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
   }
   size_t capacity = strlen(path) + NAME;
   char *part = baum_i_alloc(capacity, 1);
-  if (!part) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(part));
   baum_status status = replace_file(path, exists ? &found : NULL, bytes, size, part, capacity);
   baum_i_free(part);
   return status;
+}
+
+/* ---- what callers receive ---- */
+
+baum_status baum_i_give_text(const baum_i_buffer *whole, const char *call, char *text,
+                             size_t capacity, size_t *size)
+{
+  if (!text && capacity > 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: text is NULL and capacity is not 0", call);
+  }
+  if (whole->text && capacity > 0) {
+    size_t kept = whole->used < capacity ? whole->used : capacity - 1;
+    memcpy(text, whole->text, kept);
+    text[kept] = '\0';
+  }
+  if (size) {
+    *size = whole->used;
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_give_file(const baum_i_buffer *whole, const char *call, const char *path)
+{
+  if (!path || !path[0]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: path is NULL or empty", call);
+  }
+  return baum_i_write_file(path, whole->text, whole->used);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts and numbers of reports: what is escaped, and that numbers are read back as they were. */
+/* Texts and numbers in reports: escaping, and numbers that are read back without change. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "study/report_buffer.h"
+#include "base/buffer.h"
 
 static void check_put(baum_i_quoting quoting, const char *text, const char *want)
 {
@@ -44,7 +44,7 @@ static void control_characters_become_spaces(void **state)
   check_put(BAUM_I_PLAIN, "a\x1b]0;<b>\"", "a ]0;<b>\"");
 }
 
-static void what_is_no_utf8_is_replaced(void **state)
+static void bytes_that_are_not_utf8_are_replaced(void **state)
 {
   (void)state;
   const char *const good[] = {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xf4\x8f\xbf\xbf"};
@@ -54,7 +54,7 @@ static void what_is_no_utf8_is_replaced(void **state)
   check_put(BAUM_I_JSON, "\xff", "\xef\xbf\xbd");
   check_put(BAUM_I_JSON, "\x80z", "\xef\xbf\xbdz");
   check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd");                 /* cut off */
-  check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/", too long */
+  check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/" in an overlong encoding */
   check_put(BAUM_I_JSON, "\xed\xa0\x80", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
   check_put(BAUM_I_JSON, "\xf4\x90\x80\x80", /* beyond Unicode */
             "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
@@ -109,7 +109,7 @@ int main(void)
     cmocka_unit_test(json_ends_no_script_that_it_stands_in),
     cmocka_unit_test(json_and_csv_keep_their_quotes),
     cmocka_unit_test(control_characters_become_spaces),
-    cmocka_unit_test(what_is_no_utf8_is_replaced),
+    cmocka_unit_test(bytes_that_are_not_utf8_are_replaced),
     cmocka_unit_test(exact_numbers_are_read_back),
     cmocka_unit_test(short_numbers_are_for_people),
     cmocka_unit_test(columns_are_as_wide_as_characters),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length, built piece by piece, and numbers as text. */
-#include "study/report_buffer.h"
+/* Texts of any length that are built in parts, and numbers as text. */
+#include "base/buffer.h"
 
 #include <locale.h>
 #include <math.h>
@@ -19,7 +19,8 @@ void baum_i_buffer_clear(baum_i_buffer *buffer)
   *buffer = (baum_i_buffer){0};
 }
 
-/* Makes room for this many more characters and the terminating zero; NULL without memory. */
+/* Allocates memory for `more` characters and the terminating zero. Returns the end of the present
+ * text, or NULL when out of memory. */
 static char *make_room(baum_i_buffer *buffer, size_t more)
 {
   size_t wanted = buffer->used + more + 1;
@@ -71,7 +72,7 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width)
 
 /* ---- texts of users ---- */
 
-/* Returns the bytes of the character that begins here; 0 where it is not UTF-8 (RFC 3629). */
+/* Returns the number of bytes of the character at s, or 0 if it is not UTF-8 (RFC 3629). */
 static size_t character(const unsigned char *s)
 {
   if (s[0] < 0x80) {
@@ -101,7 +102,7 @@ int baum_i_length(const char *text)
   return count;
 }
 
-/* Returns the escape of a character; NULL: the character itself. */
+/* Returns the escape sequence of a character, or NULL if the character needs none. */
 static const char *escape(char c, baum_i_quoting quoting)
 {
   if (quoting == BAUM_I_PLAIN) {
@@ -110,10 +111,13 @@ static const char *escape(char c, baum_i_quoting quoting)
   if (quoting == BAUM_I_CSV) {
     return c == '"' ? "\"\"" : NULL;
   }
+  if (quoting == BAUM_I_XML) {
+    return c == '<' ? "&lt;" : c == '&' ? "&amp;" : NULL;
+  }
   switch (c) {
   case '"': return "\\\"";
   case '\\': return "\\\\";
-  case '<': return "\\u003c"; /* so that no text ends the script around it */
+  case '<': return "\\u003c"; /* so that a text cannot end the script element that contains it */
   default: return NULL;
   }
 }

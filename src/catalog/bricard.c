@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bricard's mechanism: five rods along the edges of a cube and six revolute joints; the axes of
+ * consecutive joints are perpendicular. The first five joints have the angles a, b, a, b, a, where
+ * b follows from a:
+ *
+ *   sin a + sin b + sin a sin b = 0
+ *
+ * One of the 30 rows is redundant in every configuration.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "catalog/catalog.h"
+#include "catalog/data/bricard.h"
+#include "catalog/spatial_parts.h"
+
+enum { LENGTH, MASS, AXIAL, GRAVITY, ANGLE, SPEED, COUNT };
+enum { RODS = 5 };
+
+static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
+  [LENGTH] = {"length", "m", "of each rod", BAUM_I_POSITIVE},
+  [MASS] = {"mass", "kg", "of each rod", BAUM_I_POSITIVE},
+  [AXIAL] = {"axial", "-", "inertia of the rods about themselves to that across", BAUM_I_ANY},
+  [GRAVITY] = {"gravity", "m/s^2", "along -y", BAUM_I_ANY},
+  [ANGLE] = {"angle", "rad", "of the first rod at start, about y; 0 to pi", BAUM_I_ANY},
+  [SPEED] = {"speed", "rad/s", "of the first rod at start", BAUM_I_ANY},
+};
+
+/* Directions of the rods, and numbers of the joint axes (0: x, 1: y, 2: z), in the axes of the
+ * rods. Where all angles are 0, these axes are parallel to the ground axes. */
+static const double EDGE[RODS][3] = {
+  {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+static const int AXIS[RODS + 1] = {1, 2, 0, 1, 2, 0};
+
+/* Computes the axes of a rod, with their origin at its first joint. */
+static baum_i_axes axes_of(const double *p, const double *q, const double *v, int rod)
+{
+  static const double zero[3] = {0.0, 0.0, 0.0};
+  double b = asin(-sin(q[0]) / (1.0 + sin(q[0])));
+  double rate = -cos(q[0]) * (1.0 + sin(b)) / (cos(b) * (1.0 + sin(q[0]))) * v[0];
+  baum_i_axes at = baum_i_axes_at(zero, zero);
+  for (int k = 0; k <= rod; k++) {
+    if (k > 0) {
+      const double *e = EDGE[k - 1];
+      baum_i_axes_go(&at, p[LENGTH] * e[0], p[LENGTH] * e[1], p[LENGTH] * e[2]);
+    }
+    baum_i_axes_turn(&at, AXIS[k], k % 2 ? b : q[0], k % 2 ? rate : v[0]);
+  }
+  return at;
+}
+
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
+{
+  double half = p[LENGTH] / 2;
+  baum_i_axes at = axes_of(p, q, v, body);
+  baum_i_axes_go(&at, half * EDGE[body][0], half * EDGE[body][1], half * EDGE[body][2]);
+  baum_i_axes_state(&at, body_q, body_v);
+}
+
+static void build(baum_i_parts *parts, const double *p)
+{
+  double across = p[MASS] * p[LENGTH] * p[LENGTH] / 12;
+  baum_body_id last = BAUM_GROUND;
+  if (parts->status == BAUM_OK) {
+    parts->status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -p[GRAVITY], 0.0);
+  }
+  for (int k = 0; k <= RODS; k++) {
+    baum_i_axes at = axes_of(p, &p[ANGLE], &p[SPEED], k < RODS ? k : RODS - 1);
+    baum_body_id next = BAUM_GROUND;
+    const double unit[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
+    const double zero[3] = {0.0, 0.0, 0.0};
+    baum_i_axes pin = at;
+    if (k < RODS) {
+      double q[7];
+      double v[6];
+      double inertia[3];
+      for (int i = 0; i < 3; i++) {
+        inertia[i] = across * (EDGE[k][i] == 0.0 ? 1.0 : p[AXIAL]);
+      }
+      state(p, &p[ANGLE], &p[SPEED], k, q, v);
+      next = baum_i_parts_spatial_body(parts, NULL, p[MASS], inertia, q, v);
+    } else {
+      baum_i_axes_go(&pin, p[LENGTH] * EDGE[k - 1][0], p[LENGTH] * EDGE[k - 1][1],
+                     p[LENGTH] * EDGE[k - 1][2]);
+    }
+    baum_i_axes tip = baum_i_axes_at(zero, zero);
+    memcpy(tip.p, pin.p, sizeof tip.p);
+    baum_i_axes_go(&tip, unit[0], unit[1], unit[2]);
+    baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, pin.r, tip.r});
+    last = next;
+  }
+}
+
+const baum_i_catalog_mechanism baum_i_bricard = {
+  .name = "bricard",
+  .title = "Bricard's mechanism of slender rods, released from rest",
+  .source = "IFToMM and A Coruna library of benchmarks, A04",
+  .provenance = "extrapolation in 160 bits, two tolerances agree to 17.1 digits, another model in "
+                "double precision to 9; the library raises the inertia 0 of the rods about "
+                "themselves to 1e-10 of that across",
+  .note = "one redundant row",
+  .parameter_count = COUNT,
+  .parameters = PARAMETERS,
+  .defaults = (const double[COUNT]){1.0, 1.0, 0.0, 9.81, 0.0, 0.0},
+  .end = 5.0,
+  .build = build,
+  .units = "mmmqqqq",
+  .bodies = RODS,
+  .state = state,
+  BAUM_I_CATALOG_SERIES(BRICARD, 10, 10),
+};

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Robot arm of six revolute joints about z, y, y, x, y, x, stretched along x where all angles are
+ * 0. Angle k is driven by A_k sin w_k t. */
+#include <float.h>
+#include <math.h>
+
+#include "catalog/catalog.h"
+#include "catalog/spatial_parts.h"
+
+enum { REACH, PAYLOAD, GRAVITY, COUNT };
+enum { JOINTS = 6 };
+
+static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
+  [REACH] = {"reach", "m", "from the second joint to the end of the arm", BAUM_I_POSITIVE},
+  [PAYLOAD] = {"payload", "kg", "mass of the last link with its load", BAUM_I_POSITIVE},
+  [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
+};
+
+static const int AXIS[JOINTS] = {2, 1, 1, 0, 1, 0};
+static const double AMPLITUDE[JOINTS] = {1.5, 0.8, 1.2, 2.0, 1.0, 3.0}; /* [rad] */
+static const double RATE[JOINTS] = {2.0, 3.0, 2.5, 4.0, 3.5, 5.0};      /* [rad/s] */
+static const double SHARE[JOINTS] = {0.4, 0.45, 0.2, 0.2, 0.1, 0.05};   /* of the reach: lengths */
+static const double MASS[JOINTS - 1] = {20.0, 12.0, 5.0, 3.0, 1.5};     /* [kg] */
+
+static int drive(int k, double t, double s[3])
+{
+  s[0] = AMPLITUDE[k] * sin(RATE[k] * t);
+  s[1] = AMPLITUDE[k] * RATE[k] * cos(RATE[k] * t);
+  s[2] = -RATE[k] * RATE[k] * s[0];
+  return 0;
+}
+
+#define LAW(k)                                          \
+  static int law_##k(double t, double s[3], void *user) \
+  {                                                     \
+    (void)user;                                         \
+    return drive(k, t, s);                              \
+  }
+LAW(0)
+LAW(1)
+LAW(2)
+LAW(3)
+LAW(4)
+LAW(5)
+static baum_law_fn *const LAWS[JOINTS] = {law_0, law_1, law_2, law_3, law_4, law_5};
+
+static double solution(const double *p, double t, double *q, double *v)
+{
+  (void)p;
+  for (int k = 0; k < JOINTS; k++) {
+    double s[3];
+    (void)drive(k, t, s);
+    q[k] = s[0];
+    v[k] = s[1];
+  }
+  return DBL_EPSILON * (1.0 + RATE[JOINTS - 1] * fabs(t)) * AMPLITUDE[JOINTS - 1];
+}
+
+/* The first link points up, the others along x. */
+static void go(const double *p, baum_i_axes *axes, int link, double part)
+{
+  double length = part * SHARE[link] * p[REACH];
+  baum_i_axes_go(axes, link == 0 ? 0.0 : length, 0.0, link == 0 ? length : 0.0);
+}
+
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
+{
+  static const double foot[3] = {0.0, 0.0, 0.0};
+  baum_i_axes at = baum_i_axes_at(foot, foot);
+  for (int k = 0; k <= body; k++) {
+    baum_i_axes_turn(&at, AXIS[k], q[k], v[k]);
+    go(p, &at, k, k < body ? 1.0 : 0.5);
+  }
+  baum_i_axes_state(&at, body_q, body_v);
+}
+
+static void build(baum_i_parts *parts, const double *p)
+{
+  static const double zero[3] = {0.0, 0.0, 0.0};
+  baum_i_axes at = baum_i_axes_at(zero, zero);
+  baum_body_id last = BAUM_GROUND;
+  double q[JOINTS];
+  double v[JOINTS];
+  baum_i_parts_gravity_z(parts, p[GRAVITY]);
+  (void)solution(p, 0.0, q, v);
+  for (int k = 0; k < JOINTS; k++) {
+    double mass = k < JOINTS - 1 ? MASS[k] : p[PAYLOAD];
+    double length = SHARE[k] * p[REACH];
+    double axial = mass * length * length / 50; /* a cylinder five times as long as its radius */
+    double across = axial / 2 + mass * length * length / 12;
+    const double inertia[3] = {k == 0 ? across : axial, across, k == 0 ? axial : across};
+    const double axis[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
+    double body_q[7];
+    double body_v[6];
+    state(p, q, v, k, body_q, body_v);
+    baum_body_id next = baum_i_parts_spatial_body(parts, NULL, mass, inertia, body_q, body_v);
+    baum_driver_def motor = baum_driver_def_default();
+    motor.joint =
+      baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, at.r, axis});
+    motor.law = LAWS[k];
+    baum_i_parts_driver(parts, &motor);
+    go(p, &at, k, 1.0);
+    last = next;
+  }
+}
+
+const baum_i_catalog_mechanism baum_i_robot_arm = {
+  .name = "robot_arm",
+  .title = "robot arm of six revolute joints, all driven",
+  .source = "ours",
+  .provenance = "closed form",
+  .note = "no freedom left: solved by kinematics, too",
+  .parameter_count = COUNT,
+  .parameters = PARAMETERS,
+  .defaults = (const double[COUNT]){1.0, 2.5, 9.81},
+  .end = 2.0,
+  .build = build,
+  .units = "mmmqqqq",
+  .bodies = JOINTS,
+  .state = state,
+  .samples = 21,
+  .columns = JOINTS,
+  .solution = solution,
+  .digits_q = 13,
+  .digits_v = 13,
+};

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "catalog/spatial_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Makes a call unless an earlier call has failed. */
+#define UNLESS_FAILED(parts, call) \
+  ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
+
+/* ---- moving axes ---- */
+
+/* Hamilton's product. */
+static void multiply(const double a[4], const double b[4], double out[4])
+{
+  out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3;
+    int k = (i + 2) % 3;
+    out[i + 1] = a[0] * b[i + 1] + a[i + 1] * b[0] + a[j + 1] * b[k + 1] - a[k + 1] * b[j + 1];
+  }
+}
+
+/* Rotates s by the quaternion p: p s p^-1. */
+static void turn_vector(const double p[4], const double s[3], double out[3])
+{
+  const double pure[4] = {0.0, s[0], s[1], s[2]};
+  const double back[4] = {p[0], -p[1], -p[2], -p[3]};
+  double half[4];
+  double whole[4];
+  multiply(p, pure, half);
+  multiply(half, back, whole);
+  memcpy(out, whole + 1, 3 * sizeof *out);
+}
+
+baum_i_axes baum_i_axes_at(const double r[3], const double v[3])
+{
+  baum_i_axes axes = {.p = {1.0, 0.0, 0.0, 0.0}};
+  memcpy(axes.r, r, sizeof axes.r);
+  memcpy(axes.v, v, sizeof axes.v);
+  return axes;
+}
+
+void baum_i_axes_turn(baum_i_axes *axes, int axis, double angle, double rate)
+{
+  double turn[4] = {cos(0.5 * angle), 0.0, 0.0, 0.0};
+  double back[4] = {turn[0], 0.0, 0.0, 0.0};
+  double before[4];
+  double w[3];
+  turn[axis + 1] = sin(0.5 * angle);
+  back[axis + 1] = -turn[axis + 1];
+  memcpy(before, axes->p, sizeof before);
+  multiply(before, turn, axes->p);
+  turn_vector(back, axes->w, w);
+  memcpy(axes->w, w, sizeof w);
+  axes->w[axis] += rate;
+}
+
+void baum_i_axes_go(baum_i_axes *axes, double x, double y, double z)
+{
+  const double s[3] = {x, y, z};
+  const double *w = axes->w;
+  const double swept[3] = {w[1] * z - w[2] * y, w[2] * x - w[0] * z, w[0] * y - w[1] * x};
+  double to[3];
+  double rate[3];
+  turn_vector(axes->p, s, to);
+  turn_vector(axes->p, swept, rate);
+  for (int i = 0; i < 3; i++) {
+    axes->r[i] += to[i];
+    axes->v[i] += rate[i];
+  }
+}
+
+/* With the vector (x, y, z) from `origin` to `end`, rotates about x by psi = atan2(z, y), then
+ * about z by gamma = atan2(hypot(y, z), x). */
+baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *end)
+{
+  double d[3];
+  double rate[3];
+  for (int i = 0; i < 3; i++) {
+    d[i] = end->r[i] - origin->r[i];
+    rate[i] = end->v[i] - origin->v[i];
+  }
+  double aside = hypot(d[1], d[2]);
+  double aside_rate = (d[1] * rate[1] + d[2] * rate[2]) / aside;
+  double square = d[0] * d[0] + aside * aside;
+  baum_i_axes axes = baum_i_axes_at(origin->r, origin->v);
+  baum_i_axes_turn(&axes, 0, atan2(d[2], d[1]),
+                   (d[1] * rate[2] - d[2] * rate[1]) / (aside * aside));
+  baum_i_axes_turn(&axes, 2, atan2(aside, d[0]), (d[0] * aside_rate - aside * rate[0]) / square);
+  return axes;
+}
+
+void baum_i_axes_state(const baum_i_axes *axes, double q[7], double v[6])
+{
+  memcpy(q, axes->r, sizeof axes->r);
+  memcpy(q + 3, axes->p, sizeof axes->p);
+  memcpy(v, axes->v, sizeof axes->v);
+  memcpy(v + 3, axes->w, sizeof axes->w);
+}
+
+/* ---- parts ---- */
+
+void baum_i_parts_gravity_z(baum_i_parts *parts, double downwards)
+{
+  UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, 0.0, -downwards));
+}
+
+baum_body_id baum_i_parts_spatial_body(baum_i_parts *parts, const char *name, double mass,
+                                       const double inertia[3], const double q[7],
+                                       const double v[6])
+{
+  baum_body_id id = {0};
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.name = name;
+  def.mass = mass;
+  memcpy(def.inertia, inertia, 3 * sizeof *inertia);
+  memcpy(def.position, q, sizeof def.position);
+  memcpy(def.orientation, q + 3, sizeof def.orientation);
+  if (v) {
+    memcpy(def.velocity, v, sizeof def.velocity);
+    memcpy(def.angular_velocity, v + 3, sizeof def.angular_velocity);
+  }
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_body(parts->mechanism, &def, &id));
+  return id;
+}
+
+/* The fields with which all definitions of joints begin. */
+#define PLACE(def, name_, place)                           \
+  do {                                                     \
+    (def).name = (name_);                                  \
+    (def).body_a = (place).a;                              \
+    (def).body_b = (place).b;                              \
+    memcpy((def).point, (place).point, sizeof(def).point); \
+  } while (0)
+
+baum_joint_id baum_i_parts_spatial_revolute(baum_i_parts *parts, const char *name,
+                                            baum_i_place place)
+{
+  baum_joint_id id = {0};
+  baum_spatial_revolute_def def = baum_spatial_revolute_def_default();
+  PLACE(def, name, place);
+  memcpy(def.axis, place.axis, sizeof def.axis);
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_revolute(parts->mechanism, &def, &id));
+  return id;
+}
+
+void baum_i_parts_spherical(baum_i_parts *parts, const char *name, baum_i_place place)
+{
+  baum_spatial_spherical_def def = baum_spatial_spherical_def_default();
+  PLACE(def, name, place);
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_spherical(parts->mechanism, &def, NULL));
+}
+
+void baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place)
+{
+  baum_spatial_prismatic_def def = baum_spatial_prismatic_def_default();
+  PLACE(def, name, place);
+  memcpy(def.axis, place.axis, sizeof def.axis);
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_prismatic(parts->mechanism, &def, NULL));
+}
+
+void baum_i_parts_universal(baum_i_parts *parts, const char *name, baum_i_place place,
+                            const double axis_b[3])
+{
+  baum_spatial_universal_def def = baum_spatial_universal_def_default();
+  PLACE(def, name, place);
+  memcpy(def.axis, place.axis, sizeof def.axis);
+  memcpy(def.axis_b, axis_b, sizeof def.axis_b);
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_universal(parts->mechanism, &def, NULL));
+}
+
+void baum_i_parts_spatial_spring(baum_i_parts *parts, const baum_spatial_spring_def *def)
+{
+  UNLESS_FAILED(parts, baum_mechanism_add_spatial_spring(parts->mechanism, def, NULL));
+}

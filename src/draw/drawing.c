@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The list of shapes of a mechanism. */
+#include "draw/drawing.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+
+static const double SHARE = 0.02; /* of a unit in the largest extent of the mechanism */
+
+const char *baum_i_style_name(baum_i_style style)
+{
+#define NAME(CODE, NAME) [BAUM_I_##CODE] = #NAME,
+  static const char *const names[] = {BAUM_I_STYLES(NAME)};
+#undef NAME
+  return names[style];
+}
+
+const char *baum_i_form_name(baum_i_form form)
+{
+  static const char *const names[] = {"line", "area", "disc", "ball", "box", "between", "arrow"};
+  return names[form];
+}
+
+/* Keeps the shapes in the order of their styles. */
+void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const double (*points)[3])
+{
+  const int wanted = drawing->point_count + count;
+  double(*grown)[3] = baum_i_grow(drawing->points, (size_t)wanted, sizeof *grown);
+  drawing->points = grown ? grown : drawing->points;
+  baum_i_shape *shapes =
+    baum_i_grow_by_one(drawing->shapes, (size_t)drawing->shape_count + 1, sizeof *shapes);
+  drawing->shapes = shapes ? shapes : drawing->shapes;
+  if (!grown || !shapes) {
+    drawing->failed = true;
+    return;
+  }
+  shape.first = drawing->point_count;
+  shape.count = count;
+  memcpy(grown + shape.first, points, (size_t)count * sizeof *points);
+  drawing->point_count = wanted;
+  int k = drawing->shape_count++;
+  for (; k > 0 && shapes[k - 1].style > shape.style; k--) {
+    shapes[k] = shapes[k - 1];
+  }
+  shapes[k] = shape;
+}
+
+/* ---- the whole ---- */
+
+baum_i_spatial_frame baum_i_drawing_frame(const baum_i_body *body, const double *q)
+{
+  baum_i_frame_kind kind = baum_i_frame_of(body);
+  double own[7] = {0.0};
+  if (kind != BAUM_I_FRAME_NONE && kind != BAUM_I_FRAME_GROUND) {
+    memcpy(own, q + body->q, (size_t)body->nq * sizeof *own);
+  }
+  if (kind == BAUM_I_FRAME_SPATIAL_BODY) {
+    baum_i_quaternion_normalize(own + 3);
+  }
+  return baum_i_spatial_frame_at(kind, own, NULL);
+}
+
+static bool is_spatial(const baum_mechanism *m)
+{
+  bool found = false;
+  for (int k = 1; k <= m->body_count; k++) {
+    found = found || baum_i_is_spatial(baum_i_frame_of(m->bodies[k]));
+  }
+  for (int k = 0; k < m->joint_count; k++) {
+    found = found || m->joints[k]->type->width == BAUM_I_SPACE;
+  }
+  for (int k = 0; k < m->force_count; k++) {
+    found = found || m->forces[k]->type->spatial;
+  }
+  return found;
+}
+
+static void include(const baum_i_drawing *drawing, int body, const double point[3], baum_i_box *box)
+{
+  double at[3];
+  baum_i_draw_move(drawing, body, 0, point, at);
+  baum_i_box_include(box, at[0], at[1], at[2]);
+}
+
+/* Negative if the box contains nothing. */
+static double largest_edge(const baum_i_box *box)
+{
+  double edge = -INFINITY;
+  for (int i = 0; i < 3; i++) {
+    edge = fmax(edge, box->high[i] - box->low[i]);
+  }
+  return edge;
+}
+
+static double find_unit(const baum_i_drawing *drawing)
+{
+  const double origin[3] = {0.0, 0.0, 0.0};
+  baum_i_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  for (int k = 1; k <= drawing->mechanism->body_count; k++) {
+    if (baum_i_frame_of(drawing->mechanism->bodies[k]) != BAUM_I_FRAME_NONE) {
+      include(drawing, k, origin, &box);
+    }
+  }
+  for (int k = 0; k < drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k];
+    for (int side = 0; place->element && side < 2; side++) {
+      include(drawing, place->body[side], place->point[side], &box);
+    }
+  }
+  double extent = largest_edge(&box);
+  if (extent <= 0.0) { /* all in one point: include the origin */
+    include(drawing, 0, origin, &box);
+    extent = largest_edge(&box);
+  }
+  return SHARE * (extent > 0.0 ? extent : 1.0);
+}
+
+baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
+                                  baum_i_drawing *out)
+{
+  *out = (baum_i_drawing){.mechanism = m, .motion = *motion, .spatial = is_spatial(m)};
+  out->place_count = m->joint_count + m->force_count;
+  out->design = baum_i_alloc((size_t)m->body_count + 1, sizeof *out->design);
+  out->places = baum_i_alloc((size_t)out->place_count, sizeof *out->places);
+  if (!out->design || !out->places) {
+    return baum_i_fail_memory();
+  }
+  for (int k = 0; k <= m->body_count; k++) {
+    out->design[k] = baum_i_spatial_design_frame(m, k);
+  }
+  BAUM_I_TRY(baum_i_find_places(out));
+  out->unit = find_unit(out);
+  for (int k = 1; k <= m->body_count; k++) {
+    baum_i_draw_body(out, k);
+  }
+  for (int k = 0; k < out->place_count; k++) {
+    baum_i_draw_symbol(out, k);
+  }
+  return out->failed ? baum_i_fail_memory() : BAUM_OK;
+}
+
+void baum_i_drawing_release(baum_i_drawing *drawing)
+{
+  baum_i_free(drawing->design);
+  baum_i_free(drawing->places);
+  baum_i_free(drawing->shapes);
+  baum_i_free(drawing->points);
+}
+
+/* ---- JSON ---- */
+
+static void put_bodies(const baum_mechanism *m, baum_i_buffer *out)
+{
+  static const char *const kinds[] = {"none",   "particle",         "body",
+                                      "ground", "spatial particle", "spatial body"};
+  for (int k = 0; k <= m->body_count; k++) {
+    baum_i_put(out, k ? ",\n{\"name\":\"" : "\n{\"name\":\"");
+    baum_i_put_user_text(out, k ? m->bodies[k]->element.name : "ground", BAUM_I_JSON);
+    baum_i_putf(out, "\",\"kind\":\"%s\",\"q\":%d}", kinds[baum_i_frame_of(m->bodies[k])],
+                m->bodies[k]->q);
+  }
+}
+
+void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
+{
+  baum_i_putf(out, "{\"version\":1,\"spatial\":%s,\"unit\":%.6g,\"gravity\":[%.6g,%.6g,%.6g]",
+              drawing->spatial ? "true" : "false", drawing->unit, drawing->mechanism->gravity[0],
+              drawing->mechanism->gravity[1], drawing->mechanism->gravity[2]);
+  baum_i_put(out, ",\"bodies\":[");
+  put_bodies(drawing->mechanism, out);
+  baum_i_put(out, "],\n\"shapes\":[");
+  for (int k = 0; k < drawing->shape_count; k++) {
+    const baum_i_shape *shape = &drawing->shapes[k];
+    baum_i_putf(out, "%s\n{\"style\":\"%s\",\"form\":\"%s\",\"body\":%d,\"other\":%d,",
+                k ? "," : "", baum_i_style_name(shape->style), baum_i_form_name(shape->form),
+                shape->body, shape->other);
+    baum_i_put(out, "\"element\":\"");
+    baum_i_put_user_text(out, shape->element->name, BAUM_I_JSON);
+    baum_i_putf(out, "\",\"radius\":%.5g,\"points\":[", shape->radius);
+    for (int i = 0; i < shape->count; i++) {
+      const double *x = drawing->points[shape->first + i];
+      baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+    }
+    baum_i_put(out, "]}");
+  }
+  baum_i_put(out, "]}");
+}

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Outlines of bodies, from the points of their joints: links as rounded bars and polygons, sliders
+ * as blocks, wheels as discs. A body without such points is drawn with the size that its inertia
+ * gives: in the plane a disc of the same inertia, in space a box with the same moments about the
+ * axes of the body.
+ */
+#include <string.h>
+
+#include <baum/spatial.h>
+
+#include "base/alloc.h"
+#include "draw/drawing.h"
+#include "mechanism/kinds.h"
+
+/* In units: limits of discs and boxes that follow from inertia; half the edges of a slider. */
+static const double LEAST = 1.5, MOST = 8.0;
+static const double BLOCK[2] = {2.6, 1.5};
+
+typedef struct outline {
+  baum_i_drawing *drawing;
+  int body;
+  const baum_i_element *element;
+  int count;
+  double (*points)[3]; /* (count) that differ */
+} outline;
+
+static void draw(const outline *o, baum_i_style style, baum_i_form form, double radius, int count,
+                 const double (*points)[3])
+{
+  baum_i_shape shape = {style, form, o->element, o->body, o->body, radius, 0, 0};
+  baum_i_draw(o->drawing, shape, count, points);
+}
+
+static double distance(const double a[3], const double b[3])
+{
+  const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  return sqrt(baum_i_dot3(d, d));
+}
+
+static void add_point(outline *o, const double point[3])
+{
+  for (int k = 0; k < o->count; k++) {
+    if (distance(o->points[k], point) < 0.2 * o->drawing->unit) {
+      return;
+    }
+  }
+  memcpy(o->points[o->count++], point, 3 * sizeof *point);
+}
+
+/* The point of a sliding joint on body_a is not used: it may be anywhere on the axis, and would
+ * stretch the outline. */
+static bool is_point_on(const baum_i_place *place, int side)
+{
+  return side == 1 || !baum_i_has_field(place->element, "axis") ||
+         baum_i_has_field(place->element, "axis_b");
+}
+
+static void add_points(outline *o)
+{
+  for (int k = 0; k < o->drawing->place_count; k++) {
+    const baum_i_place *place = &o->drawing->places[k];
+    for (int side = 0; place->element && side < 2; side++) {
+      if (place->body[side] == o->body && is_point_on(place, side) &&
+          !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
+        add_point(o, place->point[side]);
+      }
+    }
+  }
+}
+
+/* ---- the plane ---- */
+
+static double cross2(const double o[3], const double a[3], const double b[3])
+{
+  return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+}
+
+static void swap3(double a[3], double b[3])
+{
+  double kept[3];
+  memcpy(kept, a, sizeof kept);
+  memcpy(a, b, sizeof kept);
+  memcpy(b, kept, sizeof kept);
+}
+
+/* Finds the point, from `first` up to n, for which all others are on the left of the line to it
+ * from `here`. Among points in line, the farthest. */
+static int find_rightmost(const double here[3], int first, int n, const double (*x)[3])
+{
+  int found = first;
+  for (int k = first + 1; k < n; k++) {
+    double turn = cross2(here, x[found], x[k]);
+    bool further = turn == 0.0 && distance(here, x[k]) > distance(here, x[found]);
+    found = turn < 0.0 || further ? k : found;
+  }
+  return found;
+}
+
+/* Moves the points of the convex hull to the front, counter-clockwise; returns their number. Gift
+ * wrapping (Jarvis 1973): the next point has all others on its left. */
+static int find_hull(int n, double (*x)[3])
+{
+  for (int k = 1; k < n; k++) {
+    if (x[k][0] < x[0][0] || (x[k][0] == x[0][0] && x[k][1] < x[0][1])) {
+      swap3(x[k], x[0]);
+    }
+  }
+  for (int hull = 1; hull < n; hull++) {
+    int next = find_rightmost(x[hull - 1], hull, n, (const double(*)[3])x);
+    if (hull > 1 && cross2(x[hull - 1], x[next], x[0]) <= 0.0) {
+      return hull;
+    }
+    if (next != hull) {
+      swap3(x[next], x[hull]);
+    }
+  }
+  return n;
+}
+
+/* The radius of a disc of the same inertia, within limits. */
+static double inertia_radius(const outline *o)
+{
+  double mass = baum_i_find_number(o->element, "mass");
+  double radius = sqrt(2.0 * baum_i_find_number(o->element, "inertia") / mass);
+  return fmin(fmax(radius, LEAST * o->drawing->unit), MOST * o->drawing->unit);
+}
+
+/* Draws the block of a slider; false if the body is no slider. */
+static bool draw_block(const outline *o)
+{
+  const double u = o->drawing->unit;
+  bool found = false;
+  for (int k = 0; k < o->drawing->mechanism->joint_count; k++) {
+    const baum_i_place *place = &o->drawing->places[k];
+    if (place->body[1] != o->body || !place->element ||
+        place->element->definition != baum_i_planar_translational_definition) {
+      continue;
+    }
+    const double *at = place->point[1], *along = place->axis[1];
+    double corners[4][3];
+    for (int i = 0; i < 4; i++) {
+      double x = (i == 0 || i == 3 ? -BLOCK[0] : BLOCK[0]) * u, y = (i < 2 ? -1 : 1) * BLOCK[1] * u;
+      corners[i][0] = at[0] + x * along[0] - y * along[1];
+      corners[i][1] = at[1] + x * along[1] + y * along[0];
+      corners[i][2] = 0.0;
+    }
+    draw(o, BAUM_I_BODY, BAUM_I_AREA, 0.3 * u, 4, (const double(*)[3])corners);
+    found = true;
+  }
+  return found;
+}
+
+/* A disc about a point, with a line that shows how it rotates. */
+static void draw_disc(const outline *o, const double centre[3], double radius)
+{
+  const double disc[2][3] = {{centre[0], centre[1], 0.0}, {0.0, 0.0, 1.0}};
+  const double mark[2][3] = {{centre[0], centre[1], 0.0}, {centre[0] + radius, centre[1], 0.0}};
+  draw(o, BAUM_I_WHEEL, BAUM_I_DISC, radius, 2, disc);
+  draw(o, BAUM_I_MARK, BAUM_I_LINE, 0.0, 2, mark);
+}
+
+static void draw_planar(outline *o)
+{
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  const double u = o->drawing->unit;
+  double centre[3];
+  double wheel = baum_i_wheel_radius(o->drawing, o->body, centre);
+  if (wheel > 0.0) {
+    draw_disc(o, centre, wheel);
+  }
+  bool block = draw_block(o);
+  if (o->count == 1 && !block && wheel == 0.0) {
+    double arm = distance(o->points[0], origin);
+    double radius = inertia_radius(o);
+    radius = arm < u ? radius : fmin(radius, fmax(arm / 3.0, LEAST * u));
+    draw_disc(o, origin, radius);
+    add_point(o, origin);
+  } else if (o->count == 0 && !block && wheel == 0.0) {
+    draw_disc(o, origin, inertia_radius(o));
+  }
+  int hull = o->count > 1 ? find_hull(o->count, o->points) : 0;
+  if (hull > 1) {
+    draw(o, BAUM_I_BODY, hull > 2 ? BAUM_I_AREA : BAUM_I_LINE, u, hull,
+         (const double(*)[3])o->points);
+  }
+}
+
+/* ---- space ---- */
+
+/* For a box with edges 2 e: I_xx = m (e_y^2 + e_z^2) / 3, and so on. */
+static void draw_box(const outline *o)
+{
+  const double u = o->drawing->unit;
+  const baum_spatial_body_def *def = o->element->def;
+  double sum = def->inertia[0] + def->inertia[1] + def->inertia[2];
+  double box[2][3] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  for (int i = 0; i < 3; i++) {
+    double square = 1.5 * (sum - 2.0 * def->inertia[i]) / def->mass;
+    box[1][i] = fmin(fmax(sqrt(fmax(square, 0.0)), 0.5 * u), 2.0 * MOST * u);
+  }
+  draw(o, BAUM_I_BODY, BAUM_I_BOX, 0.0, 2, (const double(*)[3])box);
+}
+
+static void draw_spatial(const outline *o)
+{
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  const double u = o->drawing->unit;
+  if (o->count < 2 && o->element->definition == baum_i_spatial_body_definition) {
+    draw_box(o);
+  }
+  if (o->count == 2) { /* one bar through the centre of mass */
+    const double bar[3][3] = {{o->points[0][0], o->points[0][1], o->points[0][2]},
+                              {0.0, 0.0, 0.0},
+                              {o->points[1][0], o->points[1][1], o->points[1][2]}};
+    draw(o, BAUM_I_BODY, BAUM_I_LINE, 0.7 * u, 3, bar);
+    return;
+  }
+  for (int k = 0; k < o->count; k++) {
+    double rod[2][3] = {{0.0}};
+    memcpy(rod[1], o->points[k], sizeof rod[1]);
+    if (distance(origin, rod[1]) > u) {
+      draw(o, BAUM_I_BODY, BAUM_I_LINE, 0.7 * u, 2, (const double(*)[3])rod);
+    }
+  }
+}
+
+/* ---- both ---- */
+
+void baum_i_draw_body(baum_i_drawing *drawing, int body)
+{
+  const double origin[1][3] = {{0.0, 0.0, 0.0}};
+  const baum_i_body *drawn = drawing->mechanism->bodies[body];
+  baum_i_frame_kind kind = baum_i_frame_of(drawn);
+  outline o = {drawing, body, &drawn->element, 0, NULL};
+  if (kind == BAUM_I_FRAME_NONE) {
+    return;
+  }
+  if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE) {
+    draw(&o, BAUM_I_BODY, BAUM_I_BALL, 1.3 * drawing->unit, 1, origin);
+    return;
+  }
+  o.points = baum_i_alloc(2 * (size_t)drawing->place_count + 1, sizeof *o.points);
+  if (!o.points) {
+    drawing->failed = true;
+    return;
+  }
+  add_points(&o);
+  if (drawing->spatial && kind == BAUM_I_FRAME_SPATIAL_BODY) {
+    draw_spatial(&o);
+  } else {
+    draw_planar(&o);
+  }
+  baum_i_free(o.points);
+}

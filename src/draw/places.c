@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Finds the places of joints and forces from the fields that their definitions share. */
+#include <string.h>
+
+#include "draw/drawing.h"
+#include "mechanism/identify.h"
+#include "mechanism/planar/axis_row.h"
+#include "mechanism/spatial/spatial.h"
+
+/* Finds a field of a definition; NULL if there is none. */
+static const void *find_field(const baum_i_element *element, const char *name, size_t *size)
+{
+  *size = 0;
+  for (const baum_i_def_field *field = element->definition->fields; field->name; field++) {
+    if (strcmp(field->name, name) == 0) {
+      *size = field->size;
+      return baum_i_field_at(field, element->def);
+    }
+  }
+  return NULL;
+}
+
+bool baum_i_has_field(const baum_i_element *element, const char *name)
+{
+  size_t size;
+  return find_field(element, name, &size) != NULL;
+}
+
+double baum_i_find_number(const baum_i_element *element, const char *name)
+{
+  size_t size;
+  const double *number = find_field(element, name, &size);
+  return number ? *number : 0.0;
+}
+
+static int find_body(const baum_i_drawing *drawing, const baum_i_element *element, const char *name)
+{
+  size_t size;
+  const baum_body_id *id = find_field(element, name, &size);
+  return id ? baum_i_body_index(drawing->mechanism, *id) : -1;
+}
+
+/* ---- axes ---- */
+
+void baum_i_draw_turn(const baum_i_drawing *drawing, int from, int to, const double x[3],
+                      double out[3])
+{
+  double ground[3];
+  baum_i_turn(drawing->design[from].axes, x, ground);
+  baum_i_turn_back(drawing->design[to].axes, ground, out);
+}
+
+void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const double point[3],
+                      double out[3])
+{
+  double ground[3];
+  baum_i_turn(drawing->design[from].axes, point, ground);
+  baum_i_add_scaled3(1.0, drawing->design[from].r, ground);
+  baum_i_add_scaled3(-1.0, drawing->design[to].r, ground);
+  baum_i_turn_back(drawing->design[to].axes, ground, out);
+}
+
+static void normalize(double x[3])
+{
+  double length = sqrt(baum_i_dot3(x, x));
+  for (int i = 0; i < 3; i++) {
+    x[i] /= length;
+  }
+}
+
+/* In definitions with `point`, axes are in ground axes. In others, the axis is in the axes of
+ * body_a, and axis_b in the axes of body_b. */
+static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
+                     baum_i_place *place)
+{
+  size_t size;
+  double *const axis = place->axis[0];
+  double *const axis_b = place->axis[1];
+  const double *given = find_field(place->element, "axis", &size);
+  axis[2] = planar && given ? 0.0 : 1.0;
+  if (given) {
+    memcpy(axis, given, size);
+  }
+  if (in_ground) {
+    const double ground[3] = {axis[0], axis[1], axis[2]};
+    baum_i_turn_back(drawing->design[place->body[0]].axes, ground, axis);
+  }
+  baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
+  given = find_field(place->element, "axis_b", &size);
+  if (given && !isnan(*given)) {
+    memcpy(axis_b, given, size);
+    if (in_ground) {
+      baum_i_turn_back(drawing->design[place->body[1]].axes, given, axis_b);
+    }
+  }
+  normalize(axis);
+  normalize(axis_b);
+}
+
+/* ---- places ---- */
+
+/* Sets the points of an element from its fields point, point_a and point_b. */
+static baum_status set_points(const baum_i_drawing *drawing, const double *point, size_t size,
+                              baum_i_place *out)
+{
+  const bool planar = size == 2 * sizeof *point;
+  double s[6];
+  BAUM_I_TRY(planar ? baum_i_planar_points(drawing->mechanism, out->element, s)
+                    : baum_i_spatial_points(drawing->mechanism, out->element, s));
+  memcpy(out->point[0], s, size);
+  memcpy(out->point[1], s + size / sizeof *s, size);
+  set_axes(drawing, planar, !isnan(point[0]), out);
+  return BAUM_OK;
+}
+
+static baum_status find_place(const baum_i_drawing *drawing, const baum_i_element *element,
+                              baum_i_place *out)
+{
+  size_t size;
+  *out = (baum_i_place){.axis = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}};
+  const double *point = find_field(element, "point", &size);
+  out->body[0] = find_body(drawing, element, "body_a");
+  out->body[1] = find_body(drawing, element, "body_b");
+  if (!point || out->body[0] < 0 || out->body[1] < 0) {
+    return BAUM_OK;
+  }
+  out->element = element;
+  return set_points(drawing, point, size, out);
+}
+
+baum_status baum_i_find_places(baum_i_drawing *drawing)
+{
+  const baum_mechanism *m = drawing->mechanism;
+  for (int k = 0; k < drawing->place_count; k++) {
+    const baum_i_element *element =
+      k < m->joint_count ? &m->joints[k]->element : &m->forces[k - m->joint_count]->element;
+    BAUM_I_TRY(find_place(drawing, element, &drawing->places[k]));
+  }
+  return BAUM_OK;
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Centres and pitch circles of gears and pinions. */
+#include <string.h>
+
+#include <baum/planar_joints.h>
+
+#include "draw/drawing.h"
+#include "mechanism/identify.h"
+#include "mechanism/kinds.h"
+
+/* Finds the first revolute joint of a body, or else its centre of mass. */
+static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
+{
+  centre[0] = centre[1] = centre[2] = 0.0;
+  for (int k = 0; k < drawing->mechanism->joint_count; k++) {
+    const baum_i_place *place = &drawing->places[k];
+    if (!place->element || place->element->definition != baum_i_planar_revolute_definition) {
+      continue;
+    }
+    for (int side = 0; side < 2; side++) {
+      if (place->body[side] == body) {
+        centre[0] = place->point[side][0];
+        centre[1] = place->point[side][1];
+        return;
+      }
+    }
+  }
+}
+
+/* Radii of a gear may be given as numbers of teeth, so they are scaled to the distance between the
+ * centres. */
+double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
+                          double centre[3])
+{
+  const baum_planar_gear_def *def = joint->element.def;
+  int a = baum_i_body_index(drawing->mechanism, def->body_a);
+  int b = baum_i_body_index(drawing->mechanism, def->body_b);
+  if (body != a && body != b) {
+    return 0.0;
+  }
+  double at_a[3], at_b[3];
+  find_centre(drawing, a, at_a);
+  find_centre(drawing, b, at_b);
+  memcpy(centre, body == a ? at_a : at_b, sizeof at_a);
+  baum_i_draw_move(drawing, a, 0, (const double[3]){at_a[0], at_a[1], 0.0}, at_a);
+  baum_i_draw_move(drawing, b, 0, (const double[3]){at_b[0], at_b[1], 0.0}, at_b);
+  double between = hypot(at_b[0] - at_a[0], at_b[1] - at_a[1]);
+  double sum = fabs(def->radius_a + def->radius_b);
+  double radius = fabs(body == a ? def->radius_a : def->radius_b);
+  return sum > 0.0 ? radius * between / sum : 0.0;
+}
+
+double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3])
+{
+  for (int k = 0; k < drawing->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = drawing->mechanism->joints[k];
+    const baum_i_place *place = &drawing->places[k];
+    double radius = 0.0;
+    if (joint->element.definition == baum_i_planar_gear_definition) {
+      radius = baum_i_gear_radius(drawing, joint, body, centre);
+    } else if (joint->element.definition == baum_i_planar_rack_and_pinion_definition &&
+               place->body[1] == body) {
+      radius = fabs(baum_i_find_number(&joint->element, "radius"));
+      memcpy(centre, place->point[1], 3 * sizeof *centre);
+    }
+    if (radius > 0.0) {
+      return radius;
+    }
+  }
+  return 0.0;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The rotation of a rigid body without moments in a step h: symplectic, symmetric, of order 2.
+ *
+ * With principal moments I_0, I_1, I_2, a body with the angular momentum m in body axes has the
+ * energy
+ *
+ *   m.m / (2 I_1) + m_0^2 (1/I_0 - 1/I_1) / 2  +  m_2^2 (1/I_2 - 1/I_1) / 2
+ *
+ * The first two terms are the energy of a symmetric top, which rotates by exp(h m / I_1), then by
+ * exp(h m_0 (1/I_0 - 1/I_1)) about axis 0. The last term rotates the body about axis 2, half a step
+ * before the top's rotation and half a step after it (F. Fasso, J. Comput. Phys. 189 (2003)
+ * 527-538). The momentum in ground axes does not change. The rotation is exact for symmetric
+ * bodies, and for all bodies that rotate about a principal axis.
+ *
+ * I_1 is the middle moment. Axis 0 is chosen so that the term of axis 2 is the smaller one; in a
+ * slender body it is the long axis.
+ */
+#ifndef BAUM_I_INTEGRATE_FREE_ROTATION_H
+#define BAUM_I_INTEGRATE_FREE_ROTATION_H
+
+typedef struct baum_i_free_rotation {
+  double inverse_1; /* 1/I_1 */
+  double axis_0[3]; /* unit vectors in body axes */
+  double axis_2[3];
+  double excess_0; /* 1/I_0 - 1/I_1 */
+  double excess_2; /* 1/I_2 - 1/I_1 */
+  double largest;  /* 1/I of the smallest moment */
+} baum_i_free_rotation;
+
+baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9]);
+
+/* Advance the momentum, in body axes, by a step. w is the constant angular velocity, in body axes,
+ * that gives the same rotation. */
+void baum_i_rotate_freely(const baum_i_free_rotation *body, double h, double momentum[3],
+                          double w[3]);
+
+#endif

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Spring and damper in parallel on a coordinate c of a joint. With h = c_q and the force or torque
+ * T(c, c') of general/spring_law.h:
+ *
+ *   g   = -T h^T
+ *   g_q = -h^T (T_c h + T_c' (c')_q) - T (h^T)_q
+ *   g_v = -T_c' h^T h
+ *
+ * The type of the joint gives c and its derivatives.
+ */
+#include <math.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/general/columns.h"
+#include "mechanism/general/coordinate.h"
+#include "mechanism/general/spring_law.h"
+
+enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
+
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_joint_spring_def, joint, JOINT),
+  BAUM_I_FIELD(baum_joint_spring_def, coordinate, COORDINATE),
+  BAUM_I_NUMBERS(baum_joint_spring_def, stiffness, NOT_NEGATIVE, "N m/rad or N/m", 0.0),
+  BAUM_I_NUMBERS(baum_joint_spring_def, damping, NOT_NEGATIVE, "N m s/rad or N s/m", 0.0),
+  BAUM_I_OPTIONAL(baum_joint_spring_def, free_value, OPTIONAL, "rad or m"),
+  BAUM_I_FIELD(baum_joint_spring_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_joint_spring_def, user, USER),
+  BAUM_I_FIELD(baum_joint_spring_def, depends_on_velocity, CLAIM),
+  {0},
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  static const baum_i_coordinate_fields names = {"joint", "coordinate", "for a spring"};
+  const baum_joint_spring_def *def = given;
+  return baum_i_check_coordinate(mechanism, def->joint, def->coordinate, label, &names);
+}
+
+static bool depends_on_velocity(const void *given)
+{
+  const baum_joint_spring_def *def = given;
+  return def->law ? def->depends_on_velocity : def->damping != 0.0;
+}
+
+static baum_i_joint_coordinate sprung(const baum_mechanism *mechanism, const baum_i_force *force)
+{
+  const baum_joint_spring_def *def = force->element.def;
+  return baum_i_joint_coordinate_of(mechanism, def->joint, def->coordinate);
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  const baum_joint_spring_def *def = force->element.def;
+  const baum_i_joint_coordinate of = sprung(mechanism, force);
+  parameters[BAUM_I_STIFFNESS] = def->stiffness;
+  parameters[BAUM_I_DAMPING] = def->damping;
+  parameters[BAUM_I_FREE_LENGTH] =
+    isnan(def->free_value) ? baum_i_design_coordinate(mechanism, &of) : def->free_value;
+  return BAUM_OK;
+}
+
+/* ---- one spring ---- */
+
+typedef struct spring {
+  baum_i_joint_coordinate of;
+  baum_i_spring_law law;
+  baum_i_coordinate c;
+} spring;
+
+static spring spring_at(const baum_i_force *force, const baum_i_point *point)
+{
+  const baum_joint_spring_def *def = force->element.def;
+  spring s = {.of = sprung(point->mechanism, force),
+              .law = {.element = &force->element,
+                      .numbers = point->parameters + force->element.parameter,
+                      .law = def->law,
+                      .user = def->user,
+                      .depends_on_rate = def->depends_on_velocity}};
+  baum_i_coordinate_at(&s.of, point, &s.c);
+  return s;
+}
+
+/* ---- type ---- */
+
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const spring s = spring_at(group->forces[i], point);
+    const int width = s.of.joint->type->width;
+    baum_i_tension t;
+    BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.c.value, s.c.rate, &t));
+    double wide[COLUMNS];
+    for (int k = 0; k < 2 * width; k++) {
+      wide[k] = -t.value * s.c.gradient[k];
+    }
+    baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, width, wide, out);
+  }
+  return BAUM_OK;
+}
+
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
+{
+  const spring s = spring_at(element, point);
+  *sum += baum_i_spring_potential(&s.law, s.c.value);
+  return BAUM_OK;
+}
+
+static baum_status power(const baum_i_force *element, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  const spring s = spring_at(element, point);
+  return baum_i_spring_power(&s.law, point, s.c.value, s.c.rate, sum);
+}
+
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  const spring s = spring_at(element, point);
+  const int width = s.of.joint->type->width;
+  const int columns = 2 * width;
+  const double *h = s.c.gradient;
+  baum_i_tension t;
+  BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.c.value, s.c.rate, &t));
+  const double unused[COLUMNS] = {0.0};
+  baum_i_coordinate_blocks c;
+  baum_i_coordinate_linearize(&s.of, point, unused, t.value, &c);
+  double force_q[COLUMNS * COLUMNS];
+  double force_v[COLUMNS * COLUMNS];
+  for (int i = 0; i < columns; i++) {
+    for (int k = 0; k < columns; k++) {
+      int at = columns * i + k;
+      force_q[at] = -h[i] * (t.by_length * h[k] + t.by_rate * c.rate_q[k]) - c.jtl_q[at];
+      force_v[at] = -t.by_rate * h[i] * h[k];
+    }
+  }
+  baum_i_columns_pack_force(point->mechanism, element, width, force_q, blocks->force_q);
+  baum_i_columns_pack_force(point->mechanism, element, width, force_v, blocks->force_v);
+  return BAUM_OK;
+}
+
+static baum_status check_derivatives(const void *element, baum_i_point *point)
+{
+  const spring s = spring_at(element, point);
+  double scale = baum_i_is_angle(&s.of) ? 1.0 : point->mechanism->length;
+  return baum_i_check_spring_law(&s.law, point, s.c.value, s.c.rate, scale);
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "joint spring",
+                 .size = sizeof(baum_joint_spring_def),
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = BAUM_I_SPRING_NUMBERS,
+                 .check_derivatives = check_derivatives},
+  .lower = lower,
+  .force = force,
+  .depends_on_velocity = depends_on_velocity,
+  .potential = potential,
+  .linearize = linearize,
+  .power = power,
+};
+
+BAUM_I_DEFINE(force, joint_spring, type)

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Objects on which test_calls_losing_memory.c calls functions. Include after cmocka.h. */
+#ifndef BAUM_TEST_LOSING_MEMORY_SCENE_H
+#define BAUM_TEST_LOSING_MEMORY_SCENE_H
+
+#include <string.h>
+
+#include "every_element.h"
+#include "models.h"
+
+/* ---- scenes: the objects of a call ---- */
+
+/* Objects that a call needs, in the order in which they are made; STUDIED is a study of a
+ * pendulum. */
+typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
+
+typedef struct scene {
+  stage stage;
+  every_element parts;
+  baum_workspace *w;
+  double q[EVERY_NQ];
+  double v[EVERY_NV];
+  double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
+  baum_simulation *run;
+  baum_simulation *from; /* at a later time than run, with a schedule and a law of a driver */
+  model pendulum;
+  baum_study *study;
+} scene;
+
+static baum_simulation_options rk4_options(double step)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = step;
+  return o;
+}
+
+static baum_simulation *start(const scene *s)
+{
+  baum_simulation *run = NULL;
+  const baum_simulation_options o = rk4_options(1e-3);
+  assert_int_equal(baum_simulation_create(s->parts.mechanism, &o, &run), BAUM_OK);
+  return run;
+}
+
+static baum_status schedule(const scene *s, baum_simulation *run)
+{
+  const double times[2] = {6e-3, 8e-3};
+  const double values[2] = {0.9, 1.1};
+  return baum_simulation_schedule_input(run, s->parts.throttle, times, values, 2);
+}
+
+static baum_status drive(const scene *s, baum_simulation *run)
+{
+  return baum_simulation_set_driver(run, s->parts.motor, 0.5, 2.0, 0.3);
+}
+
+static void make_runs(scene *s)
+{
+  s->run = start(s);
+  s->from = start(s);
+  assert_int_equal(drive(s, s->from), BAUM_OK);
+  assert_int_equal(schedule(s, s->from), BAUM_OK);
+}
+
+static void make_study(scene *s)
+{
+  baum_study_options o = baum_study_options_default();
+  o.samples = 3;
+  o.repeats = 1;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &s->pendulum), BAUM_OK);
+  assert_int_equal(baum_study_create(s->pendulum.mechanism, 0.0, 0.05, &s->study), BAUM_OK);
+  assert_int_equal(baum_study_set_options(s->study, &o), BAUM_OK);
+  for (int k = 1; k <= 2; k++) {
+    const baum_simulation_options run = rk4_options(0.01 * k);
+    assert_int_equal(baum_study_add(s->study, &run), BAUM_OK);
+  }
+}
+
+static void make_scene(scene *s, stage wanted)
+{
+  *s = (scene){.stage = wanted};
+  if (wanted == STUDIED) {
+    make_study(s);
+  } else if (wanted >= OPEN) {
+    assert_int_equal(every_element_build(&s->parts), BAUM_OK);
+  }
+  if (wanted == FROZEN || wanted == RUNNING) {
+    assert_int_equal(baum_mechanism_freeze(s->parts.mechanism), BAUM_OK);
+    assert_int_equal(baum_workspace_create(s->parts.mechanism, &s->w), BAUM_OK);
+    assert_int_equal(baum_workspace_design(s->w, s->q, NULL), BAUM_OK);
+    memcpy(s->y, s->q, sizeof s->q);
+    s->q[0] += 1e-3; /* so that assembly has something to do */
+  }
+  if (wanted == RUNNING) {
+    make_runs(s);
+  }
+}
+
+static void end_scene(scene *s)
+{
+  baum_simulation_destroy(s->run);
+  baum_simulation_destroy(s->from);
+  baum_workspace_destroy(s->w);
+  baum_mechanism_destroy(s->parts.mechanism);
+  baum_study_destroy(s->study);
+  model_destroy(&s->pendulum);
+}
+
+#endif

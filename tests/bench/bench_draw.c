@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Size and writing time of pages and pictures.
+ *
+ * usage: bench_draw
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <baum/baum.h>
+#include <baum/catalog.h>
+
+#include "timing.h"
+
+enum { REPEATS = 20 };
+
+static void must(baum_status status)
+{
+  if (status < BAUM_OK) {
+    (void)fprintf(stderr, "%s\n", baum_message());
+    exit(1);
+  }
+}
+
+static void print_sizes(const char *name, const baum_mechanism *m, const baum_page *page)
+{
+  size_t svg = 0, html = 0;
+  double begin = timing_now();
+  for (int k = 0; k < REPEATS; k++) {
+    must(baum_mechanism_svg(m, NULL, NULL, 0, &svg));
+  }
+  double between = timing_now();
+  for (int k = 0; k < REPEATS; k++) {
+    must(baum_page_print(m, page, NULL, 0, &html));
+  }
+  double end = timing_now();
+  printf("%-14s %6d %7lld | %9.1f %8.2f | %9.1f %8.2f\n", name, (int)baum_mechanism_body_count(m),
+         (long long)page->count, (double)svg * 1e-3, 1e3 * (between - begin) / REPEATS,
+         (double)html * 1e-3, 1e3 * (end - between) / REPEATS);
+}
+
+/* A slider-crank of the catalogue with all positions and the reactions of its joints. */
+static void show_catalog(const char *name, int count, double end)
+{
+  baum_mechanism *m = NULL;
+  const baum_catalog_choice choice = {.name = name};
+  must(baum_catalog_build(&choice, &m));
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk4();
+  options.step = end / count;
+  baum_simulation *run = NULL;
+  must(baum_simulation_create(m, &options, &run));
+  baum_channel channels[32];
+  int used = 0;
+  channels[used++] = baum_channel_of(BAUM_Q);
+  for (int k = 0; k < baum_mechanism_joint_count(m) && used < 32; k++) {
+    channels[used++] = baum_channel_of_joint(BAUM_JOINT_REACTION, baum_mechanism_joint_at(m, k));
+  }
+  const int width = baum_channels_width(m, channels, used);
+  double *times = malloc((size_t)count * sizeof *times);
+  double *rows = malloc((size_t)count * (size_t)width * sizeof *rows);
+  for (int k = 0; times && k < count; k++) {
+    times[k] = end * k / (count - 1);
+  }
+  must(baum_simulation_sample(run, times, count, channels, used, rows, NULL));
+  baum_page page = baum_page_default();
+  page.times = times;
+  page.count = count;
+  page.channels = channels;
+  page.channel_count = used;
+  page.rows = rows;
+  print_sizes(name, m, &page);
+  free(rows);
+  free(times);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* A row of pendulums side by side, without a run: every sample is the design configuration. */
+static void show_many(int bodies, int count)
+{
+  baum_mechanism *m = NULL;
+  must(baum_mechanism_create(&m));
+  for (int k = 0; k < bodies; k++) {
+    baum_planar_body_def body = baum_planar_body_def_default();
+    baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+    body.position[0] = k;
+    body.position[1] = -1.0;
+    must(baum_mechanism_add_planar_body(m, &body, &pin.body_b));
+    pin.body_a = BAUM_GROUND;
+    pin.point[0] = k;
+    pin.point[1] = 0.0;
+    must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  }
+  must(baum_mechanism_freeze(m));
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  const int width = baum_channels_width(m, &channel, 1);
+  double *times = malloc((size_t)count * sizeof *times);
+  double *rows = malloc((size_t)count * (size_t)width * sizeof *rows);
+  for (int k = 0; times && rows && k < count; k++) {
+    times[k] = k;
+    for (int i = 0; i < width; i++) {
+      rows[k * width + i] = i % 3 == 0 ? i / 3 : i % 3 == 1 ? -1.0 : 1e-3 * k;
+    }
+  }
+  baum_page page = baum_page_default();
+  page.times = times;
+  page.count = count;
+  page.channels = &channel;
+  page.channel_count = 1;
+  page.rows = rows;
+  print_sizes("pendulums", m, &page);
+  free(rows);
+  free(times);
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  printf("%-14s %6s %7s | %9s %8s | %9s %8s\n", "mechanism", "bodies", "samples", "SVG [kB]",
+         "[ms]", "page [kB]", "[ms]");
+  show_catalog("slider_crank", 400, 0.1);
+  show_catalog("andrews_bodies", 400, 0.03);
+  show_many(1000, 2000);
+  return 0;
+}

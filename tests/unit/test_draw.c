@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Drawings and pages: every kind of element draws itself, the shape of a body follows from its
+ * joints, and names that a user gives cannot inject markup. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "assert_near.h"
+#include "draw/drawing.h"
+#include "every_element.h"
+#include "message.h"
+
+enum { BYTES = 1 << 18 };
+static const char HOSTILE[] = "</script></title><b>\"'&\\ \xd7\x90\xd7\x91";
+
+static void must(baum_status status)
+{
+  if (status != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+static int shapes_of(const baum_i_drawing *drawing, const char *name, baum_i_style style,
+                     baum_i_form form)
+{
+  int count = 0;
+  for (int k = 0; k < drawing->shape_count; k++) {
+    const baum_i_shape *shape = &drawing->shapes[k];
+    count +=
+      strcmp(shape->element->name, name) == 0 && shape->style == style && shape->form == form;
+  }
+  return count;
+}
+
+static void draw_design(const baum_mechanism *m, baum_i_drawing *out)
+{
+  must(baum_i_drawing_create(m, &(baum_i_samples){NULL, 0, 0}, out));
+}
+
+/* ---- every kind ---- */
+
+static bool is_drawn(const baum_i_drawing *drawing, const baum_i_element *element)
+{
+  for (int k = 0; k < drawing->shape_count; k++) {
+    if (drawing->shapes[k].element == element) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void every_element_with_a_place_is_drawn(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  must(every_element_build(&parts));
+  const baum_mechanism *m = parts.mechanism;
+  baum_i_drawing drawing;
+  draw_design(m, &drawing); /* not frozen */
+  assert_true(drawing.spatial);
+  for (int k = 1; k <= m->body_count; k++) {
+    assert_int_equal(is_drawn(&drawing, &m->bodies[k]->element),
+                     baum_i_frame_of(m->bodies[k]) != BAUM_I_FRAME_NONE);
+  }
+  for (int k = 0; k < m->joint_count; k++) {
+    assert_true(is_drawn(&drawing, &m->joints[k]->element));
+  }
+  for (int k = 0; k < m->force_count; k++) {
+    assert_true(is_drawn(&drawing, &m->forces[k]->element));
+  }
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  must(every_element_build(&parts));
+  baum_i_drawing drawing;
+  draw_design(parts.mechanism, &drawing);
+  for (int k = 0; k < drawing.point_count; k++) {
+    for (int i = 0; i < 3; i++) {
+      assert_true(isfinite(drawing.points[k][i]));
+    }
+  }
+  for (int k = 1; k < drawing.shape_count; k++) {
+    assert_true(drawing.shapes[k].style >= drawing.shapes[k - 1].style);
+    assert_true(isfinite(drawing.shapes[k].radius));
+  }
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- outlines ---- */
+
+static baum_body_id add_body(baum_mechanism *m, const char *name, double x, double y)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.name = name;
+  def.inertia = 0.02;
+  def.position[0] = x;
+  def.position[1] = y;
+  must(baum_mechanism_add_planar_body(m, &def, &id));
+  return id;
+}
+
+static void add_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b, double x,
+                    double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  def.name = name;
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  must(baum_mechanism_add_planar_revolute(m, &def, NULL));
+}
+
+static void add_slider(baum_mechanism *m, baum_body_id body)
+{
+  baum_planar_translational_def def = baum_planar_translational_def_default();
+  def.name = "guide";
+  def.body_a = BAUM_GROUND;
+  def.body_b = body;
+  def.point_a[0] = 0.0;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  must(baum_mechanism_add_planar_translational(m, &def, NULL));
+}
+
+/* A crank with two pins, a rod with three, a block on a guide, and a wheel. */
+static baum_mechanism *make_crank(void)
+{
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id crank = add_body(m, "crank", 0.5, 0.0);
+  baum_body_id rod = add_body(m, "rod", 2.0, 0.2);
+  baum_body_id block = add_body(m, "block", 3.0, 0.0);
+  baum_body_id wheel = add_body(m, HOSTILE, 2.0, 1.0);
+  add_pin(m, "O", BAUM_GROUND, crank, 0.0, 0.0);
+  add_pin(m, "A", crank, rod, 1.0, 0.0);
+  add_pin(m, "B", rod, block, 3.0, 0.0);
+  add_pin(m, "C", rod, wheel, 2.0, 1.0);
+  add_slider(m, block);
+  return m;
+}
+
+static void bodies_look_as_their_joints_make_them(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_crank();
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  assert_false(drawing.spatial);
+  ASSERT_NEAR(drawing.unit, 0.02 * 3.0, 1e-14, 0.0);
+  assert_int_equal(shapes_of(&drawing, "crank", BAUM_I_BODY, BAUM_I_LINE), 1); /* a bar */
+  assert_int_equal(shapes_of(&drawing, "rod", BAUM_I_BODY, BAUM_I_AREA), 1);   /* a triangle */
+  assert_int_equal(shapes_of(&drawing, "block", BAUM_I_BODY, BAUM_I_AREA), 1);
+  assert_int_equal(shapes_of(&drawing, HOSTILE, BAUM_I_WHEEL, BAUM_I_DISC), 1);
+  assert_int_equal(shapes_of(&drawing, "O", BAUM_I_GROUND, BAUM_I_LINE), 2); /* a foot, hatches */
+  assert_int_equal(shapes_of(&drawing, "A", BAUM_I_GROUND, BAUM_I_LINE), 0);
+  assert_int_equal(shapes_of(&drawing, "guide", BAUM_I_GROUND, BAUM_I_LINE), 1);
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
+static void inner_points_are_not_part_of_an_outline(void **state)
+{
+  (void)state;
+  static const double points[][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0},
+                                     {0.5, 0.5}, {0.5, 0.0}, {0.3, 0.6}};
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id plate = add_body(m, "plate", 0.5, 0.4);
+  for (size_t k = 0; k < sizeof points / sizeof *points; k++) {
+    add_pin(m, NULL, BAUM_GROUND, plate, points[k][0], points[k][1]);
+  }
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  for (int k = 0; k < drawing.shape_count; k++) {
+    if (drawing.shapes[k].style == BAUM_I_BODY) {
+      assert_int_equal(drawing.shapes[k].count, 4);
+    }
+  }
+  assert_int_equal(shapes_of(&drawing, "plate", BAUM_I_BODY, BAUM_I_AREA), 1);
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- pictures ---- */
+
+static char *print_svg(const baum_mechanism *m, const double *q)
+{
+  static char text[BYTES];
+  size_t size;
+  must(baum_mechanism_svg(m, q, text, sizeof text, &size));
+  assert_int_equal(strlen(text), size);
+  return text;
+}
+
+static void only_an_open_joint_has_a_red_line(void **state)
+{
+  (void)state;
+  static const char RED[] = "#e11d48";
+  double q[12];
+  baum_mechanism *m = make_crank();
+  must(baum_mechanism_freeze(m));
+  baum_workspace *w;
+  must(baum_workspace_create(m, &w));
+  must(baum_workspace_design(w, q, NULL));
+  assert_null(strstr(print_svg(m, NULL), RED));
+  assert_null(strstr(print_svg(m, q), RED));
+  q[6] += 0.1; /* the block */
+  assert_non_null(strstr(print_svg(m, q), RED));
+  q[6] = (double)NAN;
+  ASSERT_SAYS(baum_mechanism_svg(m, q, NULL, 0, NULL), BAUM_ERR_NOT_FINITE, "q[6]");
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
+static void names_stay_texts(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_crank();
+  const char *svg = print_svg(m, NULL);
+  assert_non_null(strstr(svg, "<title>&lt;/script>&lt;/title>&lt;b>\"'&amp;\\ \xd7\x90\xd7\x91<"));
+  assert_null(strstr(svg, "<b>"));
+  must(baum_mechanism_freeze(m));
+  static char text[BYTES];
+  const double time = 0.0;
+  const double q[12] = {0.0};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  const char *label = HOSTILE;
+  baum_page page = baum_page_default();
+  page.title = "</script></title>\n\t\x01\xff"; /* control characters, no UTF-8 */
+  page.times = page.plots = page.mark_times = &time;
+  page.count = page.channel_count = page.plot_count = page.mark_count = 1;
+  page.channels = &channel;
+  page.rows = q;
+  page.plot_labels = page.mark_texts = &label;
+  must(baum_page_print(m, &page, text, sizeof text, NULL));
+  assert_null(strstr(text, "</script></title>"));
+  int found = 0;
+  for (const char *at = text; (at = strstr(at, "\\u003c/script>\\u003c/title>")) != NULL; at++) {
+    found++;
+  }
+  assert_true(found >= 4); /* body, title, label, mark */
+  baum_mechanism_destroy(m);
+}
+
+static void wrong_calls_are_refused(void **state)
+{
+  (void)state;
+  char text[8];
+  const double q[12] = {0.0};
+  baum_mechanism *m = make_crank();
+  ASSERT_SAYS(baum_mechanism_svg(NULL, NULL, text, 8, NULL), BAUM_ERR_ARGUMENT,
+              "mechanism is NULL");
+  ASSERT_SAYS(baum_mechanism_svg(m, q, text, 8, NULL), BAUM_ERR_STATE, "baum_mechanism_svg");
+  ASSERT_SAYS(baum_mechanism_svg(m, NULL, NULL, 8, NULL), BAUM_ERR_ARGUMENT, "text is NULL");
+  ASSERT_SAYS(baum_mechanism_write_svg(m, NULL, ""), BAUM_ERR_ARGUMENT, "path is NULL or empty");
+  baum_page page = baum_page_default();
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_STATE, "baum_page_print");
+  must(baum_mechanism_freeze(m));
+  ASSERT_SAYS(baum_page_print(m, NULL, text, 8, NULL), BAUM_ERR_ARGUMENT, "page is NULL");
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "times and rows");
+  page.times = page.rows = q;
+  page.count = 1;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "channels");
+  baum_channel channel = baum_channel_of(BAUM_V);
+  page.channels = &channel;
+  page.channel_count = 1;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "BAUM_Q");
+  channel.quantity = BAUM_Q;
+  must(baum_page_print(m, &page, text, 8, NULL));
+  assert_string_equal(text, "<!DOCTY");
+  page.traces = &channel;
+  page.trace_count = 1;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "traces[0]");
+  page.trace_count = 0;
+  page.plot_count = 1;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "plot_labels");
+  page.plot_count = 0;
+  page.mark_count = -1;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
+  page.struct_size = 8;
+  ASSERT_SAYS(baum_page_write(m, &page, "page.html"), BAUM_ERR_STRUCT, "struct_size");
+  baum_mechanism_destroy(m);
+}
+
+/* ---- thinning ---- */
+
+static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
+{
+  (void)state;
+  enum { N = 5000, NQ = 12 };
+  static double times[N], rows[N][NQ], plot[N];
+  static char text[BYTES];
+  baum_mechanism *m = make_crank();
+  must(baum_mechanism_freeze(m));
+  for (int k = 0; k < N; k++) {
+    times[k] = k;
+    plot[k] = k == 1234 ? 7.25 : k == 4321 ? -3.5 : 0.0;
+  }
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  const char *label = "peak [m]";
+  baum_page page = baum_page_default();
+  page.times = times;
+  page.count = N;
+  page.channels = &channel;
+  page.channel_count = page.plot_count = 1;
+  page.rows = rows[0];
+  page.plots = plot;
+  page.plot_labels = &label;
+  must(baum_page_print(m, &page, text, sizeof text, NULL));
+  const char *frames = strstr(text, "\"frames\":");
+  assert_non_null(frames);
+  int count = 0;
+  for (frames += strlen("\"frames\":"); *frames >= '0' && *frames <= '9'; frames++) {
+    count = 10 * count + *frames - '0';
+  }
+  assert_in_range(count, 300, 600);
+  assert_non_null(strstr(text, "[-3.5,7.25]"));
+  assert_non_null(strstr(text, "[0,4999]")); /* begin and end */
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_element_with_a_place_is_drawn),
+    cmocka_unit_test(all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles),
+    cmocka_unit_test(bodies_look_as_their_joints_make_them),
+    cmocka_unit_test(inner_points_are_not_part_of_an_outline),
+    cmocka_unit_test(only_an_open_joint_has_a_red_line),
+    cmocka_unit_test(names_stay_texts),
+    cmocka_unit_test(wrong_calls_are_refused),
+    cmocka_unit_test(a_long_run_keeps_600_frames_and_its_extremes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
