@@ -32,7 +32,9 @@ extern "C" {
 /* ---- one configuration ----------------------------------------------------------------------- */
 
 /** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
- *  view from above. A red line joins the two points of a joint that is open.
+ *  view from above. Red lines show where a joint is open: between points that should coincide, from
+ *  a point to the line, plane or curve on which it should be, and between axes that should be
+ *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -50,6 +52,18 @@ BAUM_API baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const d
  *  @return  as baum_mechanism_svg(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
                                               const char *path);
+
+/** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
+ *  configuration at which assembly gave up: red lines show the joints that contradict each other.
+ *  @param      mechanism  need not be frozen
+ *  @param[out] text       (capacity) as in baum_mechanism_svg()
+ *  @param      capacity   [byte]
+ *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
+ *  @return  BAUM_OK, also if the constraints contradict each other; BAUM_ERR_ARGUMENT,
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY, and what
+ *           baum_mechanism_freeze() returns if the mechanism is not frozen */
+BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanism, char *text,
+                                                  size_t capacity, size_t *size);
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 

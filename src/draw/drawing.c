@@ -2,6 +2,7 @@
 /* The list of shapes of a mechanism. */
 #include "draw/drawing.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -19,11 +20,11 @@ const char *baum_i_style_name(baum_i_style style)
 
 const char *baum_i_form_name(baum_i_form form)
 {
-  static const char *const names[] = {"line", "area", "disc", "ball", "box", "between", "arrow"};
+  static const char *const names[] = {"line",    "area",  "disc",    "ball",     "box",
+                                      "between", "arrow", "to line", "to plane", "to sphere"};
   return names[form];
 }
 
-/* Keeps the shapes in the order of their styles. */
 void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const double (*points)[3])
 {
   const int wanted = drawing->point_count + count;
@@ -40,11 +41,20 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shape.count = count;
   memcpy(grown + shape.first, points, (size_t)count * sizeof *points);
   drawing->point_count = wanted;
-  int k = drawing->shape_count++;
-  for (; k > 0 && shapes[k - 1].style > shape.style; k--) {
-    shapes[k] = shapes[k - 1];
+  shapes[drawing->shape_count++] = shape;
+}
+
+/* Shapes of one style keep the order in which they were added, which is that of their points. */
+static int compare(const void *a, const void *b)
+{
+  const baum_i_shape *x = a, *y = b;
+  if (x->style != y->style) {
+    return x->style < y->style ? -1 : 1;
   }
-  shapes[k] = shape;
+  if (x->style == BAUM_I_WHEEL && x->radius != y->radius) {
+    return x->radius > y->radius ? -1 : 1;
+  }
+  return x->first - y->first;
 }
 
 /* ---- the whole ---- */
@@ -137,7 +147,9 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   }
   for (int k = 0; k < out->place_count; k++) {
     baum_i_draw_symbol(out, k);
+    baum_i_draw_gaps(out, &out->places[k]);
   }
+  qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 

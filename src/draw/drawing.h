@@ -15,15 +15,19 @@ typedef enum baum_i_form {
   BAUM_I_DISC,    /* centre; normal */
   BAUM_I_BALL,    /* centre */
   BAUM_I_BOX,     /* centre; half of the edges, along the axes of the body */
-  BAUM_I_BETWEEN, /* from a point on `body` to one on `other` */
-  BAUM_I_ARROW    /* from a point on `body` along a vector in the axes of `other` */
+  BAUM_I_BETWEEN, /* from a point on `body` to one on `other`; moved to the left by y of a third */
+  BAUM_I_ARROW,   /* from a point on `body` along a vector in the axes of `other` */
+  /* from a point on `body` to the nearest point of what is given on `other`: */
+  BAUM_I_TO_LINE,  /* the line through all further points */
+  BAUM_I_TO_PLANE, /* a plane: point; normal */
+  BAUM_I_TO_SPHERE /* a sphere: centre; radius, 0, 0 */
 } baum_i_form;
 
-/* STYLE(name). Pictures of the plane draw them in this order. */
+/* STYLE(name). Pictures of the plane draw them in this order, larger wheels before smaller ones. */
 #define BAUM_I_STYLES(STYLE) \
   STYLE(GUIDE, guide)        \
-  STYLE(GROUND, ground)      \
   STYLE(WHEEL, wheel)        \
+  STYLE(GROUND, ground)      \
   STYLE(BODY, body)          \
   STYLE(MARK, mark)          \
   STYLE(PITCH, pitch)        \
@@ -115,6 +119,14 @@ bool baum_i_has_field(const baum_i_element *element, const char *name);
 /* Set the places of all joints and forces. Needs the design frames. */
 baum_status baum_i_find_places(baum_i_drawing *drawing);
 
+/* Transform a point of a body to ground axes. */
+static inline void baum_i_to_ground(const baum_i_spatial_frame *frame, const double point[3],
+                                    double out[3])
+{
+  baum_i_turn(frame->axes, point, out);
+  baum_i_add_scaled3(1.0, frame->r, out);
+}
+
 /* Transform the vector x from the axes of body `from` to the axes of body `to`, in the design
  * configuration. */
 void baum_i_draw_turn(const baum_i_drawing *drawing, int from, int to, const double x[3],
@@ -131,12 +143,27 @@ void baum_i_draw_body(baum_i_drawing *drawing, int body);
 /* Draw a joint (number k) or a force (number joint_count + k). */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
 
+/* ---- gaps.c ---- */
+
+/* Draw what shows that a joint is open, see docs/drawings.md. */
+void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place);
+
+/* Draw the gap between body_b's point and a line through points on body_a. */
+void baum_i_draw_gap_to_line(baum_i_drawing *drawing, const baum_i_place *place, int count,
+                             const double (*line)[3]);
+
+/* Find the two ends of a shape that connects bodies, in ground axes. An arrow is 8 units long. */
+void baum_i_find_ends(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
+                      const baum_i_shape *shape, double from[3], double to[3]);
+
 /* ---- wheels.c ---- */
 
-/* Return the radius of a body's pitch circle in this gear, or in any joint, and the centre in the
- * body's axes. 0 if the body is no wheel. */
+/* Return the radius of a body's pitch circle in this gear, and the centre in the body's axes; 0 if
+ * the body is no wheel of it. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3]);
+/* Return the radius of a wheel's outline, slightly larger than its pitch circle in any joint; 0 if
+ * the body is no wheel. */
 double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3]);
 
 #endif

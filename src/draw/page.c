@@ -14,6 +14,7 @@
 #include "base/file.h"
 #include "base/sized.h"
 #include "draw/drawing.h"
+#include "mechanism/definition.h"
 #include "mechanism/identify.h"
 #include "simulate/run.h"
 
@@ -89,19 +90,27 @@ static baum_status check_given(const baum_page *page, const char *call)
                     page->mark_times, page->mark_texts);
 }
 
+/* Copies the page of the caller. Fields that an older version lacks keep their defaults. */
+static baum_status take_page(const baum_page *given, const char *call, baum_page *page)
+{
+  if (!given) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: page is NULL", call);
+  }
+  if (!baum_i_is_struct_size(given->struct_size, sizeof *given)) {
+    return baum_i_fail(BAUM_ERR_STRUCT,
+                       "%s: struct_size of the page is %zu, must be %zu, or that of an older "
+                       "version; start from baum_page_default()",
+                       call, given->struct_size, sizeof *given);
+  }
+  *page = baum_page_default();
+  memcpy(page, given, given->struct_size);
+  page->struct_size = sizeof *page;
+  return BAUM_OK;
+}
+
 static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,
                          int *width)
 {
-  BAUM_I_TRY(baum_i_check_frozen(m, call));
-  if (!page) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: page is NULL", call);
-  }
-  if (page->struct_size != sizeof *page) {
-    return baum_i_fail(
-      BAUM_ERR_STRUCT,
-      "%s: struct_size of the page is %zu, must be %zu; begin with baum_page_default()", call,
-      page->struct_size, sizeof *page);
-  }
   BAUM_I_TRY(check_given(page, call));
   BAUM_I_TRY(baum_i_check_channels(m, page->channels, page->channel_count, width));
   if (page->trace_count > 0) {
@@ -398,10 +407,13 @@ static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *ou
 static baum_status make(const baum_mechanism *mechanism, const baum_page *page, const char *call,
                         baum_i_buffer *out)
 {
-  table t = {.mechanism = mechanism, .page = page};
-  BAUM_I_TRY(check(mechanism, page, call, &t.width));
+  baum_page checked;
+  table t = {.mechanism = mechanism, .page = &checked};
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
+  BAUM_I_TRY(take_page(page, call, &checked));
+  BAUM_I_TRY(check(mechanism, &checked, call, &t.width));
   baum_i_drawing drawing;
-  const baum_i_samples motion = {page->rows + find_positions(&t), page->count, t.width};
+  const baum_i_samples motion = {checked.rows + find_positions(&t), checked.count, t.width};
   baum_status status = baum_i_drawing_create(mechanism, &motion, &drawing);
   if (status == BAUM_OK) {
     status = put_page(&t, &drawing, out);

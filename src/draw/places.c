@@ -86,6 +86,11 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
     baum_i_turn_back(drawing->design[place->body[0]].axes, ground, axis);
   }
   baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
+  given = find_field(place->element, "angle", &size);
+  if (given && !isnan(*given)) { /* of a guide in the plane: the given relative orientation */
+    axis_b[0] = cos(*given) * axis[0] + sin(*given) * axis[1];
+    axis_b[1] = cos(*given) * axis[1] - sin(*given) * axis[0];
+  }
   given = find_field(place->element, "axis_b", &size);
   if (given && !isnan(*given)) {
     memcpy(axis_b, given, size);

@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "draw/drawing.h"
+#include "dynamics/snapshot.h"
 #include "mechanism/identify.h"
 
 enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22, CIRCLE = 24 };
@@ -61,8 +62,7 @@ typedef struct picture {
 static void project(const picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
-  baum_i_turn(p->frames[body].axes, point, at);
-  baum_i_add_scaled3(1.0, p->frames[body].r, at);
+  baum_i_to_ground(&p->frames[body], point, at);
   baum_i_turn(p->view, at, out);
 }
 
@@ -98,19 +98,20 @@ static const double *point_of(const picture *p, const baum_i_shape *shape, int k
   return p->drawing->points[shape->first + k];
 }
 
-/* Projects the second end of a line between bodies or of an arrow. */
-static void project_end(const picture *p, const baum_i_shape *shape, double out[3])
+/* Projects the ends of a shape that connects bodies. Returns the length [m]. */
+static double project_ends(const picture *p, const baum_i_shape *shape, double out[2][3])
 {
-  if (shape->form == BAUM_I_BETWEEN) {
-    project(p, shape->other, point_of(p, shape, 1), out);
-    return;
-  }
-  double vector[3], seen_vector[3]; /* the arrow is 8 units long */
-  baum_i_turn(p->frames[shape->other].axes, point_of(p, shape, 1), vector);
-  baum_i_turn(p->view, vector, seen_vector);
-  project(p, shape->body, point_of(p, shape, 0), out);
-  double length = sqrt(baum_i_dot3(vector, vector));
-  baum_i_add_scaled3(8.0 * p->drawing->unit / length, seen_vector, out);
+  double at[2][3];
+  baum_i_find_ends(p->drawing, p->frames, shape, at[0], at[1]);
+  baum_i_turn(p->view, at[0], out[0]);
+  baum_i_turn(p->view, at[1], out[1]);
+  baum_i_add_scaled3(-1.0, at[0], at[1]);
+  return sqrt(baum_i_dot3(at[1], at[1]));
+}
+
+static bool connects(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
 static double mean_depth(const picture *p, const baum_i_shape *shape)
@@ -131,6 +132,12 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
+/* Shorter gaps are not shown. */
+static bool is_open(const picture *p, double length)
+{
+  return length > 0.2 * p->drawing->unit;
+}
+
 static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_box *box)
 {
   bool many = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
@@ -139,12 +146,17 @@ static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_bo
     const double *half = point_of(p, shape, 1);
     radius = sqrt(baum_i_dot3(half, half));
   }
+  if (connects(shape)) {
+    double ends[2][3];
+    double length = project_ends(p, shape, ends);
+    if (shape->style != BAUM_I_GAP || is_open(p, length)) {
+      include(ends[0], radius, box);
+      include(ends[1], radius, box);
+    }
+    return;
+  }
   for (int k = 0; k < (many ? shape->count : 1); k++) {
     project(p, shape->body, point_of(p, shape, k), at);
-    include(at, radius, box);
-  }
-  if (shape->form == BAUM_I_BETWEEN || shape->form == BAUM_I_ARROW) {
-    project_end(p, shape, at);
     include(at, radius, box);
   }
 }
@@ -269,16 +281,19 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
 }
 
 /* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
- * radii. */
+ * radii. A third point of the shape moves all except the ends to the left. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
   double at[COIL][3];
   const double d[2] = {ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]};
-  const double across = shape->radius / hypot(d[0], d[1]);
+  const double length = hypot(d[0], d[1]);
+  const double shift = shape->count > 2 ? point_of(p, shape, 2)[1] : 0.0;
   for (int k = 0; k < count; k++) {
-    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * xy[k][1] * d[1];
-    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * xy[k][1] * d[0];
+    bool inner = xy[k][0] > 0.0 && xy[k][0] < 1.0;
+    double across = (shape->radius * xy[k][1] + (inner ? shift : 0.0)) / length;
+    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * d[1];
+    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * d[0];
   }
   baum_i_shape thin = *shape;
   thin.radius = 0.0;
@@ -299,25 +314,24 @@ static void put_coil(const picture *p, const baum_i_shape *shape, const double (
 
 static void put_damper(const picture *p, const baum_i_shape *shape, const double (*ends)[3])
 {
-  static const double rod[2][2] = {{0.0, 0.0}, {0.3, 0.0}};
+  static const double rod[3][2] = {{0.0, 0.0}, {0.15, 0.0}, {0.3, 0.0}};
   static const double cylinder[4][2] = {{0.7, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {0.7, 1.0}};
-  static const double piston[4][2] = {{1.0, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
-  put_along(p, shape, ends, 2, rod);
+  static const double piston[5][2] = {{1.0, 0.0}, {0.85, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
+  put_along(p, shape, ends, 3, rod);
   put_along(p, shape, ends, 4, cylinder);
-  put_along(p, shape, ends, 4, piston);
+  put_along(p, shape, ends, 5, piston);
 }
 
 static void put_between(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
-  project(p, shape->body, point_of(p, shape, 0), ends[0]);
-  project_end(p, shape, ends[1]);
-  double length = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
-  if (length > 0.0 && shape->style == BAUM_I_SPRING) {
+  double length = project_ends(p, shape, ends);
+  double seen = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+  if (seen > 0.0 && shape->style == BAUM_I_SPRING) {
     put_coil(p, shape, (const double(*)[3])ends);
-  } else if (length > 0.0 && shape->style == BAUM_I_DAMPER) {
+  } else if (seen > 0.0 && shape->style == BAUM_I_DAMPER) {
     put_damper(p, shape, (const double(*)[3])ends);
-  } else if (shape->style != BAUM_I_GAP || length > 0.2 * p->drawing->unit) {
+  } else if (shape->style != BAUM_I_GAP || is_open(p, length)) {
     put_line(p, shape, 2, (const double(*)[3])ends, false);
   }
 }
@@ -326,13 +340,13 @@ static void put_between(const picture *p, const baum_i_shape *shape)
 static void put_arrow(const picture *p, const baum_i_shape *shape)
 {
   static const double tip[4][2] = {{0.0, 0.0}, {1.2, 0.5}, {0.0, 0.0}, {1.2, -0.5}};
-  double from[3], to[3], at[9][3];
-  project(p, shape->body, point_of(p, shape, 0), from);
-  project_end(p, shape, to);
+  double ends[2][3], at[9][3];
+  (void)project_ends(p, shape, ends);
+  const double *from = ends[0], *to = ends[1];
   const double d[2] = {to[0] - from[0], to[1] - from[1]};
   const double size = p->drawing->unit / fmax(hypot(d[0], d[1]), p->drawing->unit);
   const int count = shape->style == BAUM_I_MOMENT ? 9 : 5;
-  memcpy(at[0], from, sizeof from);
+  memcpy(at[0], from, sizeof at[0]);
   for (int k = 1; k < count; k++) {
     double back = size * (tip[(k - 1) % 4][0] + (k > 4 ? 0.8 : 0.0));
     double side = size * tip[(k - 1) % 4][1];
@@ -366,8 +380,11 @@ static void put_shape(const picture *p, const baum_i_shape *shape)
   switch (shape->form) {
   case BAUM_I_BALL: put_circle(p, shape, at); break;
   case BAUM_I_DISC: put_disc(p, shape); break;
-  case BAUM_I_BETWEEN: put_between(p, shape); break;
   case BAUM_I_ARROW: put_arrow(p, shape); break;
+  case BAUM_I_BETWEEN:
+  case BAUM_I_TO_LINE:
+  case BAUM_I_TO_PLANE:
+  case BAUM_I_TO_SPHERE: put_between(p, shape); break;
   case BAUM_I_BOX:
     for (int face = 0; face < 6; face++) {
       put_face(p, shape, face / 2, face % 2 ? 1.0 : -1.0);
@@ -485,6 +502,42 @@ static baum_status make(const baum_mechanism *mechanism, const double *q, const 
   baum_i_drawing_release(&drawing);
   return status;
 }
+
+/* ---- the assembled configuration ---- */
+
+typedef struct assembled {
+  size_t struct_size;
+  baum_i_buffer *out;
+} assembled;
+
+/* Draws the assembled configuration, or where assembly gave up. */
+static baum_status draw_assembled(baum_workspace *w, double *q, void *whole)
+{
+  const baum_mechanism *m = w->mechanism;
+  assembled *drawn = whole;
+  memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
+  baum_status status = baum_i_assemble_closest(w, 0.0, q, m->held);
+  return status == BAUM_OK || status == BAUM_ERR_INCONSISTENT
+           ? make(m, q, "baum_mechanism_svg_assembled", drawn->out)
+           : status;
+}
+
+baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanism, char *text,
+                                         size_t capacity, size_t *size)
+{
+  const char *call = "baum_mechanism_svg_assembled";
+  baum_i_buffer out = {0};
+  assembled drawn = {sizeof drawn, &out}, ignored = {0};
+  const baum_i_snapshot_out to = {call, &ignored, sizeof ignored, &drawn, sizeof drawn};
+  baum_status status = baum_i_snapshot(mechanism, draw_assembled, &to);
+  if (status == BAUM_OK) {
+    status = baum_i_give_text(&out, call, text, capacity, size);
+  }
+  baum_i_buffer_clear(&out);
+  return status;
+}
+
+/* ---- a given configuration ---- */
 
 baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q, char *text,
                                size_t capacity, size_t *size)

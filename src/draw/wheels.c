@@ -8,6 +8,9 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
+/* In units: height of a tooth over the pitch circle; width of a ring around its own. */
+static const double TOOTH = 0.6, RING = 1.8;
+
 /* Finds the first revolute joint of a body, or else its centre of mass. */
 static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
 {
@@ -55,16 +58,19 @@ double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centr
   for (int k = 0; k < drawing->mechanism->joint_count; k++) {
     const baum_i_joint *joint = drawing->mechanism->joints[k];
     const baum_i_place *place = &drawing->places[k];
-    double radius = 0.0;
+    double radius = 0.0, rim = TOOTH;
     if (joint->element.definition == baum_i_planar_gear_definition) {
+      const baum_planar_gear_def *def = joint->element.def;
       radius = baum_i_gear_radius(drawing, joint, body, centre);
+      bool is_a = baum_i_body_index(drawing->mechanism, def->body_a) == body;
+      rim = (is_a ? def->radius_a : def->radius_b) > 0.0 ? TOOTH : RING;
     } else if (joint->element.definition == baum_i_planar_rack_and_pinion_definition &&
                place->body[1] == body) {
       radius = fabs(baum_i_find_number(&joint->element, "radius"));
       memcpy(centre, place->point[1], 3 * sizeof *centre);
     }
     if (radius > 0.0) {
-      return radius;
+      return radius + rim * drawing->unit;
     }
   }
   return 0.0;

@@ -155,7 +155,7 @@ static double worst_displacement(const assembly *s, const double *rows)
 
 /* Fail and name the joints whose violations are at least a tenth of the largest. */
 static baum_status fail_inconsistent(const assembly *s, const double *rows, const char *what,
-                                     const char *unit)
+                                     const char *unit, const char *hint)
 {
   const baum_mechanism *m = s->w->mechanism;
   double worst = worst_displacement(s, rows);
@@ -173,8 +173,8 @@ static baum_status fail_inconsistent(const assembly *s, const double *rows, cons
                            baum_i_joint_label(m, joint, label), rows[i], unit);
     last = joint;
   }
-  return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s", s->t,
-                     what, text);
+  return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s%s", s->t,
+                     what, text, hint);
 }
 
 /* ---- positions ---- */
@@ -268,7 +268,7 @@ static baum_status assemble_positions(assembly *s)
   return worst_displacement(s, s->w->phi) <= CONSISTENT
            ? BAUM_OK
            : fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
-                               "left");
+                               "left", "; baum_mechanism_svg_assembled() shows where");
 }
 
 /* Refuse axes that have become opposite instead of parallel, because the rows hold for both. */
@@ -354,15 +354,16 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   double rounding = NO_RATE + NO_SWING * baum_i_swing_rate(m);
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + rounding)) {
     return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",
-                             "per s left");
+                             "per s left", "");
   }
   return BAUM_OK;
 }
 
 /* ---- assembly ---- */
 
+/* If `closest`, q is also set if the rows contradict each other. */
 static baum_status assemble(baum_workspace *workspace, double t, double *q, double *v,
-                            const bool *held, const double *left)
+                            const bool *held, const double *left, bool closest)
 {
   size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
@@ -388,11 +389,11 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
     memcpy(velocity, v, nv * sizeof *v);
     status = complete_velocities(&s, velocity, given);
   }
-  if (status == BAUM_OK) {
+  if (status == BAUM_OK || (closest && status == BAUM_ERR_INCONSISTENT)) {
     memcpy(q, s.q, nq * sizeof *q);
-    if (v) {
-      memcpy(v, velocity, nv * sizeof *v);
-    }
+  }
+  if (status == BAUM_OK && v) {
+    memcpy(v, velocity, nv * sizeof *v);
   }
   workspace->mass_ready = false;
   baum_i_free(memory);
@@ -403,11 +404,17 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held)
 {
-  return assemble(workspace, t, q, v, held, NULL);
+  return assemble(workspace, t, q, v, held, NULL, false);
 }
 
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left)
 {
-  return assemble(workspace, t, q, NULL, held, left);
+  return assemble(workspace, t, q, NULL, held, left, false);
+}
+
+baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
+                                    const bool *held)
+{
+  return assemble(workspace, t, q, NULL, held, NULL, true);
 }

@@ -307,6 +307,11 @@ CALL(baum_mechanism_svg)
   return baum_mechanism_svg(s->parts.mechanism, s->q, NULL, 0, NULL);
 }
 
+CALL(baum_mechanism_svg_assembled)
+{
+  return baum_mechanism_svg_assembled(s->parts.mechanism, NULL, 0, NULL);
+}
+
 CALL(baum_mechanism_write_svg)
 {
   return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
@@ -383,6 +388,7 @@ static const call CALLS[] = {
   ROW(baum_study_print, STUDIED),
   ROW(baum_study_write, STUDIED),
   ROW(baum_mechanism_svg, FROZEN),
+  ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
   ROW(baum_page_print, FROZEN),
   ROW(baum_page_write, FROZEN),

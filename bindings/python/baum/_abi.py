@@ -1286,6 +1286,7 @@ PROTOTYPES = {
     ]),
     "baum_mechanism_svg": (c_int, [c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_mechanism_write_svg": (c_int, [c_void_p, c_void_p, c_char_p]),
+    "baum_mechanism_svg_assembled": (c_int, [c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_page_init": (None, [POINTER(baum_page), c_size_t]),
     "baum_page_write": (c_int, [c_void_p, POINTER(baum_page), c_char_p]),
     "baum_page_print": (c_int, [

@@ -94,7 +94,11 @@ def _print(mechanism: Mechanism, function: Any, *arguments: Any) -> str:
     return str(room.value, "utf-8")
 
 
-def draw(mechanism: Mechanism, q: ArrayLike | None) -> Drawing:
+def draw(mechanism: Mechanism, q: ArrayLike | str | None) -> Drawing:
+    if isinstance(q, str):
+        if q != "assembled":
+            raise ValueError(f'q is {q!r}, must be positions, "assembled" or None')
+        return Drawing(_print(mechanism, lib.baum_mechanism_svg_assembled))
     given = None if q is None else vector(q, mechanism.sizes.nq, "q")
     return Drawing(_print(mechanism, lib.baum_mechanism_svg, address(given)))
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import ctypes
 import inspect
 import weakref
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -448,12 +448,14 @@ class Mechanism(Adding, AddingInSpace):
             raise KeyError(f"no channel {value!r}; {name!r} has {', '.join(_channels(element))}")
         return channel
 
-    def draw(self, q: ArrayLike | None = None) -> Drawing:
-        """A picture of the design configuration, or of positions q (nq) [m], [rad], which need a
-        frozen mechanism. Notebooks show it; save("x.svg") writes it. A red line joins the two
-        points of a joint that is open.
+    def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
+        """A picture of the design configuration, of the "assembled" configuration, or of positions
+        q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
+        it.
 
-        Bodies draw themselves from the points of their joints, or as large as their inertia.
+        Red lines show where a joint is open: between points that should coincide, from a point to
+        the line, plane or curve on which it should be, and between axes that should be parallel. If
+        the mechanism cannot be assembled, "assembled" shows where assembly gave up.
         """
         return drawings.draw(self, q)
 
