@@ -132,10 +132,11 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
-/* Shorter gaps are not shown. */
-static bool is_open(const picture *p, double length)
+/* A gap is only shown if it is long enough to be seen. */
+static bool is_shown(const picture *p, const baum_i_shape *shape)
 {
-  return length > 0.2 * p->drawing->unit;
+  double ends[2][3];
+  return shape->style != BAUM_I_GAP || project_ends(p, shape, ends) > 0.2 * p->drawing->unit;
 }
 
 static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_box *box)
@@ -148,11 +149,9 @@ static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_bo
   }
   if (connects(shape)) {
     double ends[2][3];
-    double length = project_ends(p, shape, ends);
-    if (shape->style != BAUM_I_GAP || is_open(p, length)) {
-      include(ends[0], radius, box);
-      include(ends[1], radius, box);
-    }
+    (void)project_ends(p, shape, ends);
+    include(ends[0], radius, box);
+    include(ends[1], radius, box);
     return;
   }
   for (int k = 0; k < (many ? shape->count : 1); k++) {
@@ -325,13 +324,13 @@ static void put_damper(const picture *p, const baum_i_shape *shape, const double
 static void put_between(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
-  double length = project_ends(p, shape, ends);
+  (void)project_ends(p, shape, ends);
   double seen = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
   if (seen > 0.0 && shape->style == BAUM_I_SPRING) {
     put_coil(p, shape, (const double(*)[3])ends);
   } else if (seen > 0.0 && shape->style == BAUM_I_DAMPER) {
     put_damper(p, shape, (const double(*)[3])ends);
-  } else if (shape->style != BAUM_I_GAP || is_open(p, length)) {
+  } else {
     put_line(p, shape, 2, (const double(*)[3])ends, false);
   }
 }
@@ -414,7 +413,9 @@ static void fit(picture *p)
 {
   baum_i_box box = {{INFINITY, INFINITY, 0.0}, {-INFINITY, -INFINITY, 0.0}};
   for (int k = 0; k < p->drawing->shape_count; k++) {
-    include_shape(p, &p->drawing->shapes[k], &box);
+    if (is_shown(p, &p->drawing->shapes[k])) {
+      include_shape(p, &p->drawing->shapes[k], &box);
+    }
   }
   if (p->drawing->shape_count == 0) {
     include((const double[3]){0.0, 0.0, 0.0}, 1.0, &box);
@@ -446,7 +447,9 @@ static baum_status put_picture(picture *p)
   }
   qsort(orders, (size_t)count, sizeof *orders, compare);
   for (int k = 0; k < count; k++) {
-    put_shape(p, &p->drawing->shapes[orders[k].shape]);
+    if (is_shown(p, &p->drawing->shapes[orders[k].shape])) {
+      put_shape(p, &p->drawing->shapes[orders[k].shape]);
+    }
   }
   baum_i_put(p->out, "</svg>\n");
   baum_i_free(orders);

@@ -24,7 +24,6 @@ TABLE: list[tuple[str, Union[str, Callable[[re.Match[str]], str]]]] = [
     ),
     (r"\bbaum_study_set_(error|reference|solution)\(\)", r"\1"),
     (r"\bbaum_mechanism_svg\(\)", "draw()"),
-    (r"\bbaum_mechanism_svg_assembled\(\)", 'draw("assembled")'),
     (r"\bbaum_(?:mechanism|simulation|workspace|study)_(\w+)\(\)", r"\1()"),
     (r"\bbaum_channel_of\(\)", "baum.Channel"),
     (r"\bbaum_(\w+)\(\)", r"baum.\1()"),
