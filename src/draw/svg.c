@@ -35,7 +35,7 @@ static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_DAMPER] = {"none", "#78828c", 1.7, NULL},
   [BAUM_I_ROD] = {"#d5dae0", "#59636e", 1.2, NULL},
   [BAUM_I_JOINT] = {"#f4f6f8", "#3f4750", 1.3, NULL},
-  [BAUM_I_COUPLING] = {"none", "#78828c", 1.3, "2 4"},
+  [BAUM_I_COUPLING] = {"none", "#78828c", 1.6, "5 4"},
   [BAUM_I_DRIVER] = {"none", "#0f9d6b", 2.0, NULL},
   [BAUM_I_LOAD] = {"none", "#d9480f", 2.0, NULL},
   [BAUM_I_MOMENT] = {"none", "#8b5cf6", 2.0, NULL},
@@ -114,16 +114,20 @@ static bool connects(const baum_i_shape *shape)
   return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
-static double mean_depth(const picture *p, const baum_i_shape *shape)
+/* Bars count as far away as their farther end, so that the joints at both ends cover them. Other
+ * shapes count as their mean. */
+static double depth_of(const picture *p, const baum_i_shape *shape)
 {
-  bool pair = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
-  double sum = 0.0, at[3];
-  int count = pair ? shape->count : 1;
+  bool many = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
+  bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
+  double sum = 0.0, least = INFINITY, at[3];
+  int count = many ? shape->count : 1;
   for (int k = 0; k < count; k++) {
     project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
+    least = fmin(least, at[2]);
   }
-  return sum / count + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
+  return (bar ? least : sum / count) + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
 }
 
 static void include(const double at[3], double radius, baum_i_box *box)
@@ -442,7 +446,7 @@ static baum_status put_picture(picture *p)
   fit(p);
   for (int k = 0; k < count; k++) {
     const baum_i_shape *shape = &p->drawing->shapes[k];
-    double depth = shape->style > BAUM_I_JOINT ? (double)INFINITY : mean_depth(p, shape);
+    double depth = shape->style > BAUM_I_JOINT ? (double)INFINITY : depth_of(p, shape);
     orders[k] = (order){p->drawing->spatial ? depth : 0.0, k};
   }
   qsort(orders, (size_t)count, sizeof *orders, compare);

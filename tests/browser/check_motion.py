@@ -166,6 +166,33 @@ def check_view(browser, spatial, checks):
         checks.expect(browser.run(INK) == before, f"{name} is not undone")
 
 
+def check_names(browser, checks):
+    """Check that names are written inside the stage and do not overlap."""
+    browser.run("find('names').checked = true")
+    for share in (0, 0.3, 0.6, 1):
+        rooms, wide, high = browser.run(
+            f"(now = first + {share} * span, draw(), [drawNames(framesAt(at(now))), wide, high])")
+        checks.expect(len(rooms) > 3, f"only {len(rooms)} names are shown")
+        inside = all(a[0] >= 0 and a[1] >= 0 and a[2] <= wide and a[3] <= high for a in rooms)
+        checks.expect(inside, "a name is outside of the picture")
+        overlaps = [1 for k, a in enumerate(rooms) for b in rooms[:k]
+                    if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]]
+        checks.expect(not overlaps, f"{len(overlaps)} names overlap")
+    browser.run("find('names').checked = false, seek(first + span / 2)")
+    wait(browser)
+
+
+def check_resize(browser, sizes, checks):
+    """Check that a window of another size shows the whole mechanism."""
+    whole = []
+    for width, height, phone in sizes:
+        browser.size(width, height, phone)
+        wait(browser)
+        whole.append(browser.run("[view.scale, (fit(), view.scale)]"))
+    for scale, fitted in whole:
+        checks.expect(abs(scale / fitted - 1) < 0.01, f"after a resize the scale is {scale / fitted:.2f} of what fits")
+
+
 def check_video(browser, checks):
     browser.run("HTMLAnchorElement.prototype.click = function () { window.saved = this.download; }")
     browser.click("#video")
@@ -211,7 +238,9 @@ def main():
                     browser.run("find('names').click(), find('centres').click()")
                     wait(browser)
                     browser.screenshot(os.path.join(folder, f"{name}_{width}_{scheme}.png"), not phone)
+                    check_names(browser, checks)
                     check_quiet(browser, checks)
+            check_resize(browser, SIZES, checks)
             check_video(browser, checks)
         page = os.path.join(folder, "many.html")
         many()[0].page(page)

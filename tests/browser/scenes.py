@@ -208,7 +208,7 @@ def planar_load(m):
 def user_force(m):
     a = arm(m)
     m.revolute("pin", m.ground, a, point=(0, 0))
-    m.force("drag", [a], lambda t, q, v, inputs: -0.1 * v)
+    m.force("drag", [a], lambda t, q, v: -0.1 * v)
 
 
 # ---- space ----
