@@ -134,7 +134,10 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   out->place_count = m->joint_count + m->force_count;
   out->design = baum_i_alloc((size_t)m->body_count + 1, sizeof *out->design);
   out->places = baum_i_alloc((size_t)out->place_count, sizeof *out->places);
-  if (!out->design || !out->places) {
+  out->ends = baum_i_alloc(2 * (size_t)out->place_count, sizeof *out->ends);
+  out->first_end = baum_i_alloc((size_t)m->body_count + 2, sizeof *out->first_end);
+  out->gears = baum_i_alloc((size_t)m->joint_count, sizeof *out->gears);
+  if (!out->design || !out->places || !out->ends || !out->first_end || !out->gears) {
     return baum_i_fail_memory();
   }
   for (int k = 0; k <= m->body_count; k++) {
@@ -157,6 +160,9 @@ void baum_i_drawing_release(baum_i_drawing *drawing)
 {
   baum_i_free(drawing->design);
   baum_i_free(drawing->places);
+  baum_i_free(drawing->ends);
+  baum_i_free(drawing->first_end);
+  baum_i_free(drawing->gears);
   baum_i_free(drawing->shapes);
   baum_i_free(drawing->points);
 }

@@ -60,14 +60,20 @@ typedef struct baum_i_shape {
   int first, count;              /* its points, set by baum_i_draw() */
 } baum_i_shape;
 
-/* The place of a joint or force between two bodies: its points and axes, in the axes of each
- * body. */
+/* The place of a joint or force between two bodies: its points and axes, in the axes of each body.
+ * The two bodies of a load are the same. */
 typedef struct baum_i_place {
   const baum_i_element *element; /* NULL: it has no place */
   int body[2];
   double point[2][3];
   double axis[2][3]; /* unit vectors; k where the kind has no axis */
 } baum_i_place;
+
+/* One end of a place. */
+typedef struct baum_i_place_end {
+  int place;
+  int side;
+} baum_i_place_end;
 
 /* Samples of positions; count is 0 if there are none. */
 typedef struct baum_i_samples {
@@ -82,6 +88,10 @@ typedef struct baum_i_drawing {
   baum_i_spatial_frame *design; /* (body_count + 1) */
   baum_i_place *places;         /* (joint_count + force_count), joints first */
   int place_count;
+  baum_i_place_end *ends; /* (2 place_count) by body; those of body k begin at first_end[k] */
+  int *first_end;         /* (body_count + 2) */
+  int *gears;             /* (gear_count) numbers of joints */
+  int gear_count;
   double unit; /* [m] half the width of a link */
   bool spatial;
   baum_i_shape *shapes; /* (shape_count) */
@@ -118,6 +128,9 @@ bool baum_i_has_field(const baum_i_element *element, const char *name);
 
 /* Set the places of all joints and forces. Needs the design frames. */
 baum_status baum_i_find_places(baum_i_drawing *drawing);
+
+/* Return the ends of places on a body, in the order of joints and forces. */
+const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count);
 
 /* Transform a point of a body to ground axes. */
 static inline void baum_i_to_ground(const baum_i_spatial_frame *frame, const double point[3],

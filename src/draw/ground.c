@@ -27,16 +27,14 @@ static void find_link(const baum_i_symbol *s, int side, double link[3])
   const double *joint = s->place->point[side];
   memcpy(link, drawing->design[body].r, 3 * sizeof *link);
   baum_i_add_scaled3(-1.0, joint, link);
-  for (int k = 0; k < drawing->place_count; k++) {
-    const baum_i_place *place = &drawing->places[k];
-    for (int end = 0; place->element && end < 2; end++) {
-      double at[3];
-      if (place->body[end] == body) {
-        baum_i_to_ground(&drawing->design[body], place->point[end], at);
-        baum_i_add_scaled3(-1.0, joint, at);
-        baum_i_add_scaled3(1.0, at, link);
-      }
-    }
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(drawing, body, &count);
+  for (int k = 0; k < count; k++) {
+    double at[3];
+    const baum_i_place *place = &drawing->places[ends[k].place];
+    baum_i_to_ground(&drawing->design[body], place->point[ends[k].side], at);
+    baum_i_add_scaled3(-1.0, joint, at);
+    baum_i_add_scaled3(1.0, at, link);
   }
   double size = sqrt(baum_i_dot3(link, link));
   for (int i = 0; i < 3; i++) {

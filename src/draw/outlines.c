@@ -6,12 +6,10 @@
  */
 #include <string.h>
 
-#include <baum/planar.h>
 #include <baum/spatial.h>
 
 #include "base/alloc.h"
 #include "draw/drawing.h"
-#include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
 /* In units: limits of discs and boxes that follow from inertia; half the edges of a slider. */
@@ -57,43 +55,18 @@ static bool is_point_on(const baum_i_place *place, int side)
          baum_i_has_field(place->element, "axis_b");
 }
 
-static void add_load_point(outline *o, const double point[3])
-{
-  if (sqrt(baum_i_dot3(point, point)) > o->drawing->unit) {
-    add_point(o, point);
-  }
-}
-
-/* Loads away from the centre of mass; they have no place, because they act on one body only. */
-static void add_load_points(outline *o)
-{
-  const baum_mechanism *m = o->drawing->mechanism;
-  for (int k = 0; k < m->force_count; k++) {
-    const baum_i_element *force = &m->forces[k]->element;
-    const baum_planar_load_def *planar = force->def;
-    const baum_spatial_load_def *spatial = force->def;
-    if (force->definition == baum_i_planar_load_definition &&
-        baum_i_body_index(m, planar->body) == o->body) {
-      add_load_point(o, (const double[3]){planar->point[0], planar->point[1], 0.0});
-    } else if (force->definition == baum_i_spatial_load_definition &&
-               baum_i_body_index(m, spatial->body) == o->body) {
-      add_load_point(o, spatial->point);
-    }
-  }
-}
-
 static void add_points(outline *o)
 {
-  for (int k = 0; k < o->drawing->place_count; k++) {
-    const baum_i_place *place = &o->drawing->places[k];
-    for (int side = 0; place->element && side < 2; side++) {
-      if (place->body[side] == o->body && is_point_on(place, side) &&
-          !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
-        add_point(o, place->point[side]);
-      }
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(o->drawing, o->body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &o->drawing->places[ends[k].place];
+    const int side = ends[k].side;
+    if (is_point_on(place, side) &&
+        !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
+      add_point(o, place->point[side]);
     }
   }
-  add_load_points(o);
 }
 
 /* ---- the plane ---- */
@@ -158,10 +131,11 @@ static bool draw_block(const outline *o)
 {
   const double u = o->drawing->unit;
   bool found = false;
-  for (int k = 0; k < o->drawing->mechanism->joint_count; k++) {
-    const baum_i_place *place = &o->drawing->places[k];
-    if (place->body[1] != o->body || !place->element ||
-        place->element->definition != baum_i_planar_translational_definition) {
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(o->drawing, o->body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &o->drawing->places[ends[k].place];
+    if (ends[k].side == 0 || place->element->definition != baum_i_planar_translational_definition) {
       continue;
     }
     const double *at = place->point[1], *along = place->axis[1];
@@ -267,7 +241,9 @@ void baum_i_draw_body(baum_i_drawing *drawing, int body)
     draw(&o, BAUM_I_BODY, BAUM_I_BALL, 1.3 * drawing->unit, 1, origin);
     return;
   }
-  o.points = baum_i_alloc(3 * (size_t)drawing->place_count + 1, sizeof *o.points);
+  int ends;
+  (void)baum_i_ends_of(drawing, body, &ends);
+  o.points = baum_i_alloc((size_t)ends + 1, sizeof *o.points);
   if (!o.points) {
     drawing->failed = true;
     return;

@@ -4,6 +4,7 @@
 
 #include "draw/drawing.h"
 #include "mechanism/identify.h"
+#include "mechanism/kinds.h"
 #include "mechanism/planar/axis_row.h"
 #include "mechanism/spatial/spatial.h"
 
@@ -118,12 +119,27 @@ static baum_status set_points(const baum_i_drawing *drawing, const double *point
   return BAUM_OK;
 }
 
+/* A load at the centre of mass needs no place. */
+static void set_load(const baum_i_element *element, int body, const double *point, size_t size,
+                     baum_i_place *out)
+{
+  out->body[0] = out->body[1] = body;
+  memcpy(out->point[0], point, size);
+  memcpy(out->point[1], point, size);
+  out->element = baum_i_dot3(out->point[0], out->point[0]) > 0.0 ? element : NULL;
+}
+
 static baum_status find_place(const baum_i_drawing *drawing, const baum_i_element *element,
                               baum_i_place *out)
 {
   size_t size;
   *out = (baum_i_place){.axis = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}};
   const double *point = find_field(element, "point", &size);
+  const int loaded = find_body(drawing, element, "body");
+  if (point && loaded >= 0) {
+    set_load(element, loaded, point, size, out);
+    return BAUM_OK;
+  }
   out->body[0] = find_body(drawing, element, "body_a");
   out->body[1] = find_body(drawing, element, "body_b");
   if (!point || out->body[0] < 0 || out->body[1] < 0) {
@@ -131,6 +147,40 @@ static baum_status find_place(const baum_i_drawing *drawing, const baum_i_elemen
   }
   out->element = element;
   return set_points(drawing, point, size, out);
+}
+
+/* Lists the ends of places by body, and the gears, so that large mechanisms are drawn quickly. */
+static void list_ends(baum_i_drawing *drawing)
+{
+  const baum_mechanism *m = drawing->mechanism;
+  int *first = drawing->first_end;
+  for (int k = 0; k < m->joint_count; k++) {
+    if (m->joints[k]->element.definition == baum_i_planar_gear_definition) {
+      drawing->gears[drawing->gear_count++] = k;
+    }
+  }
+  for (int k = 0; k < 2 * drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k / 2];
+    first[place->body[k % 2] + 1] += place->element != NULL;
+  }
+  for (int k = 0; k <= m->body_count; k++) {
+    first[k + 1] += first[k];
+  }
+  const int total = first[m->body_count + 1];
+  for (int k = 2 * drawing->place_count - 1; k >= 0; k--) { /* each end moves to its begin */
+    const baum_i_place *place = &drawing->places[k / 2];
+    if (place->element) {
+      drawing->ends[--first[place->body[k % 2] + 1]] = (baum_i_place_end){k / 2, k % 2};
+    }
+  }
+  memmove(first, first + 1, ((size_t)m->body_count + 1) * sizeof *first);
+  first[m->body_count + 1] = total;
+}
+
+const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count)
+{
+  *count = drawing->first_end[body + 1] - drawing->first_end[body];
+  return drawing->ends + drawing->first_end[body];
 }
 
 baum_status baum_i_find_places(baum_i_drawing *drawing)
@@ -141,5 +191,6 @@ baum_status baum_i_find_places(baum_i_drawing *drawing)
       k < m->joint_count ? &m->joints[k]->element : &m->forces[k - m->joint_count]->element;
     BAUM_I_TRY(find_place(drawing, element, &drawing->places[k]));
   }
+  list_ends(drawing);
   return BAUM_OK;
 }

@@ -121,5 +121,6 @@ int main(void)
   show_catalog("slider_crank", 400, 0.1);
   show_catalog("andrews_bodies", 400, 0.03);
   show_many(1000, 2000);
+  show_many(10000, 10);
   return 0;
 }
