@@ -157,36 +157,41 @@ typedef struct path {
   bool closed;
 } path;
 
-/* Follows the curve in both directions until it closes or is as long as the mechanism. */
-static void follow_curve(const baum_i_symbol *s, path *out)
+/* Follows the curve from its middle in one direction, until it closes or ends. */
+static void follow_curve(const baum_i_symbol *s, const double start[2], int way, int most,
+                         path *out)
 {
   const double h = s->drawing->unit;
   const double *origin = s->place->point[0];
   const double *middle = out->points[CURVE_STEPS];
+  double xy[2] = {start[0] - origin[0], start[1] - origin[1]}, tangent[2];
+  for (int k = 0; k < most && find_on_curve(s->element->def, xy, tangent); k++) {
+    const int at = CURVE_STEPS + way * k;
+    double *point = out->points[at];
+    point[0] = origin[0] + xy[0];
+    point[1] = origin[1] + xy[1];
+    *(way < 0 ? &out->first : &out->last) = at;
+    if (k > 3 && hypot(point[0] - middle[0], point[1] - middle[1]) < h) {
+      memcpy(point, middle, sizeof *out->points);
+      out->closed = true;
+      return;
+    }
+    xy[0] += way * h * tangent[0];
+    xy[1] += way * h * tangent[1];
+  }
+}
+
+/* Finds a closed curve, or a part of it that is as long as the mechanism. */
+static void find_path(const baum_i_symbol *s, path *out)
+{
   double start[3];
   baum_i_draw_move(s->drawing, s->place->body[1], s->place->body[0], s->place->point[1], start);
   out->first = out->last = CURVE_STEPS;
-  for (int way = -1; way <= 1 && !out->closed; way += 2) {
-    double xy[2] = {start[0] - origin[0], start[1] - origin[1]}, tangent[2];
-    const int most = way < 0 ? CURVE_STEPS : TRACK_STEPS;
-    for (int k = 0; k < most && find_on_curve(s->element->def, xy, tangent); k++) {
-      int at = CURVE_STEPS + way * k;
-      out->points[at][0] = origin[0] + xy[0];
-      out->points[at][1] = origin[1] + xy[1];
-      out->first = at < out->first ? at : out->first;
-      out->last = at > out->last ? at : out->last;
-      if (k > 3 && way < 0 &&
-          hypot(out->points[at][0] - middle[0], out->points[at][1] - middle[1]) < h) {
-        memcpy(out->points[at], middle, sizeof *out->points);
-        out->closed = true;
-        break;
-      }
-      xy[0] += way * h * tangent[0];
-      xy[1] += way * h * tangent[1];
-    }
-  }
-  if (!out->closed && out->first < CURVE_STEPS - TRACK_STEPS) {
-    out->first = CURVE_STEPS - TRACK_STEPS;
+  follow_curve(s, start, -1, CURVE_STEPS, out);
+  if (!out->closed) {
+    const int least = CURVE_STEPS - TRACK_STEPS;
+    out->first = out->first < least ? least : out->first;
+    follow_curve(s, start, 1, TRACK_STEPS, out);
   }
 }
 
@@ -195,7 +200,7 @@ void baum_i_draw_curve(const baum_i_symbol *s)
 {
   const int body = s->place->body[0];
   path curve = {.closed = false};
-  follow_curve(s, &curve);
+  find_path(s, &curve);
   const int count = curve.last - curve.first + 1;
   double(*points)[3] = curve.points + curve.first;
   if (curve.closed && body != 0) {

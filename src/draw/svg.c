@@ -359,6 +359,15 @@ static void put_arrow(const picture *p, const baum_i_shape *shape)
   put_line(p, shape, count, (const double(*)[3])at, false);
 }
 
+static void put_connection(const picture *p, const baum_i_shape *shape)
+{
+  if (shape->form == BAUM_I_ARROW) {
+    put_arrow(p, shape);
+  } else {
+    put_between(p, shape);
+  }
+}
+
 static void put_points(const picture *p, const baum_i_shape *shape)
 {
   double(*at)[3] = baum_i_alloc((size_t)shape->count, sizeof *at);
@@ -380,22 +389,18 @@ static void put_shape(const picture *p, const baum_i_shape *shape)
   baum_i_put(p->out, "<g><title>");
   baum_i_put_user_text(p->out, shape->element->name, BAUM_I_XML);
   baum_i_put(p->out, "</title>");
-  switch (shape->form) {
-  case BAUM_I_BALL: put_circle(p, shape, at); break;
-  case BAUM_I_DISC: put_disc(p, shape); break;
-  case BAUM_I_ARROW: put_arrow(p, shape); break;
-  case BAUM_I_BETWEEN:
-  case BAUM_I_TO_LINE:
-  case BAUM_I_TO_PLANE:
-  case BAUM_I_TO_SPHERE: put_between(p, shape); break;
-  case BAUM_I_BOX:
+  if (connects(shape)) {
+    put_connection(p, shape);
+  } else if (shape->form == BAUM_I_BALL) {
+    put_circle(p, shape, at);
+  } else if (shape->form == BAUM_I_DISC) {
+    put_disc(p, shape);
+  } else if (shape->form == BAUM_I_BOX) {
     for (int face = 0; face < 6; face++) {
       put_face(p, shape, face / 2, face % 2 ? 1.0 : -1.0);
     }
-    break;
-  case BAUM_I_LINE:
-  case BAUM_I_AREA:
-  default: put_points(p, shape);
+  } else {
+    put_points(p, shape);
   }
   baum_i_put(p->out, "</g>\n");
 }

@@ -122,13 +122,26 @@ def svg_image(svg):
     return "svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-def page_image(browser, folder, name, m):
+# Returns the numbers of open joints at the start, and after all bodies have been moved; null without gaps.
+GAPS = """(() => {
+  const gaps = shapes.filter(shape => shape.style === 'gap'), frames = framesAt(at(first));
+  const open = () => gaps.filter(shape => isOpen(ends(shape, frames))).length, before = open();
+  frames.forEach((f, k) => { if (k) frames[k] = {...f, r: f.r.map((x, i) => x + (i + 1) * k * unit)}; });
+  return gaps.length ? [before, open()] : null; })()"""
+
+
+def page_image(browser, folder, name, m, wrong):
+    """A picture of the page; adds the name to `wrong` if the page does not see that a joint opens."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run = m.freeze().simulate([0, 1e-6], "rk4", step=1e-6)
     path = os.path.join(folder, f"kind_{name}.html")
     run.page(path)
     browser.open(path + "#t=0")
+    found = browser.run(GAPS)
+    if found and (found[0] or not found[1]):
+        print(f"wrong: {name}: {found[0]} gaps are open at the start, {found[1]} after it has been moved")
+        wrong.append(name)
     browser.run(f"stage.style.width = '{SCALE * WIDTH}px', stage.style.height = '{SCALE * HEIGHT}px',"
                 " stage.style.border = 0, window.dispatchEvent(new Event('resize'))")
     wait(browser)
@@ -141,15 +154,16 @@ def page_image(browser, folder, name, m):
     return "png;base64," + shot["data"]
 
 
-def draw_all(browser, folder):
+def draw_all(browser, folder, wrong):
     """The SVG texts, and all sheets: for each the names and the pictures."""
     svgs, images = {}, {}
     for group, kinds in SCENES.items():
         mechanisms = {name: scenes.build(kinds, name) for name in kinds}
         svgs[group] = {name: str(m.draw()) for name, m in mechanisms.items()}
         images[f"{group}_svg"] = {name: svg_image(svg) for name, svg in svgs[group].items()}
+        pages = {name: page_image(browser, folder, name, m, wrong) for name, m in mechanisms.items()}
         if group in PAGES:
-            images[f"{group}_page"] = {name: page_image(browser, folder, name, m) for name, m in mechanisms.items()}
+            images[f"{group}_page"] = pages
     return svgs, {title: dict(zip(each, read_images(browser, folder, each.values())))
                   for title, each in images.items()}
 
@@ -201,12 +215,13 @@ def main():
     os.makedirs(folder, exist_ok=True)
     with Chromium() as browser:
         browser.size(1280, 900)
-        svgs, sheets = draw_all(browser, folder)
+        wrong = check_kinds()
+        svgs, sheets = draw_all(browser, folder, wrong)
         if "--write" in sys.argv:
             os.makedirs(REFERENCES, exist_ok=True)
             for title, pictures in sheets.items():
                 write_png(os.path.join(REFERENCES, f"{title}.png"), join(pictures.values()))
-        wrong = check_kinds() + check_sensitivity(browser, folder, svgs, sheets)
+        wrong += check_sensitivity(browser, folder, svgs, sheets)
     for title, pictures in sheets.items():
         wrong += check_sheet(title, pictures, folder)
     print(f"sheets are in {folder}; {len(wrong)} wrong")

@@ -50,7 +50,7 @@ def planar_body(m):
 @scene(PLANE)
 def planar_particle(m):
     p = m.planar_particle("bob", mass=1, position=(1, -2))
-    m.distance("string", m.ground, p, point_a=(0, 0), point_b=(0, 0))
+    m.distance("string", m.ground, p, point_a=(0, 0), point_b=(0, 0), length=np.hypot(1, 2))
 
 
 @scene(PLANE)
@@ -231,7 +231,7 @@ def spatial_body(m):
 @scene(SPACE)
 def spatial_particle(m):
     p = m.spatial_particle("bob", mass=1, position=(0.5, 0, -1))
-    m.spatial_distance("string", m.ground, p, point_a=(0, 0, 0), point_b=(0, 0, 0))
+    m.spatial_distance("string", m.ground, p, point_a=(0, 0, 0), point_b=(0, 0, 0), length=np.hypot(0.5, 1))
 
 
 @scene(SPACE)
