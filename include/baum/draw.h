@@ -50,8 +50,8 @@ typedef struct baum_outline {
    *  vertices of a mesh. Default: NULL, must be set. */
   const double *points;
   int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
-  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0. Default:
-   *  NULL, must be set. */
+  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0.
+   *  Default: NULL, must be set. */
   const int32_t *triangles;
   int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
   double center[3];       /**< [m] of a circle, box or sphere. Default: (0, 0, 0). */
@@ -77,8 +77,8 @@ static inline baum_outline baum_outline_default(void)
 }
 
 /** Set how a body is drawn: by these outlines, in place of the shapes that follow from its joints.
- *  They are also allowed on ground, after freezing, and in space on bodies of the plane. They
- *  have no other effect. Copies of the mechanism have the same outlines. No other thread may draw
+ *  Every form is allowed on every body, also on ground, before and after freezing. Outlines have no
+ *  other effect. Copies of the mechanism have the same outlines. No other thread may draw or copy
  *  the mechanism during the call.
  *  @param     mechanism  unchanged on failure
  *  @param     body       not user coordinates, which have no place
