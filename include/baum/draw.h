@@ -31,16 +31,17 @@ extern "C" {
 
 /* ---- outlines -------------------------------------------------------------------------------- */
 
+/** Forms of outlines. */
 typedef enum baum_outline_form {
   BAUM_OUTLINE_POLYGON = 0,  /**< Plane, with the corners `points`; may be concave. */
   BAUM_OUTLINE_CIRCLE = 1,   /**< Parallel to the x-y plane. */
   BAUM_OUTLINE_BOX = 2,      /**< Its edges are parallel to the axes of the body. */
   BAUM_OUTLINE_CYLINDER = 3, /**< Circular, from `start` to `end`. */
-  BAUM_OUTLINE_SPHERE = 4,
-  BAUM_OUTLINE_MESH = 5 /**< Triangles. Both of their sides are visible. */
+  BAUM_OUTLINE_SPHERE = 4,   /**< About `center`. */
+  BAUM_OUTLINE_MESH = 5      /**< Triangles. Both of their sides are visible. */
 } baum_outline_form;
 
-#define BAUM_OUTLINE_MAX_TRIANGLES 200000
+#define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Most triangles of a mesh. */
 
 /** A shape in the axes of a body. Only the fields of its form are used. */
 typedef struct baum_outline {
