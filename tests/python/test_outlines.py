@@ -34,6 +34,11 @@ def body_of(outline, spatial=False):
     return body
 
 
+def area(points):
+    x, y = points.T
+    return (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
 class Forms(unittest.TestCase):
     def test_all_forms_are_drawn_within_the_picture(self):
         for spatial in False, True:
@@ -47,6 +52,13 @@ class Forms(unittest.TestCase):
                     self.assertTrue((low >= 11).all() and (high <= [width - 11, height - 11]).all())
                     if name in ("area", "mesh"):  # and fill it, but for the margin
                         np.testing.assert_allclose([low, high], [[12, 12], [width - 12, height - 12]], atol=1)
+
+    def test_a_cylinder_is_drawn_as_its_silhouette_and_its_near_end(self):
+        svg = str(body_of(baum.Cylinder(0.5, (3, 0, 4), (0, 0, 0))).mechanism.draw())
+        paths = [np.float64(re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", p)) for p in re.findall(r' d="(.*?)"', svg)]
+        silhouette, end = (abs(area(points)) for points in paths)
+        ellipse = 12 * np.sin(np.pi / 12) * 0.5 * 0.4  # of 24 corners
+        self.assertAlmostEqual(silhouette / end, (3 * 1 + ellipse) / ellipse, places=2)
 
     def test_pages_contain_them(self):
         m = baum.Mechanism()
@@ -139,10 +151,6 @@ class Paths(unittest.TestCase):
         (points,) = _svg_path.polygons(text)
         return points
 
-    def area(self, points):
-        x, y = points.T
-        return (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-
     def test_lines(self):
         wanted = [(1, 1), (3, 1), (3, 2), (0, 4)]
         for text in "M1,1L3,1 3,2 0,4Z", "M1 1H3V2L0 4", "m1 1 2 0 0 1-3 2z", " m1 1h2v1l-3,2 1 -3":
@@ -182,7 +190,7 @@ class Paths(unittest.TestCase):
     def test_a_circle_of_two_arcs(self):
         points = self.one("m-3 2a2 2 0 0 1 4 0 2 2 0 0 1-4 0z")
         np.testing.assert_allclose(np.hypot(*(points - (-1, 2)).T), 2)
-        self.assertAlmostEqual(self.area(points) / (4 * np.pi), 1, delta=2e-3)
+        self.assertAlmostEqual(area(points) / (4 * np.pi), 1, delta=2e-3)
         self.assertLess(np.max(np.hypot(*np.diff(points, axis=0).T)), 2 * np.radians(5.01))
 
     def test_ellipses_are_rotated_and_enlarged(self):
