@@ -73,8 +73,8 @@ static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
                            : g->what & PLANE  ? BAUM_I_TO_PLANE
                            : g->what & LENGTH ? BAUM_I_TO_SPHERE
                                               : BAUM_I_BETWEEN;
-  baum_i_shape shape = {
-    BAUM_I_GAP, form, place->element, place->body[1], place->body[0], 0.3 * g->drawing->unit, 0, 0};
+  const baum_i_shape shape = baum_i_shape_of(BAUM_I_GAP, form, place->element, place->body[1],
+                                             place->body[0], 0.3 * g->drawing->unit);
   baum_i_draw(g->drawing, shape, form == BAUM_I_BETWEEN ? 2 : 3, (const double(*)[3])points);
 }
 
@@ -135,12 +135,8 @@ void baum_i_draw_gap_to_line(baum_i_drawing *drawing, const baum_i_place *place,
   }
   memcpy(points[0], place->point[1], sizeof *points);
   memcpy(points[1], line, (size_t)count * sizeof *points);
-  const baum_i_shape shape = {.style = BAUM_I_GAP,
-                              .form = BAUM_I_TO_LINE,
-                              .element = place->element,
-                              .body = place->body[1],
-                              .other = place->body[0],
-                              .radius = 0.3 * drawing->unit};
+  const baum_i_shape shape = baum_i_shape_of(BAUM_I_GAP, BAUM_I_TO_LINE, place->element,
+                                             place->body[1], place->body[0], 0.3 * drawing->unit);
   baum_i_draw(drawing, shape, count + 1, (const double(*)[3])points);
   baum_i_free(points);
 }
@@ -197,41 +193,52 @@ static void find_nearest(const baum_i_spatial_frame *frame, const double (*line)
   }
 }
 
+static void find_on_plane(const baum_i_spatial_frame *frame, const double (*plane)[3],
+                          const double from[3], double to[3])
+{
+  double point[3], normal[3];
+  baum_i_to_ground(frame, plane[0], point);
+  baum_i_turn(frame->axes, plane[1], normal);
+  const double height = baum_i_dot3(normal, from) - baum_i_dot3(normal, point);
+  baum_i_add_scaled3(-height, normal, to);
+}
+
+static void find_on_sphere(const baum_i_spatial_frame *frame, const double (*sphere)[3],
+                           const double from[3], double to[3])
+{
+  double away[3];
+  baum_i_to_ground(frame, sphere[0], to);
+  for (int i = 0; i < 3; i++) {
+    away[i] = from[i] - to[i];
+  }
+  const double distance = sqrt(baum_i_dot3(away, away));
+  baum_i_add_scaled3(distance > 0.0 ? sphere[1][0] / distance : 0.0, away, to);
+}
+
+static void find_tip(const baum_i_spatial_frame *frame, const double vector[3], double length,
+                     double to[3])
+{
+  double along[3];
+  baum_i_turn(frame->axes, vector, along);
+  baum_i_add_scaled3(length / sqrt(baum_i_dot3(along, along)), along, to);
+}
+
 void baum_i_find_ends(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
                       const baum_i_shape *shape, double from[3], double to[3])
 {
   const double(*points)[3] = (const double(*)[3])drawing->points + shape->first;
   const baum_i_spatial_frame *other = &frames[shape->other];
-  double vector[3];
   baum_i_to_ground(&frames[shape->body], points[0], from);
   memcpy(to, from, 3 * sizeof *to);
-  switch (shape->form) {
-  case BAUM_I_BETWEEN: baum_i_to_ground(other, points[1], to); break;
-  case BAUM_I_ARROW:
-    baum_i_turn(other->axes, points[1], vector);
-    baum_i_add_scaled3(8.0 * drawing->unit / sqrt(baum_i_dot3(vector, vector)), vector, to);
-    break;
-  case BAUM_I_TO_LINE: find_nearest(other, points + 1, shape->count - 1, from, to); break;
-  case BAUM_I_TO_PLANE: {
-    double normal[3];
-    baum_i_to_ground(other, points[1], vector);
-    baum_i_turn(other->axes, points[2], normal);
-    double height = baum_i_dot3(normal, from) - baum_i_dot3(normal, vector);
-    baum_i_add_scaled3(-height, normal, to);
-    break;
-  }
-  case BAUM_I_TO_SPHERE:
+  if (shape->form == BAUM_I_BETWEEN) {
     baum_i_to_ground(other, points[1], to);
-    for (int i = 0; i < 3; i++) {
-      vector[i] = from[i] - to[i];
-    }
-    baum_i_add_scaled3(points[2][0] / fmax(sqrt(baum_i_dot3(vector, vector)), 1e-300), vector, to);
-    break;
-  case BAUM_I_LINE:
-  case BAUM_I_AREA:
-  case BAUM_I_DISC:
-  case BAUM_I_BALL:
-  case BAUM_I_BOX:
-  default: break;
+  } else if (shape->form == BAUM_I_ARROW) {
+    find_tip(other, points[1], 8.0 * drawing->unit, to);
+  } else if (shape->form == BAUM_I_TO_LINE) {
+    find_nearest(other, points + 1, shape->count - 1, from, to);
+  } else if (shape->form == BAUM_I_TO_PLANE) {
+    find_on_plane(other, points + 1, from, to);
+  } else if (shape->form == BAUM_I_TO_SPHERE) {
+    find_on_sphere(other, points + 1, from, to);
   }
 }

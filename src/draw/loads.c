@@ -89,7 +89,8 @@ static void draw_vector(const baum_i_symbol *s, baum_i_style style, baum_body_id
 {
   const int body = baum_i_body_index(s->drawing->mechanism, id);
   const double points[2][3] = {{point[0], point[1], point[2]}, {vector[0], vector[1], vector[2]}};
-  baum_i_shape shape = {style, BAUM_I_ARROW, s->element, body, follows ? body : 0, 0.0, 0, 0};
+  const baum_i_shape shape =
+    baum_i_shape_of(style, BAUM_I_ARROW, s->element, body, follows ? body : 0, 0.0);
   if (baum_i_dot3(vector, vector) > 0.0) {
     baum_i_draw(s->drawing, shape, 2, points);
   }

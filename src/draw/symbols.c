@@ -11,8 +11,9 @@
 void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form form, int body,
                          double radius, int count, const double (*points)[3])
 {
-  baum_i_shape shape = {style, form, s->element, body, body, radius * s->drawing->unit, 0, 0};
-  baum_i_draw(s->drawing, shape, count, points);
+  const double size = radius * s->drawing->unit;
+  baum_i_draw(s->drawing, baum_i_shape_of(style, form, s->element, body, body, size), count,
+              points);
 }
 
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
@@ -22,9 +23,8 @@ void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const bau
   const double *b = to->point[1];
   const double points[3][3] = {
     {a[0], a[1], a[2]}, {b[0], b[1], b[2]}, {0.0, shift * s->drawing->unit, 0.0}};
-  baum_i_shape shape = {
-    style, BAUM_I_BETWEEN, s->element, from->body[side], to->body[1], radius * s->drawing->unit, 0,
-    0};
+  const baum_i_shape shape = baum_i_shape_of(style, BAUM_I_BETWEEN, s->element, from->body[side],
+                                             to->body[1], radius * s->drawing->unit);
   baum_i_draw(s->drawing, shape, shift == 0.0 ? 2 : 3, points);
 }
 
