@@ -25,7 +25,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbaum-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbaum0 ${version}, libsuitesparse-dev, libsundials-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Simulates bodies tied by joints with stabilized equations of motion.
- This package contains headers, static libraries and files for CMake and pkg-config.")
+ This package contains headers, static libraries, and files for CMake and
+ pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-baum)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -34,6 +35,9 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.9), python3-numpy, libbaum0 (>= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Simulates bodies tied by joints with stabilized equations of motion.
  This package contains the Python package.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst
+                                              ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 
 set(python_folder lib/python3/dist-packages)
 install(
