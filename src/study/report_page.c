@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A study as one HTML page: the template report.html with a picture of the mechanism and the data
- * that its script draws. The data are the report as JSON and, for each fixed-step integrator with gains, its gain rule, its point
- * of best damping, and level lines of the spectral radius, which show its region of stability. */
+ * that its script draws. The data are the report as JSON and, for each fixed-step integrator with
+ * gains, its gain rule, its point of best damping, and level lines of the spectral radius, which
+ * show its region of stability. */
 #include <math.h>
 #include <string.h>
 
