@@ -10,7 +10,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "draw/drawing.h"
-#include "draw/svg.h"
+#include "draw/picture.h"
 #include "mechanism/identify.h"
 
 enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22, CIRCLE = 24 };

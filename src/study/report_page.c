@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "draw/svg.h"
+#include "draw/picture.h"
 #include "integrate/integrator.h"
 #include "study/report.h"
 #include "study/study.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pictures as part of larger texts. */
-#ifndef BAUM_I_DRAW_SVG_H
-#define BAUM_I_DRAW_SVG_H
+#ifndef BAUM_I_DRAW_PICTURE_H
+#define BAUM_I_DRAW_PICTURE_H
 
 #include <baum/mechanism.h>
 
