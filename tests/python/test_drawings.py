@@ -112,5 +112,37 @@ class Pages(unittest.TestCase):
         self.assertEqual(frame.count("<"), 2)
 
 
+class Motions(unittest.TestCase):
+    """Pages of motions that are given as arrays."""
+
+    def setUp(self):
+        self.m = slider_crank()
+        self.t = np.linspace(0, 1, 11)
+        self.q = np.tile(self.m.simulate([0], "rk4", step=1e-3).q[0], (11, 1))
+        self.q[:, 0] = 3 * self.t
+
+    def test_it_shows_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.html")
+            page = self.m.page(self.t, self.q, path, title="T", traces=["rod.pose"],
+                               plots={"x [m]": self.q[:, 0]}, marks=[(0.5, "half")])
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), str(page))
+        data = data_of(page)
+        self.assertEqual((data["title"], data["frames"], len(data["traces"])), ("T", 11, 1))
+        self.assertEqual([plot["label"] for plot in data["plots"]], ["x [m]"])
+        self.assertEqual(data["ranges"][data["plots"][0]["column"]], [0, 3])
+        self.assertEqual(data["marks"], [{"t": 0.5, "text": "half"}])
+
+    def test_wrong_arrays_are_refused(self):
+        for t, q in ((self.t[1:], self.q), (self.t, self.q[:, 1:]), (0 * self.t, self.q)):
+            with self.assertRaises(ValueError):
+                self.m.page(t, q)
+        with self.assertRaises(ValueError):
+            self.m.page(self.t, self.q, plots={"x": [1]})
+        with self.assertRaises(TypeError):
+            self.m.page(self.t, self.q, marks=[("now", "text")])
+
+
 if __name__ == "__main__":
     unittest.main()
