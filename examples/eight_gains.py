@@ -63,7 +63,12 @@ def main() -> int:
         Path(report.options.folder or ".") / "eight_gains.html",
         title=f"Slider-crank, explicit Euler, step {H:g} s: gaps {ENLARGED} times enlarged",
         plots={name: np.log10(np.maximum(phi, 1e-6)) for name, (_, phi) in runs.items()},
-        marks=[(np.nan, "Curves: log10 of the largest violation [m] of the slider-crank in their colour")],
+        marks=[
+            (
+                np.nan,
+                "Curves: log10 of the largest violation [m] of the slider-crank in their colour",
+            )
+        ],
     )
 
     gaps = abs(baum.Workspace(shown).phi(0, q[-1])).reshape(len(GAINS), -1).max(axis=1)

@@ -98,7 +98,9 @@ def main() -> int:
         path = run[foot.pose][:, :2]
         exact = leg_at(OMEGA * times, side)["foot"]
         report.expect(f"{foot.name}: off the closed form [m]", abs(path - exact).max(), 1e-10)
-        report.expect(f"{foot.name}: gap after a turn [m]", abs(path[turn:] - path[:-turn]).max(), 1e-12)
+        report.expect(
+            f"{foot.name}: gap after a turn [m]", abs(path[turn:] - path[:-turn]).max(), 1e-12
+        )
         down = path[:, 1] < path[:, 1].min() + 0.02
         print(f"{foot.name}: down for {down.mean():.0%} of a turn, {np.ptp(path[down, 0]):.2f} m")
     # Nothing dissipates energy.
