@@ -20,7 +20,7 @@ class Scene(NamedTuple):
 
 
 SCENES = {
-    "slider_crank": Scene("Slider-crank", ["rod.pose"], ["slider.velocity", "energy"]),
+    "slider_crank": Scene("Slider-crank", ["rod.pose"], ["guide.coordinate", "energy"]),
     "andrews_bodies": Scene(
         "Andrews' squeezing mechanism", ["K3.pose", "K6.pose"], ["O.coordinate"]
     ),

@@ -17,7 +17,7 @@ CHASSIS, HUB = np.array([0.05, 0.6]), np.array([0.6, 0.33])
 INNER_LOWER, OUTER_LOWER = np.array([0.12, 0.3]), np.array([0.52, 0.24])
 INNER_UPPER, OUTER_UPPER = np.array([0.2, 0.54]), np.array([0.49, 0.52])
 STRUT_TOP, STRUT_FOOT = np.array([0.27, 0.8]), np.array([0.37, 0.2625])
-RADIUS, WIDTH, GREY = 0.33, 0.2, "#8a94a0"  # [m] of the tyre, and its colour
+RADIUS, WIDTH, GREY = 0.33, 0.2, "#c3cad1"  # [m] of the tyre, and its colour
 MASSES = {
     "chassis": 350,
     "lower wishbone": 5,

@@ -34,6 +34,11 @@ class Drawings(unittest.TestCase):
         self.assertEqual(str(m.freeze().draw()), before)
         self.assertEqual(m.draw()._repr_svg_(), before)
 
+    def test_notebooks_show_a_mechanism_with_its_drawing(self):
+        m = slider_crank()
+        self.assertTrue(m._repr_html_().startswith(str(m.draw()) + "<table>"))
+        self.assertTrue(baum.Mechanism()._repr_html_().startswith("<table>"))
+
     def test_positions_are_drawn(self):
         m = slider_crank()
         q = m.simulate([0, 0.1], "rk4", step=1e-3).q
@@ -110,6 +115,13 @@ class Pages(unittest.TestCase):
             frame = self.run_.show()._repr_html_()
         self.assertTrue(frame.startswith('<iframe srcdoc="&lt;!DOCTYPE html&gt;'))
         self.assertEqual(frame.count("<"), 2)
+
+    def test_it_says_where_the_page_is_without_a_browser(self):
+        with mock.patch("webbrowser.open", return_value=False) as opened:
+            with self.assertWarnsRegex(UserWarning, r"the page is .*\.html") as caught:
+                self.run_.show()
+        self.assertEqual(caught.filename, __file__)
+        os.remove(opened.call_args[0][0].removeprefix("file://"))
 
 
 class Motions(unittest.TestCase):

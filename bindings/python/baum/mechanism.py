@@ -146,9 +146,11 @@ class Mechanism(Adding, AddingInSpace):
         return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
     def _repr_html_(self) -> str:
-        """A table of the elements for notebooks."""
+        """A drawing and a table of the elements for notebooks."""
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
-        return _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        drawing = str(self.draw())
+        return drawing + table if "<title>" in drawing else table  # nothing has a place
 
     def _count(self, family: str) -> int:
         return sum(
