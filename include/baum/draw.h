@@ -31,16 +31,17 @@ extern "C" {
 
 /* ---- outlines -------------------------------------------------------------------------------- */
 
+/** Forms of outlines. */
 typedef enum baum_outline_form {
   BAUM_OUTLINE_POLYGON = 0,  /**< Plane, with the corners `points`; may be concave. */
   BAUM_OUTLINE_CIRCLE = 1,   /**< Parallel to the x-y plane. */
   BAUM_OUTLINE_BOX = 2,      /**< Its edges are parallel to the axes of the body. */
   BAUM_OUTLINE_CYLINDER = 3, /**< Circular, from `start` to `end`. */
-  BAUM_OUTLINE_SPHERE = 4,
-  BAUM_OUTLINE_MESH = 5 /**< Triangles. Both of their sides are visible. */
+  BAUM_OUTLINE_SPHERE = 4,   /**< About `center`. */
+  BAUM_OUTLINE_MESH = 5      /**< Triangles. Both of their sides are visible. */
 } baum_outline_form;
 
-#define BAUM_OUTLINE_MAX_TRIANGLES 200000
+#define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Most triangles of a mesh. */
 
 /** A shape in the axes of a body. Only the fields of its form are used. */
 typedef struct baum_outline {
@@ -50,8 +51,8 @@ typedef struct baum_outline {
    *  vertices of a mesh. Default: NULL, must be set. */
   const double *points;
   int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
-  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0. Default:
-   *  NULL, must be set. */
+  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0.
+   *  Default: NULL, must be set. */
   const int32_t *triangles;
   int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
   double center[3];       /**< [m] of a circle, box or sphere. Default: (0, 0, 0). */
@@ -77,8 +78,8 @@ static inline baum_outline baum_outline_default(void)
 }
 
 /** Set how a body is drawn: by these outlines, in place of the shapes that follow from its joints.
- *  They are also allowed on ground, after freezing, and in space on bodies of the plane. They
- *  have no other effect. Copies of the mechanism have the same outlines. No other thread may draw
+ *  Every form is allowed on every body, also on ground, before and after freezing. Outlines have no
+ *  other effect. Copies of the mechanism have the same outlines. No other thread may draw or copy
  *  the mechanism during the call.
  *  @param     mechanism  unchanged on failure
  *  @param     body       not user coordinates, which have no place

@@ -16,8 +16,11 @@
 enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22 };
 static const double MARGIN = 12.0;
 
+typedef baum_i_picture picture;
+typedef baum_i_look look;
+
 /* Bodies have a fill and stroke of COLOUR instead. */
-static const baum_i_look LOOKS[BAUM_I_STYLE_COUNT] = {
+static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
   [BAUM_I_GROUND] = {"none", "#78828c", 1.3, NULL},
@@ -44,14 +47,8 @@ static const char *const COLOUR[COLOURS][2] = {
 
 /* ---- projection ---- */
 
-void baum_i_picture_turn(const baum_i_picture *p, int body, const double x[3], double out[3])
-{
-  double turned[3];
-  baum_i_turn(p->frames[body].axes, x, turned);
-  baum_i_turn(p->view, turned, out);
-}
-
-void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
+/* Transforms a point of a body to the axes right, up and towards the eye [m]. */
+static void project(const picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
   baum_i_turn(p->frames[body].axes, point, at);
@@ -59,7 +56,12 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
   baum_i_turn(p->view, at, out);
 }
 
-static void set_view(baum_i_picture *p)
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
+{
+  project(p, body, point, out);
+}
+
+static void set_view(picture *p)
 {
   static const double plane[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   static const double TURN = -0.9, TILT = 0.45; /* [rad] view about the vertical, and down */
@@ -86,22 +88,22 @@ static void set_view(baum_i_picture *p)
 
 /* ---- shapes ---- */
 
-static const double *point_of(const baum_i_picture *p, const baum_i_shape *shape, int k)
+static const double *point_of(const picture *p, const baum_i_shape *shape, int k)
 {
   return p->drawing->points[shape->first + k];
 }
 
 /* Projects the second end of a line between bodies or of an arrow. */
-static void project_end(const baum_i_picture *p, const baum_i_shape *shape, double out[3])
+static void project_end(const picture *p, const baum_i_shape *shape, double out[3])
 {
   if (shape->form == BAUM_I_BETWEEN) {
-    baum_i_picture_project(p, shape->other, point_of(p, shape, 1), out);
+    project(p, shape->other, point_of(p, shape, 1), out);
     return;
   }
   double vector[3], seen_vector[3]; /* the arrow is 8 units long */
   baum_i_turn(p->frames[shape->other].axes, point_of(p, shape, 1), vector);
   baum_i_turn(p->view, vector, seen_vector);
-  baum_i_picture_project(p, shape->body, point_of(p, shape, 0), out);
+  project(p, shape->body, point_of(p, shape, 0), out);
   double length = sqrt(baum_i_dot3(vector, vector));
   baum_i_add_scaled3(8.0 * p->drawing->unit / length, seen_vector, out);
 }
@@ -113,12 +115,12 @@ static bool has_places(const baum_i_shape *shape)
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-static double mean_depth(const baum_i_picture *p, const baum_i_shape *shape)
+static double mean_depth(const picture *p, const baum_i_shape *shape)
 {
   double sum = 0.0, at[3];
   int count = has_places(shape) ? shape->count : 1;
   for (int k = 0; k < count; k++) {
-    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at);
+    project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
   }
   return sum / count + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
@@ -130,7 +132,7 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
-static void include_box(const baum_i_picture *p, const baum_i_shape *shape, baum_i_box *box)
+static void include_box(const picture *p, const baum_i_shape *shape, baum_i_box *box)
 {
   const double *centre = point_of(p, shape, 0), *half = point_of(p, shape, 1);
   for (int k = 0; k < 8; k++) {
@@ -138,12 +140,12 @@ static void include_box(const baum_i_picture *p, const baum_i_shape *shape, baum
     for (int i = 0; i < 3; i++) {
       point[i] = centre[i] + (k >> i & 1 ? half[i] : -half[i]);
     }
-    baum_i_picture_project(p, shape->body, point, at);
+    project(p, shape->body, point, at);
     include(at, 0.0, box);
   }
 }
 
-static void include_shape(const baum_i_picture *p, const baum_i_shape *shape, baum_i_box *box)
+static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_box *box)
 {
   double at[3];
   if (shape->form == BAUM_I_BOX) {
@@ -151,7 +153,7 @@ static void include_shape(const baum_i_picture *p, const baum_i_shape *shape, ba
     return;
   }
   for (int k = 0; k < (has_places(shape) ? shape->count : 1); k++) {
-    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at);
+    project(p, shape->body, point_of(p, shape, k), at);
     include(at, shape->radius, box);
   }
   if (shape->form == BAUM_I_BETWEEN || shape->form == BAUM_I_ARROW) {
@@ -162,12 +164,12 @@ static void include_shape(const baum_i_picture *p, const baum_i_shape *shape, ba
 
 /* ---- SVG ---- */
 
-static void put_number(const baum_i_picture *p, double x)
+static void put_number(const picture *p, double x)
 {
   baum_i_putf(p->out, "%.1f", x);
 }
 
-void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3])
+void baum_i_picture_put_point(const picture *p, const char *word, const double at[3])
 {
   baum_i_put(p->out, word);
   put_number(p, (at[0] - p->left) * p->scale);
@@ -175,9 +177,9 @@ void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const d
   put_number(p, (p->top - at[1]) * p->scale);
 }
 
-baum_i_look baum_i_picture_look(const baum_i_shape *shape)
+look baum_i_picture_look(const baum_i_shape *shape)
 {
-  baum_i_look found = LOOKS[shape->style];
+  look found = LOOKS[shape->style];
   if (shape->color) {
     memcpy(found.fill, shape->color, sizeof found.fill);
     baum_i_shade(found.fill, 0.55, found.stroke);
@@ -189,8 +191,8 @@ baum_i_look baum_i_picture_look(const baum_i_shape *shape)
   return found;
 }
 
-static void put_attributes(const baum_i_picture *p, const char *fill, const char *stroke,
-                           double width, const char *dash)
+static void put_attributes(const picture *p, const char *fill, const char *stroke, double width,
+                           const char *dash)
 {
   baum_i_putf(p->out, " fill=\"%s\" stroke=\"%s\" stroke-width=\"%.1f\"", fill, stroke, width);
   if (dash) {
@@ -199,7 +201,7 @@ static void put_attributes(const baum_i_picture *p, const char *fill, const char
   baum_i_put(p->out, "/>");
 }
 
-static void put_path(const baum_i_picture *p, int count, const double (*at)[3], bool closed)
+static void put_path(const picture *p, int count, const double (*at)[3], bool closed)
 {
   baum_i_put(p->out, "<path d=\"");
   for (int k = 0; k < count; k++) {
@@ -210,10 +212,10 @@ static void put_path(const baum_i_picture *p, int count, const double (*at)[3], 
 
 /* With a radius, draws a wide line in the colour of the edge, and over it a narrower one in the
  * colour of the fill. */
-static void put_line(const baum_i_picture *p, const baum_i_shape *shape, int count,
-                     const double (*at)[3], bool closed)
+static void put_line(const picture *p, const baum_i_shape *shape, int count, const double (*at)[3],
+                     bool closed)
 {
-  const baum_i_look l = baum_i_picture_look(shape);
+  const look l = baum_i_picture_look(shape);
   double wide = 2.0 * shape->radius * p->scale;
   put_path(p, count, at, closed);
   if (wide <= 2.0 * l.width || strcmp(l.fill, "none") == 0) {
@@ -225,16 +227,15 @@ static void put_line(const baum_i_picture *p, const baum_i_shape *shape, int cou
   put_attributes(p, closed ? l.fill : "none", l.fill, wide - 2.0 * l.width, NULL);
 }
 
-void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *look, int count,
-                             const double (*at)[3])
+void baum_i_picture_put_area(const picture *p, const look *l, int count, const double (*at)[3])
 {
   put_path(p, count, at, true);
-  put_attributes(p, look->fill, look->stroke, look->width, look->dash);
+  put_attributes(p, l->fill, l->stroke, l->width, l->dash);
 }
 
-static void put_circle(const baum_i_picture *p, const baum_i_shape *shape, const double at[3])
+static void put_circle(const picture *p, const baum_i_shape *shape, const double at[3])
 {
-  const baum_i_look l = baum_i_picture_look(shape);
+  const look l = baum_i_picture_look(shape);
   baum_i_put(p->out, "<circle cx=\"");
   put_number(p, (at[0] - p->left) * p->scale);
   baum_i_put(p->out, "\" cy=\"");
@@ -244,12 +245,13 @@ static void put_circle(const baum_i_picture *p, const baum_i_shape *shape, const
 }
 
 /* Draws the face of a box along one axis, if it points towards the eye. */
-static void put_face(const baum_i_picture *p, const baum_i_shape *shape, int axis, double sign)
+static void put_face(const picture *p, const baum_i_shape *shape, int axis, double sign)
 {
   const double *centre = point_of(p, shape, 0), *half = point_of(p, shape, 1);
-  double normal[3] = {0.0, 0.0, 0.0}, towards[3];
+  double normal[3] = {0.0, 0.0, 0.0}, turned[3], towards[3];
   normal[axis] = sign;
-  baum_i_picture_turn(p, shape->body, normal, towards);
+  baum_i_turn(p->frames[shape->body].axes, normal, turned);
+  baum_i_turn(p->view, turned, towards);
   if (towards[2] <= 0.0) {
     return;
   }
@@ -260,17 +262,17 @@ static void put_face(const baum_i_picture *p, const baum_i_shape *shape, int axi
     point[axis] += sign * half[axis];
     point[(axis + 1) % 3] += (k == 0 || k == 3 ? -1.0 : 1.0) * half[(axis + 1) % 3];
     point[(axis + 2) % 3] += (k < 2 ? -1.0 : 1.0) * half[(axis + 2) % 3];
-    baum_i_picture_project(p, shape->body, point, corners[k]);
+    project(p, shape->body, point, corners[k]);
   }
-  const baum_i_look look = baum_i_picture_look(shape);
-  baum_i_picture_put_area(p, &look, 4, (const double(*)[3])corners);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, 4, (const double(*)[3])corners);
 }
 
-static void put_disc(const baum_i_picture *p, const baum_i_shape *shape)
+static void put_disc(const picture *p, const baum_i_shape *shape)
 {
   double at[BAUM_I_CIRCLE][3], x[3], y[3];
   if (!p->drawing->spatial) {
-    baum_i_picture_project(p, shape->body, point_of(p, shape, 0), at[0]);
+    project(p, shape->body, point_of(p, shape, 0), at[0]);
     put_circle(p, shape, at[0]);
     return;
   }
@@ -280,15 +282,15 @@ static void put_disc(const baum_i_picture *p, const baum_i_shape *shape)
     memcpy(point, point_of(p, shape, 0), sizeof point);
     baum_i_add_scaled3(shape->radius * cos(angle), x, point);
     baum_i_add_scaled3(shape->radius * sin(angle), y, point);
-    baum_i_picture_project(p, shape->body, point, at[k]);
+    project(p, shape->body, point, at[k]);
   }
-  const baum_i_look look = baum_i_picture_look(shape);
-  baum_i_picture_put_area(p, &look, BAUM_I_CIRCLE, (const double(*)[3])at);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
 }
 
 /* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
  * radii. */
-static void put_along(const baum_i_picture *p, const baum_i_shape *shape, const double (*ends)[3],
+static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
   double at[COIL][3];
@@ -303,7 +305,7 @@ static void put_along(const baum_i_picture *p, const baum_i_shape *shape, const 
   put_line(p, &thin, count, (const double(*)[3])at, false);
 }
 
-static void put_coil(const baum_i_picture *p, const baum_i_shape *shape, const double (*ends)[3])
+static void put_coil(const picture *p, const baum_i_shape *shape, const double (*ends)[3])
 {
   double xy[COIL][2];
   for (int k = 0; k < COIL; k++) {
@@ -315,7 +317,7 @@ static void put_coil(const baum_i_picture *p, const baum_i_shape *shape, const d
   put_along(p, shape, ends, COIL, (const double(*)[2])xy);
 }
 
-static void put_damper(const baum_i_picture *p, const baum_i_shape *shape, const double (*ends)[3])
+static void put_damper(const picture *p, const baum_i_shape *shape, const double (*ends)[3])
 {
   static const double rod[2][2] = {{0.0, 0.0}, {0.3, 0.0}};
   static const double cylinder[4][2] = {{0.7, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {0.7, 1.0}};
@@ -325,10 +327,10 @@ static void put_damper(const baum_i_picture *p, const baum_i_shape *shape, const
   put_along(p, shape, ends, 4, piston);
 }
 
-static void put_between(const baum_i_picture *p, const baum_i_shape *shape)
+static void put_between(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
-  baum_i_picture_project(p, shape->body, point_of(p, shape, 0), ends[0]);
+  project(p, shape->body, point_of(p, shape, 0), ends[0]);
   project_end(p, shape, ends[1]);
   double length = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
   if (length > 0.0 && shape->style == BAUM_I_SPRING) {
@@ -341,11 +343,11 @@ static void put_between(const baum_i_picture *p, const baum_i_shape *shape)
 }
 
 /* The arrow of a moment has two tips. */
-static void put_arrow(const baum_i_picture *p, const baum_i_shape *shape)
+static void put_arrow(const picture *p, const baum_i_shape *shape)
 {
   static const double tip[4][2] = {{0.0, 0.0}, {1.2, 0.5}, {0.0, 0.0}, {1.2, -0.5}};
   double from[3], to[3], at[9][3];
-  baum_i_picture_project(p, shape->body, point_of(p, shape, 0), from);
+  project(p, shape->body, point_of(p, shape, 0), from);
   project_end(p, shape, to);
   const double d[2] = {to[0] - from[0], to[1] - from[1]};
   const double size = p->drawing->unit / fmax(hypot(d[0], d[1]), p->drawing->unit);
@@ -360,7 +362,7 @@ static void put_arrow(const baum_i_picture *p, const baum_i_shape *shape)
   put_line(p, shape, count, (const double(*)[3])at, false);
 }
 
-static void put_points(const baum_i_picture *p, const baum_i_shape *shape)
+static void put_points(const picture *p, const baum_i_shape *shape)
 {
   double(*at)[3] = baum_i_alloc((size_t)shape->count, sizeof *at);
   if (!at) {
@@ -368,16 +370,16 @@ static void put_points(const baum_i_picture *p, const baum_i_shape *shape)
     return;
   }
   for (int k = 0; k < shape->count; k++) {
-    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at[k]);
+    project(p, shape->body, point_of(p, shape, k), at[k]);
   }
   put_line(p, shape, shape->count, (const double(*)[3])at, shape->form == BAUM_I_AREA);
   baum_i_free(at);
 }
 
-static void put_shape(const baum_i_picture *p, const baum_i_shape *shape, int part)
+static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 {
   double at[3];
-  baum_i_picture_project(p, shape->body, point_of(p, shape, 0), at);
+  project(p, shape->body, point_of(p, shape, 0), at);
   switch (shape->form) {
   case BAUM_I_BALL: put_circle(p, shape, at); break;
   case BAUM_I_DISC: put_disc(p, shape); break;
@@ -425,7 +427,7 @@ static int parts_of(const baum_i_shape *shape)
   return shape->form == BAUM_I_MESH ? shape->triangle_count : 1;
 }
 
-static int layer_of(const baum_i_picture *p, int k)
+static int layer_of(const picture *p, int k)
 {
   const baum_i_style style = p->drawing->shapes[k].style;
   const int in_space = style == BAUM_I_BASE ? 0 : style > BAUM_I_JOINT ? 2 + k : 1;
@@ -433,7 +435,7 @@ static int layer_of(const baum_i_picture *p, int k)
 }
 
 /* Lists all parts in the order of drawing; returns their number, or -1 when out of memory. */
-static int sort_parts(const baum_i_picture *p, order **out)
+static int sort_parts(const picture *p, order **out)
 {
   int count = 0, room = 0;
   for (int k = 0; k < p->drawing->shape_count; k++) {
@@ -455,7 +457,7 @@ static int sort_parts(const baum_i_picture *p, order **out)
   return count;
 }
 
-static void fit(baum_i_picture *p)
+static void fit(picture *p)
 {
   baum_i_box box = {{INFINITY, INFINITY, 0.0}, {-INFINITY, -INFINITY, 0.0}};
   for (int k = 0; k < p->drawing->shape_count; k++) {
@@ -476,7 +478,7 @@ static void fit(baum_i_picture *p)
               size[0], size[1], size[0], size[1]);
 }
 
-static baum_status put_picture(baum_i_picture *p)
+static baum_status put_picture(picture *p)
 {
   order *orders;
   set_view(p);
@@ -519,7 +521,7 @@ static baum_status check(const baum_mechanism *mechanism, const double *q, const
 static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_i_buffer *out)
 {
   const baum_mechanism *m = drawing->mechanism;
-  baum_i_picture p = {.drawing = drawing, .frames = drawing->design, .out = out};
+  picture p = {.drawing = drawing, .frames = drawing->design, .out = out};
   baum_i_spatial_frame *frames = NULL;
   if (q) {
     frames = baum_i_alloc((size_t)m->body_count + 1, sizeof *frames);

@@ -30,13 +30,11 @@ typedef struct baum_i_picture {
 /* Transform a point of a body to the axes right, up and towards the eye [m]. */
 void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
                             double out[3]);
-/* The same for a vector. */
-void baum_i_picture_turn(const baum_i_picture *p, int body, const double x[3], double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
 /* Draw an area with a thin edge. */
-void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *look, int count,
+void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,
                              const double (*at)[3]);
 
 /* ---- svg_solids.c ---- */

@@ -26,9 +26,9 @@ void baum_i_shade(const char color[8], double factor, char out[8])
  * to the eye e, so that the lines begin at +-x; y = axis x x.
  */
 
-/* Projects part of a circle, from the angle `first` on, in steps of a revolution / BAUM_I_CIRCLE. */
-static void project_arc(const double centre[3], const double (*xy)[3], double first, int count,
-                        double (*out)[3])
+/* Sets the points of part of a circle, from the angle `first` on. */
+static void set_arc(const double centre[3], const double (*xy)[3], double first, int count,
+                    double (*out)[3])
 {
   for (int k = 0; k < count; k++) {
     const double angle = first + BAUM_I_REVOLUTION * k / BAUM_I_CIRCLE;
@@ -71,10 +71,10 @@ void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *sh
   /* The far half is the one away from the near end. */
   const bool upper = xy[1][0] * along[0] + xy[1][1] * along[1] < 0.0;
   const double first = upper ? 0.0 : 0.5 * BAUM_I_REVOLUTION;
-  project_arc(far_end, (const double(*)[3])xy, first, HALF + 1, side);
-  project_arc(near_end, (const double(*)[3])xy, first + 0.5 * BAUM_I_REVOLUTION, HALF + 1,
-              side + HALF + 1);
-  project_arc(near_end, (const double(*)[3])xy, 0.0, BAUM_I_CIRCLE, cap);
+  set_arc(far_end, (const double(*)[3])xy, first, HALF + 1, side);
+  set_arc(near_end, (const double(*)[3])xy, first + 0.5 * BAUM_I_REVOLUTION, HALF + 1,
+          side + HALF + 1);
+  set_arc(near_end, (const double(*)[3])xy, 0.0, BAUM_I_CIRCLE, cap);
   baum_i_look look = baum_i_picture_look(shape), darker = look;
   baum_i_shade(look.fill, SIDE, darker.fill);
   baum_i_picture_put_area(p, &darker, BAUM_I_CIRCLE + 2, (const double(*)[3])side);

@@ -21,21 +21,26 @@ void baum_i_free_outlines(baum_outline *outlines, int count)
   baum_i_free(outlines);
 }
 
+/* Copies 3 x count numbers. NULL for a count of 0, and when out of memory, which clears *fine. */
+static void *copy_rows(const void *rows, int count, size_t size, bool *fine)
+{
+  void *copy = count > 0 ? baum_i_copy(rows, 3 * (size_t)count, size) : NULL;
+  *fine = *fine && (copy || count == 0);
+  return copy;
+}
+
 /* Only meshes have triangles, only polygons and meshes have points. */
 static bool copy_one(const baum_outline *from, baum_outline *to)
 {
-  *to = *from;
   const bool mesh = from->form == BAUM_OUTLINE_MESH;
-  const bool pointed = mesh || from->form == BAUM_OUTLINE_POLYGON;
-  to->point_count = pointed ? from->point_count : 0;
+  bool fine = true;
+  *to = *from;
+  to->point_count = mesh || from->form == BAUM_OUTLINE_POLYGON ? from->point_count : 0;
   to->triangle_count = mesh ? from->triangle_count : 0;
-  to->points =
-    pointed ? baum_i_copy(from->points, 3 * (size_t)to->point_count, sizeof *to->points) : NULL;
-  to->triangles =
-    mesh ? baum_i_copy(from->triangles, 3 * (size_t)to->triangle_count, sizeof *to->triangles)
-         : NULL;
+  to->points = copy_rows(from->points, to->point_count, sizeof *to->points, &fine);
+  to->triangles = copy_rows(from->triangles, to->triangle_count, sizeof *to->triangles, &fine);
   to->color = from->color ? baum_i_copy_text(from->color) : NULL;
-  if ((pointed && !to->points) || (mesh && !to->triangles) || (from->color && !to->color)) {
+  if (!fine || (from->color && !to->color)) {
     free_one(to);
     return false;
   }

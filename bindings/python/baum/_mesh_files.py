@@ -4,6 +4,7 @@ the line or byte, of whatever cannot be read."""
 
 from __future__ import annotations
 
+import io
 import math
 import os
 from pathlib import Path
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from .typing import Array
 
 Triangles = NDArray[np.int32]
-LARGEST = 1 << 28  # [byte] of a file
+LARGEST = 1 << 27  # [byte] of a file
 LIMIT = 200_000  # triangles; BAUM_OUTLINE_MAX_TRIANGLES
 HEAD, RECORD = 84, 50  # [byte] of a binary STL file, and of one of its triangles
 RECORDS = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -57,12 +58,13 @@ def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     """The number and the words of each line that has any. A backslash joins the next line."""
-    text, joined = data.decode("utf-8", "replace"), ""
-    for number, line in enumerate(text.split("\n"), 1):
-        line = joined + line.strip()
-        joined = line[:-1] + " " if line.endswith("\\") else ""
-        if line and not joined:
-            yield number, line.split()
+    words: list[str] = []
+    for number, line in enumerate(io.StringIO(data.decode("utf-8", "replace")), 1):
+        line = line.strip()
+        words += line.rstrip("\\").split()
+        if words and not line.endswith("\\"):
+            yield number, words
+            words = []
 
 
 # ---- STL -----------------------------------------------------------------------------------------
@@ -107,7 +109,7 @@ def _stl_text(file: Path, data: bytes) -> tuple[Array, Triangles]:
         elif word not in ("solid", "facet", "outer", "endloop", "endfacet", "endsolid"):
             raise ValueError(f"{where}: {words[0]!r} is no word of an STL file")
         elif len(corners) % 3:
-            raise ValueError(f"{where}: a triangle has {len(corners) % 3} vertices, must have 3")
+            raise ValueError(f"{where}: a triangle needs 3 vertices, not {len(corners) % 3}")
     if word != "endsolid":
         raise ValueError(f"{file}: line {number}: the file ends without endsolid")
     return _merged(np.array(corners).reshape(-1, 3))
@@ -124,10 +126,12 @@ def _obj(file: Path, data: bytes) -> tuple[Array, Triangles]:
     for number, words in _lines(data):
         where = f"{file}: line {number}"
         if words[0] == "v":
+            if len(vertices) == 3 * LIMIT:
+                raise ValueError(f"{where}: more than {3 * LIMIT} vertices")
             vertices.append(_numbers(words[1:4], where))
         elif words[0] == "f":
             if len(words) < 4:
-                raise ValueError(f"{where}: a face has {len(words) - 1} corners, needs 3")
+                raise ValueError(f"{where}: a face needs 3 corners, not {len(words) - 1}")
             _check_count(len(triangles) + len(words) - 3, where)
             first, *others = (_corner(word, len(vertices), where) for word in words[1:])
             triangles += [(first, a, b) for a, b in zip(others, others[1:])]

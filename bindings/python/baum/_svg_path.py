@@ -15,7 +15,7 @@ CURVE = 16  # lines of a Bezier curve
 ARC = math.radians(5)  # [rad] of a line of an arc
 LIMIT = 100_000  # points of a path
 
-_NUMBER = re.compile(r"[\s,]*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)")
+_NUMBER = re.compile(r"[\s,]*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)", re.ASCII)
 _FLAG = re.compile(r"[\s,]*([01])")
 _COMMAND = re.compile(r"[\s,]*([MmLlHhVvCcSsQqTtAaZz])")
 _REST = re.compile(r"[\s,]*")
@@ -86,6 +86,8 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
     rx, ry, half = rx * grown, ry * grown, half / grown
     side = math.sqrt(max(1 - abs(half) ** 2, 0.0)) * (1 if large == sweep else -1)
     centre = half - side * 1j * half / abs(half)  # seen from a, where the circle has radius 1
+    if not cmath.isfinite(centre):
+        raise OverflowError
     start, end = cmath.phase(-centre), cmath.phase(2 * half - centre)
     angle = (end - start) % math.tau
     if not sweep and angle > 0:

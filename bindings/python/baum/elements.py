@@ -127,9 +127,9 @@ class Body(Element):
     @property
     def outline(self) -> list[Outline]:
         """The shapes that replace the shape of the body in drawings; empty if it draws itself. Can
-        be set at any time, also for ground: to a shape (baum.Polygon, Circle, Box, Cylinder,
-        Sphere, Mesh), to the corners (n, 2) of a polygon, to an SVG path (str, y upward), to a list
-        of these, or to None."""
+        be set at any time, also for ground, but not while another thread draws: to a shape
+        (baum.Polygon, Circle, Box, Cylinder, Sphere, Mesh), to the corners (n, 2) of a polygon, to
+        an SVG path (str, y upward), to a list of these, or to None."""
         return outlines.read(self)
 
     @outline.setter

@@ -61,8 +61,8 @@ class Outline:
         shown = (f"{name}={value!r}" for name, value in vars(self).items())
         return f"{type(self).__name__}({', '.join(shown)})"
 
-    def fill(self, struct: Any) -> list[Any]:
-        """Set the fields of the library's struct. Returns what must stay alive with it."""
+    def _fill(self, struct: Any) -> list[Any]:
+        """Set the fields for the library. Returns what must stay alive with them."""
         raise NotImplementedError
 
 
@@ -76,7 +76,7 @@ class Polygon(Outline):
         self.points = _table(points, (2, 3), "points")
         self.color = color
 
-    def fill(self, struct: Any) -> list[Any]:
+    def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.points = Form.BAUM_OUTLINE_POLYGON, address(self.points)
         struct.point_count = len(self.points)
         return [self.points]
@@ -93,7 +93,7 @@ class Circle(Outline):
         self.center = _point(center, "center")
         self.color = color
 
-    def fill(self, struct: Any) -> list[Any]:
+    def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.radius = Form.BAUM_OUTLINE_CIRCLE, self.radius
         struct.center = (ctypes.c_double * 3)(*self.center)
         return []
@@ -105,8 +105,8 @@ class Sphere(Circle):
     radius: > 0. center: x, y or x, y, z.
     """
 
-    def fill(self, struct: Any) -> list[Any]:
-        super().fill(struct)
+    def _fill(self, struct: Any) -> list[Any]:
+        super()._fill(struct)
         struct.form = Form.BAUM_OUTLINE_SPHERE
         return []
 
@@ -122,7 +122,7 @@ class Box(Outline):
         self.center = _point(center, "center")
         self.color = color
 
-    def fill(self, struct: Any) -> list[Any]:
+    def _fill(self, struct: Any) -> list[Any]:
         struct.form = Form.BAUM_OUTLINE_BOX
         struct.size = (ctypes.c_double * 3)(*self.size)
         struct.center = (ctypes.c_double * 3)(*self.center)
@@ -143,7 +143,7 @@ class Cylinder(Outline):
         self.end = _point(end, "end")
         self.color = color
 
-    def fill(self, struct: Any) -> list[Any]:
+    def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.radius = Form.BAUM_OUTLINE_CYLINDER, self.radius
         struct.start = (ctypes.c_double * 3)(*self.start)
         struct.end = (ctypes.c_double * 3)(*self.end)
@@ -186,7 +186,7 @@ class Mesh(Outline):
     def __repr__(self) -> str:
         return f"<mesh of {len(self.vertices)} vertices and {len(self.triangles)} triangles>"
 
-    def fill(self, struct: Any) -> list[Any]:
+    def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.points = Form.BAUM_OUTLINE_MESH, address(self.vertices)
         struct.point_count, struct.triangle_count = len(self.vertices), len(self.triangles)
         struct.triangles = self.triangles.ctypes.data_as(ctypes.POINTER(ctypes.c_int32))
@@ -194,7 +194,7 @@ class Mesh(Outline):
 
 
 # A shape, the corners of a polygon (n, 2), a path of SVG, or several of them.
-OutlineLike = Union[Outline, ArrayLike, Sequence[Union[Outline, ArrayLike]], None]
+OutlineLike = Union[Outline, ArrayLike, Sequence[Any], None]
 
 
 def _is_table(value: Any) -> bool:
@@ -236,7 +236,7 @@ class Structs:
             if outline.color is not None and not isinstance(outline.color, str):
                 raise TypeError(f'color: text such as "#1f77b4" is wanted, not {outline.color!r}')
             struct.color = None if outline.color is None else outline.color.encode()
-            self._keep += outline.fill(struct)
+            self._keep += outline._fill(struct)
             self.array[k] = struct
 
     def check(self) -> None:
