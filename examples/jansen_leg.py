@@ -103,6 +103,7 @@ def main() -> int:
         )
         down = path[:, 1] < path[:, 1].min() + 0.02
         print(f"{foot.name}: down for {down.mean():.0%} of a turn, {np.ptp(path[down, 0]):.2f} m")
+        report.expect(f"{foot.name}: a turn / the part on the ground", 1 / down.mean(), 2)
     # Nothing dissipates energy.
     report.expect("mean torque of the motor [N m]", abs(run["motor.effort"].mean()), 1e-9)
     return report.end()
