@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/file.h"
 #include "draw/drawing.h"
+#include "draw/picture.h"
 #include "dynamics/snapshot.h"
 #include "mechanism/identify.h"
 
@@ -45,8 +46,8 @@ static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_
   return status;
 }
 
-static baum_status make(const baum_mechanism *mechanism, const double *q, const char *call,
-                        baum_i_buffer *out)
+baum_status baum_i_put_svg(const baum_mechanism *mechanism, const double *q, const char *call,
+                           baum_i_buffer *out)
 {
   BAUM_I_TRY(check(mechanism, q, call));
   baum_i_drawing drawing;
@@ -73,7 +74,7 @@ static baum_status draw_assembled(baum_workspace *w, double *q, void *whole)
   memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
   baum_status status = baum_i_assemble_closest(w, 0.0, q, m->held);
   return status == BAUM_OK || status == BAUM_ERR_INCONSISTENT
-           ? make(m, q, "baum_mechanism_svg_assembled", drawn->out)
+           ? baum_i_put_svg(m, q, "baum_mechanism_svg_assembled", drawn->out)
            : status;
 }
 
@@ -98,7 +99,7 @@ baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q,
                                size_t capacity, size_t *size)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_text(&out, "baum_mechanism_svg", text, capacity, size);
   }
@@ -110,7 +111,7 @@ baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const doub
                                      const char *path)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_write_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_write_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_file(&out, "baum_mechanism_write_svg", path);
   }
