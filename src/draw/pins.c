@@ -50,7 +50,7 @@ void baum_i_draw_gear(const baum_i_symbol *s)
 void baum_i_draw_ball(const baum_i_symbol *s)
 {
   baum_i_draw_foot(s);
-  baum_i_symbol_point(s, BAUM_I_JOINT, 1, 1.2);
+  baum_i_symbol_point(s, BAUM_I_JOINT, s->place->body[0] == 0 ? 0 : 1, 1.2);
 }
 
 /* Draws the axis of each body: they coincide if the joint is closed. */

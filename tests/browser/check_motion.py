@@ -182,17 +182,6 @@ def check_names(browser, checks):
     wait(browser)
 
 
-def check_resize(browser, sizes, checks):
-    """Check that a window of another size shows the whole mechanism."""
-    whole = []
-    for width, height, phone in sizes:
-        browser.size(width, height, phone)
-        wait(browser)
-        whole.append(browser.run("[view.scale, (fit(), view.scale)]"))
-    for scale, fitted in whole:
-        checks.expect(abs(scale / fitted - 1) < 0.01, f"after a resize the scale is {scale / fitted:.2f} of what fits")
-
-
 def check_video(browser, checks):
     browser.run("HTMLAnchorElement.prototype.click = function () { window.saved = this.download; }")
     browser.click("#video")
@@ -240,7 +229,6 @@ def main():
                     browser.screenshot(os.path.join(folder, f"{name}_{width}_{scheme}.png"), not phone)
                     check_names(browser, checks)
                     check_quiet(browser, checks)
-            check_resize(browser, SIZES, checks)
             check_video(browser, checks)
         page = os.path.join(folder, "many.html")
         many()[0].page(page)
