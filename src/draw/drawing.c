@@ -166,7 +166,7 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   for (int k = 0; k <= m->body_count; k++) {
     out->design[k] = baum_i_spatial_design_frame(m, k);
   }
-  BAUM_I_TRY(baum_i_find_places(out));
+  baum_i_find_places(out);
   out->unit = find_unit(out);
   for (int k = 0; k <= m->body_count; k++) {
     baum_i_draw_body(out, k);

@@ -119,9 +119,8 @@ typedef struct baum_i_drawing {
   bool failed; /* memory has run out */
 } baum_i_drawing;
 
-/* Draw all elements. If there are no samples, the mechanism need not be frozen. BAUM_OK,
- * BAUM_ERR_MEMORY, or BAUM_ERR_ARGUMENT for a joint with `point` away from its particle; release
- * the drawing in any case. */
+/* Draw all elements. If there are no samples, the mechanism need not be frozen. BAUM_OK
+ * or BAUM_ERR_MEMORY; release the drawing in any case. */
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
                                   baum_i_drawing *out);
 void baum_i_drawing_release(baum_i_drawing *drawing);
@@ -145,7 +144,7 @@ double baum_i_find_number(const baum_i_element *element, const char *name);
 bool baum_i_has_field(const baum_i_element *element, const char *name);
 
 /* Set the places of all joints and forces. Needs the design frames. */
-baum_status baum_i_find_places(baum_i_drawing *drawing);
+void baum_i_find_places(baum_i_drawing *drawing);
 
 /* Return the ends of places on a body, in the order of joints and forces. */
 const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count);

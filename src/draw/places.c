@@ -5,8 +5,6 @@
 #include "draw/drawing.h"
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
-#include "mechanism/planar/axis_row.h"
-#include "mechanism/spatial/spatial.h"
 
 /* Finds a field of a definition; NULL if there is none. */
 static const void *find_field(const baum_i_element *element, const char *name, size_t *size)
@@ -105,18 +103,31 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
 
 /* ---- places ---- */
 
-/* Sets the points of an element from its fields point, point_a and point_b. */
-static baum_status set_points(const baum_i_drawing *drawing, const double *point, size_t size,
-                              baum_i_place *out)
+static bool is_particle(const baum_i_drawing *drawing, int body)
 {
-  const bool planar = size == 2 * sizeof *point;
-  double s[6];
-  BAUM_I_TRY(planar ? baum_i_planar_points(drawing->mechanism, out->element, s)
-                    : baum_i_spatial_points(drawing->mechanism, out->element, s));
-  memcpy(out->point[0], s, size);
-  memcpy(out->point[1], s + size / sizeof *s, size);
-  set_axes(drawing, planar, !isnan(point[0]), out);
-  return BAUM_OK;
+  const baum_i_frame_kind kind = baum_i_frame_of(drawing->mechanism->bodies[body]);
+  return kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE;
+}
+
+/* Sets the points of an element from its fields point, point_a and point_b. The only point of a
+ * particle is the particle itself, also if `point` is elsewhere by mistake. */
+static void set_points(const baum_i_drawing *drawing, const double *point, size_t size,
+                       baum_i_place *out)
+{
+  static const char *const names[2] = {"point_a", "point_b"};
+  const bool in_ground = !isnan(point[0]);
+  double ground[3] = {0.0};
+  memcpy(ground, point, size);
+  for (int side = 0; side < 2; side++) {
+    size_t same;
+    const double *own = find_field(out->element, names[side], &same);
+    if (in_ground && !is_particle(drawing, out->body[side])) {
+      baum_i_draw_move(drawing, 0, out->body[side], ground, out->point[side]);
+    } else if (!in_ground && own && !isnan(own[0])) {
+      memcpy(out->point[side], own, size);
+    }
+  }
+  set_axes(drawing, size == 2 * sizeof *point, in_ground, out);
 }
 
 /* A load at the centre of mass needs no place. */
@@ -129,8 +140,8 @@ static void set_load(const baum_i_element *element, int body, const double *poin
   out->element = baum_i_dot3(out->point[0], out->point[0]) > 0.0 ? element : NULL;
 }
 
-static baum_status find_place(const baum_i_drawing *drawing, const baum_i_element *element,
-                              baum_i_place *out)
+static void find_place(const baum_i_drawing *drawing, const baum_i_element *element,
+                       baum_i_place *out)
 {
   size_t size;
   *out = (baum_i_place){.axis = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}};
@@ -138,15 +149,14 @@ static baum_status find_place(const baum_i_drawing *drawing, const baum_i_elemen
   const int loaded = find_body(drawing, element, "body");
   if (point && loaded >= 0) {
     set_load(element, loaded, point, size, out);
-    return BAUM_OK;
+    return;
   }
   out->body[0] = find_body(drawing, element, "body_a");
   out->body[1] = find_body(drawing, element, "body_b");
-  if (!point || out->body[0] < 0 || out->body[1] < 0) {
-    return BAUM_OK;
+  if (point && out->body[0] >= 0 && out->body[1] >= 0) {
+    out->element = element;
+    set_points(drawing, point, size, out);
   }
-  out->element = element;
-  return set_points(drawing, point, size, out);
 }
 
 /* Lists the ends of places by body, and the gears, so that large mechanisms are drawn quickly. */
@@ -183,14 +193,13 @@ const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, 
   return drawing->ends + drawing->first_end[body];
 }
 
-baum_status baum_i_find_places(baum_i_drawing *drawing)
+void baum_i_find_places(baum_i_drawing *drawing)
 {
   const baum_mechanism *m = drawing->mechanism;
   for (int k = 0; k < drawing->place_count; k++) {
     const baum_i_element *element =
       k < m->joint_count ? &m->joints[k]->element : &m->forces[k - m->joint_count]->element;
-    BAUM_I_TRY(find_place(drawing, element, &drawing->places[k]));
+    find_place(drawing, element, &drawing->places[k]);
   }
   list_ends(drawing);
-  return BAUM_OK;
 }

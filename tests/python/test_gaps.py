@@ -147,6 +147,16 @@ class Mistakes(unittest.TestCase):
     def test_a_wrong_length(self):
         self.check(wrong_length, "B", ["A", "B", "C", "O"])
 
+    def test_a_point_away_from_its_particle_is_shown_although_freezing_fails(self):
+        m = baum.Mechanism()
+        arm = m.planar_body("arm", position=(0.5, 0))
+        bob = m.planar_particle("bob", position=(1.2, 0))
+        m.revolute("O", m.ground, arm, point=(0, 0))
+        m.revolute("A", arm, bob, point=(1, 0))
+        with self.assertRaisesRegex(baum.Error, '"A": point is'):
+            m.freeze()
+        self.assertEqual(gaps(m), ["A"])
+
     def test_only_positions_and_assembled_are_drawn(self):
         with self.assertRaisesRegex(ValueError, "assembled"):
             wrong_length().draw("assembly")
