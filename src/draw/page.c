@@ -75,6 +75,27 @@ static baum_status check_list(const char *call, const char *names, int64_t count
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the page needs %s", call, names);
 }
 
+static const char *mark_kind_name(const baum_page *page, int k)
+{
+  switch (page->mark_kinds ? page->mark_kinds[k] : BAUM_MARK_WARNING) {
+  case BAUM_MARK_WARNING: return "warning";
+  case BAUM_MARK_SINGULAR: return "singular";
+  case BAUM_MARK_EVENT: return "event";
+  default: return NULL;
+  }
+}
+
+static baum_status check_marks(const baum_page *page, const char *call)
+{
+  for (int k = 0; k < page->mark_count; k++) {
+    if (!mark_kind_name(page, k)) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: mark_kinds[%d] is %d, not a baum_mark_kind", call,
+                         k, page->mark_kinds[k]);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_given(const baum_page *page, const char *call)
 {
   BAUM_I_TRY(
@@ -85,8 +106,9 @@ static baum_status check_given(const baum_page *page, const char *call)
                         page->traces));
   BAUM_I_TRY(check_list(call, "plots and plot_labels for its plot_count >= 0", page->plot_count, 0,
                         page->plots, page->plot_labels));
-  return check_list(call, "mark_times and mark_texts for its mark_count >= 0", page->mark_count, 0,
-                    page->mark_times, page->mark_texts);
+  BAUM_I_TRY(check_list(call, "mark_times and mark_texts for its mark_count >= 0", page->mark_count,
+                        0, page->mark_times, page->mark_texts));
+  return check_marks(page, call);
 }
 
 static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,
@@ -354,8 +376,8 @@ static void put_traces(const table *t, baum_i_buffer *out)
 static void put_marks(const baum_page *page, baum_i_buffer *out)
 {
   for (int k = 0; k < page->mark_count; k++) {
-    baum_i_putf(out, "%s{\"t\":%s,\"text\":\"", k ? "," : "",
-                baum_i_exact(page->mark_times[k], "null").text);
+    baum_i_putf(out, "%s{\"t\":%s,\"kind\":\"%s\",\"text\":\"", k ? "," : "",
+                baum_i_exact(page->mark_times[k], "null").text, mark_kind_name(page, k));
     baum_i_put_user_text(out, page->mark_texts[k] ? page->mark_texts[k] : "", BAUM_I_JSON);
     baum_i_put(out, "\"}");
   }

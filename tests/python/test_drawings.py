@@ -103,7 +103,9 @@ class Pages(unittest.TestCase):
             run.page(path)
             with open(path, encoding="utf-8") as file:
                 marks = data_of(file.read())["marks"]
-        self.assertTrue(any("singular" in mark["text"] for mark in marks))
+        self.assertEqual({mark["kind"] for mark in marks}, {"warning", "singular"})
+        for mark in marks:
+            self.assertEqual(mark["kind"] == "singular", mark["text"].startswith("near a singular configuration"))
 
     def test_notebooks_show_it_in_a_frame(self):
         with mock.patch("baum.drawings.is_notebook", return_value=True):

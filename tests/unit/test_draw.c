@@ -292,6 +292,13 @@ static void wrong_calls_are_refused(void **state)
   page.plot_count = 0;
   page.mark_count = -1;
   ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
+  const int32_t kinds[2] = {BAUM_MARK_EVENT, 3};
+  const char *texts[2] = {"", ""};
+  page.mark_times = q;
+  page.mark_texts = texts;
+  page.mark_kinds = kinds;
+  page.mark_count = 2;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_kinds[1] is 3");
   page.struct_size = 8;
   ASSERT_SAYS(baum_page_write(m, &page, "page.html"), BAUM_ERR_STRUCT, "struct_size");
   baum_mechanism_destroy(m);
