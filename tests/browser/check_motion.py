@@ -109,7 +109,7 @@ def solids():
         shape(7, "cylinder", [(6.5, 0, 0), (9.5, 0, 0)], 0.2),
         shape(1, "area", [(11, -1, 0), (13, -1, 0), (13, 1, 0), (12, 0, 0), (11, 1, 0)]),  # concave
         shape(2, "mesh", [(15, -1, 0), (17, -1, 0), (16, 1, 0), (16, -0.3, 1)],
-              triangles=[[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+              triangles=[0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3]),
         shape(3, "ball", [(19, 0, 0)], 0.6),
         shape(4, "disc", [(21, 0, 0), (0, 0, 1)], 0.7),
     ]
@@ -147,7 +147,7 @@ BODIES_AT = """(points => {
     const [x, y] = project(point), ratio = stage.width / wide;
     const pixel = Array.from(copy.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data.slice(0, 3));
     const apart = (a, b) => Math.hypot(...normal(a).map((e, i) => e - normal(b)[i]));
-    const bodies = [1, 2, 3, 4, 5, 6, 7], all = [...bodies.map(k => tones['fill' + (k - 1)]), tones.paper, tones.shadow, tones.rule];
+    const bodies = [1, 2, 3, 4, 5, 6, 7], all = [...bodies.map(k => 'fill' + (k - 1)), 'paper', 'shadow', 'rule'].map(name => rgb(colours[name]));
     const found = all.map(tone => apart(pixel, tone));
     const best = found.indexOf(Math.min(...found));
     return best < bodies.length ? bodies[best] : 0;
