@@ -18,9 +18,11 @@
 #include "simulate/run.h"
 
 enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
-static const char PLACE[] = "\"DATA\""; /* where the template takes the data */
+/* Where the template takes the data, and the script that draws solids. */
+static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
 
-extern const unsigned char baum_i_page_html[]; /* made by cmake/Embed.cmake */
+/* Made by cmake/Embed.cmake. */
+extern const unsigned char baum_i_page_html[], baum_i_solids_js[];
 
 /* A column of the table. */
 typedef struct column {
@@ -386,7 +388,8 @@ static void put_marks(const baum_page *page, baum_i_buffer *out)
 static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
 {
   const char *page = (const char *)baum_i_page_html;
-  const char *place = strstr(page, PLACE);
+  const char *place = strstr(page, DATA), *after = place + strlen(DATA);
+  const char *script = strstr(after, SOLIDS);
   const char *title = t->page->title ? t->page->title : "Mechanism";
   t->columns = baum_i_alloc((size_t)t->width + (size_t)t->page->plot_count + 1, sizeof *t->columns);
   if (!t->columns) {
@@ -413,7 +416,9 @@ static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *ou
   put_ranges(t, out);
   baum_i_put(out, "],\n\"values\":\"");
   put_values(t, out);
-  baum_i_putf(out, "\"}%s", place + strlen(PLACE));
+  baum_i_putf(out, "\"}%.*s%s", (int)(script - after), after,
+              drawing->spatial ? (const char *)baum_i_solids_js : "");
+  baum_i_put(out, script + strlen(SOLIDS));
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
