@@ -22,7 +22,7 @@ void main() {
   if (pass == ${PASSES.SHADOW}) place -= bottom.xyz * (dot(place, bottom.xyz) - bottom.w);
   vec3 at = axes * (place - middle);
   if (pass == ${PASSES.OUTLINE}) at.xy += measures.y * normalize(turned(outward)).xy;
-  if (pass == ${PASSES.CREASES}) at.z += 2. * measures.y;
+  if (pass == ${PASSES.CREASES}) at.z += 5. * measures.y;
   gl_Position = vec4(at.xy * window.xy + window.zw, pass == ${PASSES.SHADOW} ? .999 : -at.z / measures.x, 1);
   facing = turned(normal);
   sky = axes * bottom.xyz;

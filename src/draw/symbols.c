@@ -306,7 +306,7 @@ static void draw_curve(const symbol *s)
 
 static void draw_ball(const symbol *s)
 {
-  draw_point(s, BAUM_I_JOINT, 1, 1.2);
+  draw_point(s, BAUM_I_JOINT, s->place->body[0] == 0 ? 0 : 1, 1.2);
   draw_gap(s);
 }
 
