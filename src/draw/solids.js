@@ -45,7 +45,7 @@ void main() {
 
 // Triangles with normals, smooth where faces meet at less than 45 degrees; all other edges are creases.
 function makeMesh(points, triangles) {
-  const at = points.map(([x, y, z, w = 0]) => [x, y, z + 4 * w]), size = Math.max(...at.map(p => Math.hypot(...p)));
+  const at = points.map(([x, y, z, w = 0]) => [x, y, z + 4 * w]), size = at.reduce((most, p) => Math.max(most, Math.hypot(...p)), 0);
   const first = new Map(), same = points.map((p, k) => { // the first point in the same place
     const key = p.map(e => Math.round(1e6 * e / size)).join(' ');
     return first.get(key) ?? (first.set(key, k), k);
@@ -58,15 +58,18 @@ function makeMesh(points, triangles) {
     around[a].push(normals[k]);
     beside.set(a * points.length + face[(i + 1) % 3], normals[k]);
   }));
-  const mean = list => normal(list.reduce((sum, n) => sum.map((e, i) => e + n[i]), [0, 0, 1e-9]));
-  const vertex = (k, smooth) => [...points[k], ...[0].slice(points[k].length - 3), ...mean(smooth), ...mean(around[k])];
-  const inside = faces.flatMap((face, k) => face.flatMap(a => vertex(a, around[a].filter(n => dot(n, normals[k]) > .7))));
-  const creases = [];
+  const mean = list => normal(list.reduce((sum, n) => [sum[0] + n[0], sum[1] + n[1], sum[2] + n[2]], [0, 0, 1e-9]));
+  const vertices = [], outward = around.map(mean), add = (k, smooth) => {
+    const [x, y, z, w = 0] = points[k];
+    vertices.push(x, y, z, w, ...smooth, ...outward[k]);
+  };
+  faces.forEach((face, k) => face.forEach(a => add(a, mean(around[a].filter(n => dot(n, normals[k]) > .7)))));
+  const corners = vertices.length / VERTEX;
   beside.forEach((n, side) => {
     const a = Math.floor(side / points.length), b = side % points.length, other = beside.get(b * points.length + a);
-    if (!other || (a < b && dot(n, other) < .7)) creases.push(...vertex(a, [n]), ...vertex(b, [n]));
+    if (!other || (a < b && dot(n, other) < .7)) { add(a, n); add(b, n); }
   });
-  return {vertices: new Float32Array([...inside, ...creases]), corners: inside.length / VERTEX, ends: creases.length / VERTEX, instances: []};
+  return {vertices: new Float32Array(vertices), corners, ends: vertices.length / VERTEX - corners, instances: []};
 }
 // A surface through rings of the same number of points, and more triangles.
 function makeRings(rings, triangles = []) {
@@ -154,7 +157,7 @@ function putDisc({points: [centre, n], radius}, f, fill, thin, tone) {
 }
 function putSolid(shape, frames) {
   const {form, style, body, radius} = shape, f = frames[body], {fill, edge, width} = look(shape), tone = [...rgb(fill || edge), ...rgb(edge)];
-  const points = shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, wide = Math.max(radius, thin), none = [0, 0, 0];
+  const points = form === 'mesh' ? [] : shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, wide = Math.max(radius, thin), none = [0, 0, 0];
   const axes = [0, 1, 2].map(k => [f.a[k], f.a[3 + k], f.a[6 + k]]);
   if (form === 'ball') putTube(solids.capsule, points[0], points[0], radius, tone);
   else if (form === 'disc') putDisc(shape, f, fill, thin, tone);
