@@ -248,6 +248,16 @@ def check_view(browser, spatial, checks):
     after = browser.run("[view.scale, view.azimuth, view.shift[0]]")
     moved = 1 if spatial else 2
     checks.expect(after[moved] != before[moved], "dragging does not turn" if spatial else "dragging does not move")
+    if spatial:  # what is near follows the hand
+        browser.run("window.near = view.centre.map((x, i) => x + 50 / view.scale * view.axes[6 + i])")
+        x, y, _ = browser.run("project(near)")
+        mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.52, 0.52), ("mouseReleased", 0.52, 0.52))
+        moved_x, moved_y, _ = browser.run("project(near)")
+        checks.expect(moved_x > x and moved_y > y, "the near side does not follow the hand")
+        before = browser.run("[...view.axes, ...view.shift]")
+        mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.6, 0.5), ("mouseReleased", 0.6, 0.5), modifiers=8)
+        after = browser.run("[...view.axes, ...view.shift]")
+        checks.expect(after[:9] == before[:9] and after[9] > before[9], "Shift does not move the picture")
     key(browser, "0")
     wait(browser)
     checks.expect(abs(browser.run("view.shift[0]")) < 1e-9, "0 does not fit")
