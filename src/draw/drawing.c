@@ -19,7 +19,8 @@ const char *baum_i_style_name(baum_i_style style)
 
 const char *baum_i_form_name(baum_i_form form)
 {
-  static const char *const names[] = {"line", "area", "disc", "ball", "box", "between", "arrow"};
+  static const char *const names[] = {"line",     "area", "disc",    "ball", "box",
+                                      "cylinder", "mesh", "between", "arrow"};
   return names[form];
 }
 
@@ -132,7 +133,7 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   }
   BAUM_I_TRY(baum_i_find_places(out));
   out->unit = find_unit(out);
-  for (int k = 1; k <= m->body_count; k++) {
+  for (int k = 0; k <= m->body_count; k++) {
     baum_i_draw_body(out, k);
   }
   for (int k = 0; k < out->place_count; k++) {
@@ -163,6 +164,26 @@ static void put_bodies(const baum_mechanism *m, baum_i_buffer *out)
   }
 }
 
+static void put_points(const baum_i_drawing *drawing, const baum_i_shape *shape, baum_i_buffer *out)
+{
+  baum_i_put(out, ",\"points\":[");
+  for (int i = 0; i < shape->count; i++) {
+    const double *x = drawing->points[shape->first + i];
+    baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+  }
+  baum_i_put(out, "]");
+}
+
+static void put_triangles(const baum_i_shape *shape, baum_i_buffer *out)
+{
+  for (int k = 0; k < shape->triangle_count; k++) {
+    const int32_t *corner = shape->triangles + 3 * (size_t)k;
+    baum_i_putf(out, "%s%d,%d,%d", k ? "," : ",\"triangles\":[", (int)corner[0], (int)corner[1],
+                (int)corner[2]);
+  }
+  baum_i_put(out, shape->triangle_count > 0 ? "]" : "");
+}
+
 void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
 {
   baum_i_putf(out, "{\"version\":1,\"spatial\":%s,\"unit\":%.6g,\"gravity\":[%.6g,%.6g,%.6g]",
@@ -178,12 +199,13 @@ void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
                 shape->body, shape->other);
     baum_i_put(out, "\"element\":\"");
     baum_i_put_user_text(out, shape->element->name, BAUM_I_JSON);
-    baum_i_putf(out, "\",\"radius\":%.5g,\"points\":[", shape->radius);
-    for (int i = 0; i < shape->count; i++) {
-      const double *x = drawing->points[shape->first + i];
-      baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+    baum_i_putf(out, "\",\"radius\":%.5g", shape->radius);
+    if (shape->color) {
+      baum_i_putf(out, ",\"color\":\"%s\"", shape->color);
     }
-    baum_i_put(out, "]}");
+    put_points(drawing, shape, out);
+    put_triangles(shape, out);
+    baum_i_put(out, "}");
   }
   baum_i_put(out, "]}");
 }
