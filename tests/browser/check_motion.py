@@ -171,10 +171,10 @@ def key(browser, name):
         browser.call("Input.dispatchKeyEvent", type=kind, key=name)
 
 
-def wait(browser):
-    """Wait until the page has drawn the requested frame."""
+def wait(browser, until_not="asked"):
+    """Wait until the page has drawn the requested frame, or until something else does not hold."""
     for _ in range(100):
-        if not browser.run("asked"):
+        if not browser.run(f"Boolean({until_not})"):
             return
         time.sleep(0.02)
 
@@ -292,14 +292,14 @@ def check_solids(browser, seen, checks):
             checks.expect(found == body, f"body {found} is seen at {np.round(point, 2)} in place of {body}")
 
 
-def check_lost_context(browser, checks):
+def check_lost_context(browser, seen, checks):
     before = browser.run(INK)
     browser.run("window.lost = solids.gl.getExtension('WEBGL_lose_context'), lost.loseContext()")
-    time.sleep(0.2)
+    wait(browser, "solids")
     checks.expect(browser.run("solids === null") and browser.run(INK) != before, "a lost context goes unnoticed")
     browser.run("lost.restoreContext()")
-    time.sleep(0.2)
-    checks.expect(browser.run("solids !== null") and browser.run(INK) == before, "a restored context draws differently")
+    wait(browser, "!solids")
+    check_solids(browser, seen, checks)
 
 
 def check_marks(browser, checks):
@@ -390,7 +390,7 @@ def main():
                 browser.size(width, height, phone, scheme)
                 browser.open(f"{page}?{width}{scheme}#t=0")
                 check_solids(browser, seen, checks)
-                check_lost_context(browser, checks)
+                check_lost_context(browser, seen, checks)
                 check_marks(browser, checks)
                 browser.screenshot(os.path.join(folder, f"solids_{width}_{scheme}.png"), not phone)
                 check_quiet(browser, checks)
