@@ -7,7 +7,9 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-static const double SHARE = 0.02; /* of a unit in the largest extent of the mechanism */
+/* The largest unit as a share of the largest extent of the mechanism, and of the mean distance of
+ * joints from the centres of mass of their bodies, which limits it if there are many bodies. */
+static const double SHARE = 0.02, LINK_SHARE = 0.125;
 
 const char *baum_i_style_name(baum_i_style style)
 {
@@ -95,6 +97,23 @@ static double largest_edge(const baum_i_box *box)
   return edge;
 }
 
+/* Mean distance of joints from the centres of mass of their bodies, without those below `least`.
+ * Infinity if there are no others. */
+static double mean_distance(const baum_i_drawing *drawing, double least)
+{
+  double sum = 0.0;
+  int count = 0;
+  for (int k = 0; k < 2 * drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k / 2];
+    const double *point = place->point[k % 2];
+    double distance =
+      place->element && place->body[k % 2] > 0 ? sqrt(baum_i_dot3(point, point)) : 0.0;
+    sum += distance > least ? distance : 0.0;
+    count += distance > least;
+  }
+  return count > 0 ? sum / count : (double)INFINITY;
+}
+
 static double find_unit(const baum_i_drawing *drawing)
 {
   const double origin[3] = {0.0, 0.0, 0.0};
@@ -115,7 +134,10 @@ static double find_unit(const baum_i_drawing *drawing)
     include(drawing, 0, origin, &box);
     extent = largest_edge(&box);
   }
-  return SHARE * (extent > 0.0 ? extent : 1.0);
+  if (extent <= 0.0) {
+    return SHARE;
+  }
+  return fmin(SHARE * extent, LINK_SHARE * mean_distance(drawing, 1e-6 * extent));
 }
 
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "draw/picture.h"
 #include "draw/svg.h"
 #include "mechanism/identify.h"
 
@@ -537,8 +538,8 @@ static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_
   return status;
 }
 
-static baum_status make(const baum_mechanism *mechanism, const double *q, const char *call,
-                        baum_i_buffer *out)
+baum_status baum_i_put_svg(const baum_mechanism *mechanism, const double *q, const char *call,
+                           baum_i_buffer *out)
 {
   BAUM_I_TRY(check(mechanism, q, call));
   baum_i_drawing drawing;
@@ -554,7 +555,7 @@ baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q,
                                size_t capacity, size_t *size)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_text(&out, "baum_mechanism_svg", text, capacity, size);
   }
@@ -566,7 +567,7 @@ baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const doub
                                      const char *path)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_write_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_write_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_file(&out, "baum_mechanism_write_svg", path);
   }
