@@ -143,6 +143,13 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
+/** What a mark on the time axis stands for; each kind has a colour and a shape. */
+typedef enum baum_mark_kind {
+  BAUM_MARK_WARNING = 0,
+  BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
+  BAUM_MARK_EVENT = 2
+} baum_mark_kind;
+
 /** What a page shows: samples of a run as baum_simulation_sample() records them. All pointers
  *  belong to the caller and are read only during the call. */
 typedef struct baum_page {
@@ -168,7 +175,9 @@ typedef struct baum_page {
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
   const char *const *mark_texts; /**< (mark_count) Default: NULL. */
-  int32_t mark_count;            /**< [-] >= 0. Default: 0. */
+  /** (mark_count) of type baum_mark_kind. Default: NULL, all BAUM_MARK_WARNING. */
+  const int32_t *mark_kinds;
+  int32_t mark_count; /**< [-] >= 0. Default: 0. */
 } baum_page;
 
 /** Set every field to its default.

@@ -35,8 +35,8 @@ typedef enum baum_i_form {
   STYLE(MARK, mark)          \
   STYLE(PITCH, pitch)        \
   STYLE(SLOT, slot)          \
-  STYLE(SPRING, spring)      \
   STYLE(DAMPER, damper)      \
+  STYLE(SPRING, spring)      \
   STYLE(ROD, rod)            \
   STYLE(JOINT, joint)        \
   STYLE(COUPLING, coupling)  \

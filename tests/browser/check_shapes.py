@@ -29,7 +29,7 @@ WIDTH, HEIGHT, COLUMNS = 320, 240, 6  # [px] of a picture
 SCALE = 2  # pictures are drawn larger by this factor
 TOLERANCE = 0.6  # shades, of the mean over 3 x 3 pixels; the same Chromium gives 0
 SCENES = {"plane": scenes.PLANE, "space": scenes.SPACE}
-PAGES = ("plane",)  # the pages of which there are references
+PAGES = ("plane", "space")  # the pages of which there are references
 
 # Returns the shades of an image or a canvas, a hexadecimal digit for each pixel.
 SHADES = """(source => {

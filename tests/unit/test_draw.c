@@ -241,6 +241,41 @@ static void inner_points_are_not_part_of_an_outline(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
+{
+  (void)state;
+  enum { Y = 1 };
+  const double radius = 0.5, half = 1.0, mass = 2.0;
+  const double across = mass * (radius * radius / 4 + half * half / 3);
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.name = "roller";
+  def.mass = mass;
+  def.inertia[0] = def.inertia[2] = across;
+  def.inertia[Y] = mass * radius * radius / 2;
+  must(baum_mechanism_add_spatial_body(m, &def, NULL));
+  def.name = "block"; /* no two moments are equal */
+  def.inertia[0] = 0.9 * across;
+  def.position[0] = 10.0;
+  must(baum_mechanism_add_spatial_body(m, &def, NULL));
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  assert_int_equal(drawing.shape_count, 3);
+  assert_int_equal(shapes_of(&drawing, "roller", BAUM_I_MARK, BAUM_I_LINE), 1);
+  assert_int_equal(shapes_of(&drawing, "roller", BAUM_I_BODY, BAUM_I_CYLINDER), 1);
+  assert_int_equal(shapes_of(&drawing, "block", BAUM_I_BODY, BAUM_I_BOX), 1);
+  const baum_i_shape *roller = &drawing.shapes[0];
+  ASSERT_NEAR(roller->radius, radius, 1e-14, 0.0);
+  for (int end = 0; end < 2; end++) {
+    const double *at = drawing.points[roller->first + end];
+    ASSERT_NEAR(at[Y], end ? half : -half, 1e-14, 0.0);
+    ASSERT_NEAR(hypot(at[0], at[2]), 0.0, 0.0, 0.0);
+  }
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
 /* ---- the ground ---- */
 
 /* The middle of the shapes of the ground, from a pin at the origin. */
@@ -438,6 +473,13 @@ static void wrong_calls_are_refused(void **state)
   page.plot_count = 0;
   page.mark_count = -1;
   ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
+  const int32_t kinds[2] = {BAUM_MARK_EVENT, 3};
+  const char *texts[2] = {"", ""};
+  page.mark_times = q;
+  page.mark_texts = texts;
+  page.mark_kinds = kinds;
+  page.mark_count = 2;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_kinds[1] is 3");
   page.struct_size = 8;
   ASSERT_SAYS(baum_page_write(m, &page, "page.html"), BAUM_ERR_STRUCT, "struct_size");
   baum_mechanism_destroy(m);
@@ -513,6 +555,7 @@ int main(void)
     cmocka_unit_test(links_of_a_long_chain_are_longer_than_wide),
     cmocka_unit_test(inner_points_are_not_part_of_an_outline),
     cmocka_unit_test(the_ground_is_below_a_joint_unless_the_body_hangs_there),
+    cmocka_unit_test(a_body_with_an_axis_of_symmetry_is_a_cylinder),
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
     cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up),
     cmocka_unit_test(names_stay_texts),

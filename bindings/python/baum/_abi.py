@@ -477,6 +477,12 @@ class baum_outline(Structure):
     ]
 
 
+class baum_mark_kind(enum.IntEnum):
+    BAUM_MARK_WARNING = 0
+    BAUM_MARK_SINGULAR = 1
+    BAUM_MARK_EVENT = 2
+
+
 class baum_page(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -494,6 +500,7 @@ class baum_page(Structure):
         ("trace_count", c_int32),
         ("mark_times", c_void_p),
         ("mark_texts", POINTER(c_char_p)),
+        ("mark_kinds", POINTER(c_int32)),
         ("mark_count", c_int32),
     ]
 

@@ -479,8 +479,8 @@ class Mechanism(Adding, AddingInSpace):
 
         t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
         traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
-        neighbours with the same unit share a plot. marks: times [s] and texts on the time axis.
-        Constraint violations of q are shown as they are.
+        neighbours with the same unit share a plot. marks: times [s] and texts of events on the time
+        axis. Constraint violations of q are shown as they are.
         """
         made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
         if path is not None:
