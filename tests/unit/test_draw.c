@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawings and pages: every kind of element draws itself, the shape of a body follows from its
+/* Drawings and pages: every kind of element has its drawing, the shape of a body follows from its
  * joints, and names that a user gives cannot inject markup. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -137,7 +137,7 @@ static void add_slider(baum_mechanism *m, baum_body_id body)
   must(baum_mechanism_add_planar_translational(m, &def, NULL));
 }
 
-/* A crank with two pins, a rod with three, a block on a guide, and a wheel. */
+/* A crank with two pins, a rod with three pins, a block on a guide, and a wheel. */
 static baum_mechanism *make_crank(void)
 {
   baum_mechanism *m;
