@@ -325,7 +325,7 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 static void stable_pairs_near_the_edge_are_warned_of(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* alpha = beta is stable up to 2 / h */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* alpha = beta: up to 2 / h */
                                    {EULER, 1e-3, 1.9e-3},      /* the limit of B is 2 alpha h */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
@@ -537,7 +537,7 @@ static void the_pair_that_a_refusal_offers_is_accepted(void **state)
                             "that is alpha = %lf 1/s, beta = %lf 1/s", &alpha, &beta),
                      2);
     baum_i_gain_choice c = chosen(baum_gains_fixed(alpha, beta), fixed_step(m));
-    ASSERT_NEAR(c.amplification.spectral_radius, 0.9, 0.0, 5e-3); /* the message prints four digits */
+    ASSERT_NEAR(c.amplification.spectral_radius, 0.9, 0.0, 5e-3); /* printed with four digits */
   }
 }
 

@@ -91,7 +91,7 @@ static void a_planetary_gear_follows_willis(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* rounding at 50 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* terms of about 50 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-13);
   double sun = 11.0;
   double turned = sun / (1.0 + 90.0 / 20.0);

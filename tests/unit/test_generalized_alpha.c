@@ -190,7 +190,7 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
   assert_true(c.max_phi <= 1e-14);     /* rounding of lengths of 1 m and of angles */
-  assert_true(c.max_phi_rate > 1e-9);  /* of order h^2 */
+  assert_true(c.max_phi_rate > 1e-9);  /* O(h^2) */
   assert_true(c.max_phi_rate <= 1e-2); /* at up to 45 m/s */
   assert_int_equal(c.rejected, 0);
   assert_int_equal(c.warnings, 0);
@@ -241,7 +241,7 @@ static void a_start_off_the_constraints_is_projected(void **state)
   check(baum_simulation_set_state(run, 0.0, q, v));
   check(baum_simulation_step(run, 1));
   assert_true(fabs(hypot(baum_simulation_q(run)[0], baum_simulation_q(run)[1]) - 1.0) <= 1e-14);
-  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* of order h^2 */
+  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* O(h^2) */
   ASSERT_NEAR(baum_simulation_v(run)[0], -1e-4, 0.0, 1e-6);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);

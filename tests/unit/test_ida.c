@@ -431,7 +431,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
      * pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* the tangential velocity is kept */
+    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* its tangential part */
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
   }
