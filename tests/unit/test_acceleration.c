@@ -88,8 +88,7 @@ static void check_against_lu(model *m, double gain)
     largest = fmax(largest, fabs(want[i]));
   }
   for (size_t i = 0; i < n; i++) {
-    ASSERT_NEAR(got[i], want[i], 1e-9,
-                1e-10 * largest); /* condition number <= 1e5 */
+    ASSERT_NEAR(got[i], want[i], 1e-9, 1e-10 * largest); /* condition number <= 1e5 */
   }
   baum_workspace_destroy(w);
   model_destroy(m);

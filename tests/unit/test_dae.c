@@ -39,7 +39,7 @@ typedef struct point {
   double dy[SIZE_MAX_DAE];
   double scale[SIZE_MAX_DAE]; /* of columns */
   int size;                   /* number of columns */
-  int shift; /* nq - nv: index in y of an unknown after q, minus its column */
+  int shift;                  /* nq - nv: index in y of an unknown after q, minus its column */
 } point;
 
 /* Sets the scales of the columns, so that results do not depend on units. Coordinates have their

@@ -138,8 +138,7 @@ static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
     bool symmetric =
       moments[0] == moments[1] || moments[1] == moments[2] || moments[0] == moments[2];
     if (symmetric) {
-      assert_true(error[0] <=
-                  1e-11); /* rounding of 1e-14, divided by the smallest moment, 1e-3 */
+      assert_true(error[0] <= 1e-11); /* rounding of 1e-14, divided by the smallest moment, 1e-3 */
     } else {
       assert_true(error[0] >= 1e-7);
       ASSERT_NEAR(error[0] / error[1], 4.0, 0.02, 0.0);

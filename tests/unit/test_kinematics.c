@@ -268,7 +268,7 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     double t = 0.31 * k;
     double s[3];
     baum_status status = baum_simulation_advance_to(run, t);
-    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* warning of the redundant row */
+    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* redundant row */
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
@@ -315,7 +315,7 @@ static void backward_in_time_is_the_same_motion(void **state)
     double x[3];
     advance(run, times[k]);
     slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
-    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* up to 28 rad, velocity ratio up to 20 */
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* for 28 rad, ratio 20 */
     ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
   }
   assert_int_equal(counters_of(run).restarts, 3);

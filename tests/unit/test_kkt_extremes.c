@@ -396,7 +396,7 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* 1e-10: less than 1e-8 of the right side */
+    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* tolerated: < 1e-8 of r */
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);
     assert_int_equal(solve(kkt, &system), BAUM_OK);

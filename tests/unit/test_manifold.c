@@ -444,7 +444,7 @@ static void wrong_move(double h, const double *v, double *q, void *user)
 static void wrong_difference(const double *from, const double *to, double *dx, void *user)
 {
   (void)user;
-  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* the chord instead of the angle, without sign */
+  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* the chord, not the signed angle */
 }
 
 /* Makes c positive, which may give the opposite angle. */

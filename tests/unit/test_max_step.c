@@ -93,8 +93,7 @@ static void at_rest_in_an_equilibrium_gravity_sets_the_rate(void **state)
   o.rtol = 1e-6;
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_counters(s, &c, sizeof c), BAUM_OK);
-  ASSERT_NEAR(c.alpha, 0.25 * sqrt(9.81), 1e-12,
-              0.0); /* 1/4 of sqrt(g / L) */
+  ASSERT_NEAR(c.alpha, 0.25 * sqrt(9.81), 1e-12, 0.0); /* 1/4 of sqrt(g / L) */
   baum_simulation_destroy(s);
   baum_mechanism_destroy(m);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions on stability: results and refusals. */
+/* The public functions for stability: results, and refused arguments. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 
 typedef struct fact {
   const baum_integrator *(*integrator)(void);
-  double limit; /* largest alpha h for alpha = beta */
+  double limit; /* largest stable alpha h for alpha = beta */
 } fact;
 
 static const fact FACTS[] = {
@@ -82,7 +82,7 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
-/* The best points stored with an integrator are those that a search finds. */
+/* The library stores the best points of its methods. They must be those that a search finds. */
 static void the_search_finds_the_stored_best_points(void **state)
 {
   (void)state;
@@ -117,7 +117,7 @@ static void a_grid_has_the_radii_of_its_points(void **state)
     for (int j = 0; j < ROWS; j++) {
       for (int i = 0; i < COLUMNS; i++) {
         ASSERT_NEAR(radius[j * COLUMNS + i], radius_at(integrator, 0.1 + 0.1 * i, 0.2 - 0.1 * j),
-                    1e-7, 0.0); /* a double root moves by the root of a rounding */
+                    1e-7, 0.0); /* rounding moves a double root by its square root */
       }
     }
     assert_true(radius[COLUMNS * ROWS] == 7.0);
