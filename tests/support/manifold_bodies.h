@@ -13,14 +13,14 @@
 
 typedef struct manifold_body {
   double mass;
-  double inertia[3]; /* a turned body uses the first only */
+  double inertia[3]; /* a turned body uses only the first */
 } manifold_body;
 
 baum_body_id manifold_add_turned(baum_mechanism *mechanism, manifold_body *body, double x, double y,
                                  double angle, const double *v);
 baum_body_id manifold_add_angle(baum_mechanism *mechanism, manifold_body *body, double angle,
                                 const double *v);
-/* p may differ from unit length by rounding. */
+/* The length of p may differ from 1 by rounding. */
 baum_body_id manifold_add_top(baum_mechanism *mechanism, manifold_body *body, const double q[7],
                               const double *v);
 baum_body_id manifold_add_free_top(baum_mechanism *mechanism, manifold_body *body,

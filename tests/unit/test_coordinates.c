@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies with user coordinates. The example is, with c = cos t:
  *
- * M = [ 4 + cos q1 sin q0 ] g = ( -q0^3 + q1 v1 + c, -sin(q0 q1) - v0^2 ) [ sin q0 3 + q0^2] */
+ *   M = [ 4 + cos q1   sin q0  ]      g = ( -q0^3 + q1 v1 + c,  -sin(q0 q1) - v0^2 )
+ *       [ sin q0       3 + q0^2]
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -161,8 +161,7 @@ static void best_damping_is_nowhere_worse_than_its_neighbours(void **state)
     double B = (c.beta * H) * (c.beta * H);
     for (int k = 0; k < 4; k++) {
       double beside = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
-      /* the best points of AB2 form a line along which only B changes; values on it differ by
-       * rounding */
+      /* AB2 has a line of equally good points, along which only B changes */
       assert_true(beside > c.amplification.spectral_radius - 1e-9);
     }
   }
@@ -275,8 +274,7 @@ static void auto_is_capped_and_always_stable(void **state)
   }
 }
 
-/* A method that is stable for alpha = beta only up to alpha h = 0.4: explicit Euler with five times
- * the step. */
+/* Explicit Euler with five times the step: stable up to alpha h = beta h = 0.4. */
 static void auto_keeps_inside_a_small_region(void **state)
 {
   (void)state;
@@ -325,7 +323,7 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 static void stable_pairs_near_the_edge_are_warned_of(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* alpha = beta: up to 2 / h */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* stable up to 2, 4 */
                                    {EULER, 1e-3, 1.9e-3},      /* the limit of B is 2 alpha h */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
@@ -339,8 +337,7 @@ static void stable_pairs_near_the_edge_are_warned_of(void **state)
   }
 }
 
-/* Small gains damp weakly. This is no reason for a warning, unlike weak damping near the edge of
- * the stability region. */
+/* Small gains damp weakly too, but only weak damping near the edge is a reason for a warning. */
 static void small_or_usual_gains_are_not_warned_of(void **state)
 {
   (void)state;
@@ -422,8 +419,7 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
   has(chosen(baum_gains_fixed(2.0, 0.0), variable_step()).why, "warning: beta = 0");
 }
 
-/* With explicit and Adams methods weak damping gives no warning, because their error test keeps
- * steps so short that violations decay. */
+/* No warning: the error test of explicit and Adams methods lets violations decay. */
 static void weak_damping_is_a_matter_of_bdf(void **state)
 {
   (void)state;

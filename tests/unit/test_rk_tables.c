@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables of Runge-Kutta pairs against the conditions of order (J. Butcher; Hairer, Norsett, Wanner
- * 1993, section II.2): a method with weights b and stages A has order p if, for every rooted tree t
- * of up to p nodes,
+/* Coefficients of Runge-Kutta pairs, checked against the order conditions (J. Butcher; Hairer,
+ * Norsett, Wanner 1993, section II.2): a method with weights b_i and stages a_ij has order p if
+ * every rooted tree t of up to p nodes fulfils
  *
- * sum_i b_i phi_i(t) = 1 / gamma(t), phi_i(t) = product over the root's branches t' of sum_j a_ij
- * phi_j(t'), gamma(t) = |t| product of gamma(t')
+ *   sum_i b_i phi_i(t) = 1 / gamma(t),
+ *   phi_i(t) = product over the branches t' of the root of sum_j a_ij phi_j(t'),
+ *   gamma(t) = |t| times the product of gamma(t') over these branches.
  *
- * and an interpolant b(x) has it if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). The weights of an
+ * An interpolant b(x) has order p if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). The weights of an
  * error estimate are differences of the weights of two methods, so their sums are zero up to the
- * lower order. There are 200 trees of up to 8 nodes. */
+ * lower order. There are 200 trees of up to 8 nodes.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gains of single rows, mainly with integrators that choose their step. With alpha = beta = b and
- * the factor f of a row, this row decays from Phi_0 as
+ * the factor f of a row, this row obeys
  *
- * Phi'' + 2 b f Phi' + (b f)^2 Phi = 0, Phi = Phi_0 (1 + b f t) exp(-b f t)
+ *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
  * in any mechanism. Adams includes the factor of every row in its iteration, BDF and IDA include it
- * in their matrices. */
+ * in their matrices.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,8 @@
 /* Several threads use one mechanism and make variants of it. This test also runs under the thread
  * sanitizer.
  *
- * Only the main thread may use cmocka's checks; the other threads return their results. */
+ * Only the main thread may use cmocka's checks; the other threads return their results.
+ */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives of user constraints: given ones are used, missing ones are computed by differences.
  *
- * Tolerances are relative to the change of the quantity when the state changes by one scale. */
+ * Tolerances are relative to the change of the quantity when the state changes by one scale.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
