@@ -72,7 +72,7 @@ static void observe(const manifold_scene *scene, const double *want,
   double slope = log2(error[0] / error[rungs - 1]) / (rungs - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  bool high = order >= 5; /* rounding matters before other terms are small */
+  bool high = order >= 5; /* its small errors reach rounding */
   double flat = high ? TOO_FLAT_HIGH : TOO_FLAT;
   if (!(slope >= order - flat && (high || slope <= order + TOO_STEEP))) {
     fail_msg("%s by %s, %s: order %.2f", scene->name, baum_integrator_name(integrator),

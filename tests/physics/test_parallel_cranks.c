@@ -155,7 +155,7 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* One crank is on a fixed body. Rows that fix this body must not be omitted. */
+/* One crank is on a body that is welded to ground. The rows that fix this body must all be kept. */
 static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;

@@ -214,7 +214,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
     options.rtol = 1e-6;
   }
   assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
-  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* or an error warning */
+  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* or a warning */
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   assert_int_equal(c.near_singular_intervals, 0);
   assert_int_equal(c.branch_warnings, 0);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A heavy top in steady precession over a thousand revolutions, compared with its closed form: with
- * the precession W, the tilt n of the axle, the moments A about the joint and C about the axle, it
- * is steady if its angular velocity about the axle is
+/* A heavy top in steady precession over a thousand revolutions, compared with its closed form.
+ * Let W be the precession, n the tilt of the axle, A the moment of inertia about an axis across the
+ * axle through the joint, and C the one about the axle. The precession is steady if the angular
+ * velocity about the axle is
  *
  *   w = (m g l + A W^2 cos(n)) / (C W)
  *

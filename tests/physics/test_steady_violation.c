@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steady violations of the Euler methods with Baumgarte's gains. After the initial violation has
- * decayed, for every row with gamma at the present state (docs/theory/stabilization.md):
+ * decayed, every row must fulfil, with gamma at the present state (docs/theory/stabilization.md):
  *
  *   |Phi'_i| = (h / 2) |gamma_i|,   |Phi_i| = (alpha / beta^2) h |gamma_i|
  */

@@ -36,8 +36,8 @@ void check_same_definition(const void *got, const void *want, size_t size);
 #define FILLED_SIZE(NAME, LAST) \
   (offsetof(baum_##NAME##_def, LAST) + sizeof(((baum_##NAME##_def *)0)->LAST))
 
-/* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY: body, joint, force;
- * NAME as in baum_NAME_def, LAST its last member. */
+/* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY is body, joint or
+ * force; NAME is that of baum_NAME_def, and LAST its last member. */
 #define CHECK_ROUND_TRIP(FAMILY, NAME, LAST, mechanism, first, second)                          \
   do {                                                                                          \
     baum_##FAMILY##_id id_;                                                                     \

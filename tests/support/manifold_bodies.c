@@ -261,7 +261,7 @@ static int free_force(double t, const double *q, const double *v, const double *
   const manifold_body *body = user;
   const double momentum[3] = {body->inertia[0] * v[0], body->inertia[1] * v[1],
                               body->inertia[2] * v[2]};
-  if (is_gyroscopic(body)) { /* else it is exactly zero */
+  if (is_gyroscopic(body)) { /* otherwise out is zero already */
     cross(momentum, v, out);
   }
   return 0;

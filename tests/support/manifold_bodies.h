@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies whose positions are not a vector, as user coordinates with a manifold:
+/* Bodies with positions on a manifold, as user coordinates of sizes (nq, nv):
  *
  *   turned body   q = (x, y, cos, sin), v = (x', y', angular velocity)                (4, 3)
  *   angle         q = (cos, sin), v the angular velocity                              (2, 1)

@@ -10,7 +10,7 @@
 enum { TEST_SIZE_MAX = 40 }; /* of nq and nc; blocks have at most its square */
 
 typedef struct test_point {
-  baum_mechanism *mechanism; /* owned */
+  baum_mechanism *mechanism; /* owned by the test_point */
   baum_i_point point;
   int nv;
   int nc;

@@ -308,7 +308,7 @@ static void unscale(const quad_equations *s, wide *lambda)
   }
 }
 
-/* Solves W lambda = L^-1 g - y, projected onto Q. */
+/* Solves W lambda = L^-1 g - y in the space spanned by Q. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda)
 {
   wide *rest = s->work + s->nc;

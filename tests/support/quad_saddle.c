@@ -18,7 +18,7 @@ typedef struct entry {
 typedef struct quad_system {
   int n; /* nv + nc */
   int nv;
-  entry *entries; /* of M and J; those of J^T follow */
+  entry *entries; /* of M and J, without J^T */
   size_t count;
   size_t room;
   double *b;  /* (n) */
@@ -345,7 +345,7 @@ double quad_error(int count, const double *x, const double *want)
   double size = 0.0;
   for (int i = 0; i < count; i++) {
     double apart = fabs(x[i] - want[i]);
-    error = isnan(error) || apart <= error ? error : apart; /* NaN stays */
+    error = isnan(error) || apart <= error ? error : apart; /* keeps NaN */
     size = fmax(size, fabs(want[i]));
   }
   return size > 0.0 ? error / size : error;

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose motion passes singular configurations and is known: on its branch each has one
- * angle th with
+/* Mechanisms whose motion passes through singular configurations and is known, and settings to run
+ * them with. On the right branch, one angle th describes the motion:
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
- *
- * and settings to run them with.
  */
 #ifndef BAUM_TEST_SINGULAR_SCENES_H
 #define BAUM_TEST_SINGULAR_SCENES_H
@@ -27,7 +25,7 @@ typedef enum singular_kind {
 typedef struct singular_scene {
   model m;
   double end;                        /* [s] */
-  double unit;                       /* [s] th changes by about 5 rad; unit of steps and gains */
+  double unit;                       /* [s] for steps and gains; th changes by about 5 rad in it */
   double want[SINGULAR_SAMPLES + 1]; /* [rad] th at k end / SINGULAR_SAMPLES */
   int count;                         /* number of angles in q that are th or -th */
   int angle[SINGULAR_ANGLES];        /* their indices */

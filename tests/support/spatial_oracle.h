@@ -75,7 +75,7 @@ typedef struct oracle_force {
   double s[2][3];
   double stiffness;
   double damping;
-  wide free_length; /* or free value */
+  wide free_length; /* or free value of a joint */
   double force[3];
   double moment[3];
   bool follows_body;

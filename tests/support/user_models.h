@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints and coordinates by user functions whose derivatives are all known.
+/* Constraints and coordinates by user functions, with all their derivatives in closed form.
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
  *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:

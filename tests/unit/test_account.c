@@ -253,7 +253,7 @@ static baum_energy_account run_wall(double gravity, baum_simulation_options opti
 }
 
 /* The constraint force balances the weight of 5 N, but without stabilization x grows by 1 m in 1 s:
- * the constraint force does -5 J. */
+ * the constraint force does the work -5 J. */
 static void violation_does_work(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of derivatives that the user gives: its message names the wrong one. */
+/* The check of user-supplied derivatives: its message names the wrong derivative. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -108,7 +108,7 @@ static int slightly_wrong_jacobian(double t, const double *q, double *out, void 
   return 0;
 }
 
-/* The circle of radius 1. User functions of this file do not use `user`. */
+/* The circle of radius 1. */
 static int unit_circle_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -334,8 +334,8 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
-/* A mass of q + *user: with -2 it is negative in the design configuration, which is refused, with
- * 0.01 only near it. */
+/* A mass of q + *user. If *user is -2, it is negative in the design configuration, which is
+ * refused; if *user is 0.01, it is negative only for q < -0.01, which is accepted. */
 static int linear_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;

@@ -11,7 +11,7 @@
 #include "assert_near.h"
 #include "models.h"
 
-enum { PILOT_EVALUATIONS = 14 }; /* 5 steps of 3; the first is already known */
+enum { PILOT_EVALUATIONS = 14 }; /* 5 steps x 3 - 1 known before */
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
                               double step, baum_gains gains)

@@ -118,8 +118,8 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
 
 /* Gains of 1000 1/s for a pendulum that swings at 0.4 Hz. Fixed-point iteration would limit steps
  * to 1 / gain, which takes 34000 evaluations. Newton's iteration with the derivatives of the gains'
- * terms takes about 5000. Still more than with small gains, because large gains amplify rounding
- * errors, which then fail the error test. */
+ * terms takes about 5000. This is still more than with small gains, because large gains amplify
+ * rounding errors, which then fail the error test. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
   (void)state;

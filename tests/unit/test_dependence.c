@@ -273,7 +273,7 @@ static void functions_without_a_declaration_are_refused_by_name(void **state)
   expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
-/* Expects that the check of derivatives refuses the mechanism, which does not depend on the
+/* Expects that the check of derivatives refuses the mechanism. This check does not depend on the
  * integrator. */
 static void expect_denial(const scene *s, const char *parts)
 {

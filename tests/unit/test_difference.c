@@ -203,8 +203,8 @@ static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolution
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* q is rounded to 7e-12, so the steps change the direction by 7e-12 / (v / 64), about 1e-9. Steps
-   * that are not rounded first would cause an error of 1e-7. */
+  /* q is rounded to 7e-12, so a step's direction is wrong by 7e-12 / (v / 64), about 1e-9. If steps
+   * were not rounded to representable ones, the error would be 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }

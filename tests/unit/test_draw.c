@@ -241,7 +241,7 @@ static void names_stay_texts(void **state)
   const baum_channel channel = baum_channel_of(BAUM_Q);
   const char *label = HOSTILE;
   baum_page page = baum_page_default();
-  page.title = "</script></title>\n\t\x01\xff"; /* control characters, no UTF-8 */
+  page.title = "</script></title>\n\t\x01\xff"; /* control characters, invalid UTF-8 */
   page.times = page.plots = page.mark_times = &time;
   page.count = page.channel_count = page.plot_count = page.mark_count = 1;
   page.channels = &channel;
@@ -330,7 +330,7 @@ static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
   }
   assert_in_range(count, 300, 600);
   assert_non_null(strstr(text, "[-3.5,7.25]"));
-  assert_non_null(strstr(text, "[0,4999]")); /* begin and end */
+  assert_non_null(strstr(text, "[0,4999]")); /* range of times */
   baum_mechanism_destroy(m);
 }
 

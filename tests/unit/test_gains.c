@@ -323,7 +323,7 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 static void stable_pairs_near_the_edge_are_warned_of(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* stable up to 2, 4 */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* the limit is (2, 4) */
                                    {EULER, 1e-3, 1.9e-3},      /* the limit of B is 2 alpha h */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},

@@ -218,9 +218,9 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
 }
 
 /* Requires errors of at most 0.1. The error test excludes multipliers; only Newton's iteration
- * controls them, with a tolerance of 1e-2 of the largest, where the sizes of the rows, which differ
- * by less than a factor of 10, serve as weights. Without this control their errors would grow to
- * 1e14 times their values. */
+ * controls them. Its tolerance is 1e-2 of the largest multiplier, with the sizes of the rows as
+ * weights (they differ by less than a factor of 10). Without this control the errors would grow to
+ * 1e14 times the multipliers. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -431,7 +431,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
      * pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* its tangential part */
+    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* tangential part of v */
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
   }

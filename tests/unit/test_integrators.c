@@ -313,8 +313,8 @@ static void too_small_tolerances_are_an_error_of_the_step(void **state)
   for_each(ask_too_much);
 }
 
-/* Near 1e15 s adjacent doubles are 0.125 s apart, so no step of a suitable length changes t as it
- * should. The run must fail. */
+/* Near 1e15 s adjacent doubles are 0.125 s apart, so the ends of sufficiently short steps are not
+ * representable. The run must fail. */
 static void lose_the_step(const method *m)
 {
   if (m->fixed) {

@@ -163,7 +163,8 @@ static void columns_of_positions_and_velocities_may_differ(void **state)
 
 /* ---- assembly ---- */
 
-/* Assembly makes the least changes in displacements of velocity size, like the twin. */
+/* Assembly must change displacements (nv), not q (nq), as little as possible, so that its result is
+ * that of the twin. */
 static void assembly_moves_along_the_manifold(void **state)
 {
   (void)state;

@@ -126,8 +126,8 @@ static void within_agrees_with_the_radius(void **state)
   assert_true(within > POINTS); /* of all POINTS x METHOD_COUNT points */
 }
 
-/* p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j), where mu is one of two values. Returns the smaller
- * |p|. */
+/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu and returns the
+ * smaller |p|. */
 static double residual(int method, double A, double B, const double z[2])
 {
   double least = HUGE_VAL;
@@ -167,8 +167,8 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
   }
 }
 
-/* exp(mu) = 1 + mu + ...: a violation decreases by the fraction A per step, with full relative
- * accuracy. */
+/* With small gains z = exp(mu) = 1 + mu + ..., so that a violation decreases by the fraction A per
+ * step. This fraction must have full relative accuracy. */
 static void small_gains_keep_their_digits(void **state)
 {
   (void)state;
@@ -183,7 +183,8 @@ static void small_gains_keep_their_digits(void **state)
   }
 }
 
-/* z = -1 at the end of the real interval, where mu = 2 (-1)^k / sum b_j (-1)^(k-1-j). */
+/* At the end of the stable interval of real mu, z = -1, which gives mu = 2 (-1)^k / sum b_j
+ * (-1)^(k-1-j). */
 static void limits_of_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;

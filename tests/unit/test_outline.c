@@ -68,7 +68,7 @@ static void points_lie_on_the_line(void **state)
       for (int k = 0; k < count; k++) {
         if (alpha_h[k] > 1e-12 && beta2_h2[k] > 1e-12) {
           double got = amplification_at(m, alpha_h[k], beta2_h2[k]).spectral_radius;
-          ASSERT_NEAR(got, radii[r], 0.0, 1e-9); /* 42 bisections; R of rk8 is steep */
+          ASSERT_NEAR(got, radii[r], 0.0, 1e-9); /* 42 bisections; radii of rk8 are steep */
         }
       }
     }

@@ -91,7 +91,7 @@ static void an_open_chain_with_motors_is_peeled_off_completely(void **state)
   pin(&d, 0, 1, 0.3, -0.4);
   pin(&d, 1, 2, 0.1, 0.7);
   motor(&d, 1, 2);
-  pin(&d, 0, 3, 0.2, 0.2); /* a branch */
+  pin(&d, 0, 3, 0.2, 0.2); /* a side branch */
   assert_int_equal(peel(&d, peeled), 0);
 }
 

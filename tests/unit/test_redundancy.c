@@ -189,10 +189,10 @@ static void many_duplicated_joints_share_their_forces(void **state)
   }
   solve(once, v, want, force);
   solve(twice, v, got, shared);
-  for (int i = 0; i < 3 * LINKS; i++) { /* of up to 4 x 200 m/s^2 */
+  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations of up to 800 m/s^2 */
     ASSERT_NEAR(got[i], want[i], 0.0, 1e-9);
   }
-  for (int k = 0; k < LINKS; k++) { /* of up to 2 kg x 4 x 200 x 100 m/s^2 */
+  for (int k = 0; k < LINKS; k++) { /* forces of up to 2 kg x 8e4 m/s^2 */
     for (int i = 0; i < 2; i++) {
       ASSERT_NEAR(shared[4 * k + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
       ASSERT_NEAR(shared[4 * k + 2 + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
@@ -443,8 +443,8 @@ static void drivers_that_contradict_each_other_later_are_warned_of(void **state)
   (void)state;
   baum_mechanism *same = driven_twice(0.0);
   baum_mechanism *parting = driven_twice(1.0);
-  assert_int_equal(warnings_after(same, 1.0), 1); /* only: redundant rows */
-  assert_true(warnings_after(parting, 1.0) >= 2); /* and: a redundant row is violated */
+  assert_int_equal(warnings_after(same, 1.0), 1); /* the warning of redundant rows */
+  assert_true(warnings_after(parting, 1.0) >= 2); /* also: one of them is violated */
   baum_mechanism_destroy(same);
   baum_mechanism_destroy(parting);
 }

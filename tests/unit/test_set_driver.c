@@ -295,7 +295,7 @@ static void a_law_that_is_set_replaces_a_spline(void **state)
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected, as below */
+  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected */
   assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
   check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
   baum_simulation_destroy(run);

@@ -23,8 +23,8 @@ static void limits_are_the_known_ones(void **state)
   };
   double taylor[ONE_STEP_COUNT] = {
     [EULER] = 1.0,
-    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* 2 A^2 = 4 - 4 A */
-    [RK2] = 1.5436890126920764,              /* A^3 - 2 A^2 + 2 A - 2 = 0 */
+    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* root of 2 A^2 = 4 - 4 A */
+    [RK2] = 1.5436890126920764,              /* root of A^3 - 2 A^2 + 2 A = 2 */
     [RK3] = 1.6791988470387638,
     [RK4] = 1.9122666654063936,
   };

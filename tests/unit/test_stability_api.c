@@ -126,7 +126,7 @@ static void a_grid_has_the_radii_of_its_points(void **state)
   ASSERT_NEAR(radius[0], radius_at(baum_rk4(), 0.1, 0.2), 1e-14, 0.0);
 }
 
-/* Rays next to an axis, and a grid whose width overflows. */
+/* Tests a ray next to an axis (damping ratio 5e-324) and a grid whose width overflows. */
 static void extreme_numbers_have_an_answer(void **state)
 {
   (void)state;
@@ -137,7 +137,7 @@ static void extreme_numbers_have_an_answer(void **state)
     double alpha_h = 7.0;
     int32_t count = 0;
     assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
-    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* at most 1e3 times the ratio */
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* proportional to the damping ratio */
     assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
                      BAUM_OK);
     assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);

@@ -34,7 +34,7 @@ typedef struct job {
   double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
-  const every_element *parts; /* for a variant */
+  const every_element *parts; /* for jobs that make a variant */
   double mass;                /* likewise */
 } job;
 
