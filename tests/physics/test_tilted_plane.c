@@ -112,7 +112,7 @@ static void qr_solves_rows_that_contain_only_rounding(void **state)
   o.solver = BAUM_SOLVER_QR;
   o.step = 1e-3;
   check(baum_simulation_create(m, &o, &run));
-  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* it has redundant rows */
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* of redundant rows */
   assert_true(baum_simulation_time(run) == 2.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

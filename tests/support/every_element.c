@@ -134,7 +134,7 @@ static int lead_law(double x, double f[3], void *user)
   return answer(user, -(double)INFINITY, f);
 }
 
-/* The curve y = 2 x^2 - 0.1. It has no time argument either. */
+/* The curve y = 2 x^2 - 0.1. Ignores fault->after too, because it has no time argument. */
 static int track_curve(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];

@@ -23,7 +23,7 @@ typedef struct manifold_scene {
   bool refuses_rattle; /* its user functions compute gyroscopic moments */
   struct {
     int first; /* index in q of the first part */
-    int count; /* quaternions begin seven numbers apart, others four */
+    int count; /* how many; quaternions begin seven numbers apart, others four */
     int length;
   } units;            /* unit vectors and unit quaternions in q */
   int redundant_rows; /* 0 unless given */

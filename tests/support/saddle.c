@@ -126,7 +126,7 @@ static void add_joint(saddle *system, int rows, int i, int j, uint64_t *seed, in
   int *col = system->columns + *columns;
   int cols = list_columns(system, i, j, seed, col);
   *columns += cols;
-  system->jacobian_count += 1; /* a gap */
+  system->jacobian_count += 1; /* leaves a gap */
   add_row_block(system, rows, cols, col);
 }
 
@@ -171,7 +171,7 @@ saddle saddle_make_random(uint64_t seed, int bodies)
   int loops = bodies / 3;
   saddle system = make(bodies, bodies + loops, 12 * (bodies + loops));
   for (int k = 0; k < bodies; k++) {
-    system.mass_count += 2; /* a gap */
+    system.mass_count += 2; /* leaves a gap */
     add_mass_block(&system, pick(&seed, 2) ? 3 : 6);
   }
   int columns = 0;

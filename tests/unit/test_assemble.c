@@ -25,7 +25,7 @@ typedef struct scene {
 } scene;
 
 /* The slider-crank without a driver, with a design configuration that is only roughly assembled.
- * The crank is held and rotates at 150 rad/s. */
+ * The definition of its crank sets `held` and gives the angular velocity 150 rad/s. */
 static scene open_scene(void)
 {
   scene s;

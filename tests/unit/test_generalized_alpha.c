@@ -191,7 +191,7 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   baum_counters c = counters_of(run);
   assert_true(c.max_phi <= 1e-14);     /* rounding of lengths of 1 m and of angles */
   assert_true(c.max_phi_rate > 1e-9);  /* O(h^2) */
-  assert_true(c.max_phi_rate <= 1e-2); /* at up to 45 m/s */
+  assert_true(c.max_phi_rate <= 1e-2); /* at speeds of up to 45 m/s */
   assert_int_equal(c.rejected, 0);
   assert_int_equal(c.warnings, 0);
   assert_true(c.nonlinear_iterations >= 1000 && c.nonlinear_iterations <= 4000);

@@ -388,7 +388,7 @@ static void fixed_step_methods_have_their_order(void **state)
 /* ---- tolerances ---- */
 
 /* BDF methods receive a fraction of rtol, but never less than 1e-13: smaller tolerances would cause
- * more steps, while the error is rounding. */
+ * more steps but not smaller errors, because of rounding. */
 static void bdf_is_given_a_portion_of_rtol(void **state)
 {
   (void)state;

@@ -98,8 +98,8 @@ static double power_at(double t, int power, double *rate)
   return pow(x, power);
 }
 
-/* Interpolates from + (t - 10.2)^power as the only coordinate. The numbers behind it must not
- * change. */
+/* Interpolates from + (t - 10.2)^power as the only coordinate. The second element of each result
+ * must not change. */
 static void assert_power(int count, int power, double from, double t)
 {
   double q[KNOTS];

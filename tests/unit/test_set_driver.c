@@ -212,7 +212,7 @@ static motion allowed(step_mode mode)
   if (!mode.fixed) {
     return (motion){3e-7, 3e-6};
   }
-  /* Adams-Bashforth methods do not project: at most h^2 with h = 1e-3. */
+  /* Adams-Bashforth methods do not project, so the errors are of order h^2 = 1e-6 s^2. */
   if (step_mode_is_adams(mode)) {
     return (motion){1e-6, 1e-5};
   }
@@ -271,7 +271,7 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
   baum_simulation *other = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1 * sin(0.6), 0.3 * cos(0.6)}, 1e-12); /* projected */
+  check_at(run, s.guide, 0.2, (motion){0.1 * sin(0.6), 0.3 * cos(0.6)}, 1e-12); /* rounding */
   motion now = motion_of(run, s.guide);
   assert_int_equal(baum_simulation_set_driver(run, s.winch, now.value, now.rate, -1.0), BAUM_OK);
   f.law_calls = 0;
@@ -295,7 +295,7 @@ static void a_law_that_is_set_replaces_a_spline(void **state)
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected */
+  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* rounding */
   assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
   check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
   baum_simulation_destroy(run);
@@ -363,7 +363,7 @@ static void with_projection_the_next_step_jumps_to_the_law(void **state)
   const baum_gains none = {.rule = BAUM_GAINS_DEFAULT};
   baum_simulation *run = jump(&s, BAUM_FORMULATION_PROJECTION, none);
   assert_int_equal(baum_simulation_step(run, 1), BAUM_OK);
-  ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* projected */
+  ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* rounding */
   baum_counters c;
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* found at the start of that step */

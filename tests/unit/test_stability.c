@@ -212,8 +212,8 @@ static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void *
 
 enum { COLUMNS = 300, ROWS = 500 };
 
-/* Returns the far corner of a box from the origin that contains all points with |z| <= 0.9, called
- * good here. */
+/* A box with one corner at the origin contains all points with |z| <= 0.9, which are called good
+ * here. Returns its opposite corner. */
 static point box(int method)
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
