@@ -22,8 +22,8 @@ enum { MIDDLE = TOLERANCES / 2 };
  * mechanisms. An error proportional to rtol falls tenfold. */
 static const double LEAST_FALL = 7.0;
 /* The same for BDF. At order p the error is proportional to rtol^(p / (p + 1)), so at the highest
- * order 5 it falls by 6.8, at order 3 by 5.6. Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA); as means
- * over 40 initial configurations or end times of each mechanism 6.5 and 6.4. */
+ * order 5 it falls by 6.8, at order 3 by 5.6. Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA). The means
+ * over 40 initial configurations or end times of each mechanism are 6.5 and 6.4. */
 static const double LEAST_FALL_OF_BDF = 6.0;
 /* The same for a single mechanism, where an error that is small by chance has more influence. */
 static const double LEAST_SINGLE_FALL = 5.5;
