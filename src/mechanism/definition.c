@@ -8,7 +8,6 @@
 
 #include <assert.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -80,21 +79,13 @@ static void release(baum_i_element *element)
   element->name = NULL;
 }
 
-/* Write the default name of an element, such as "joint2". */
-static const char *name_by_number(const char *family, int number, char text[BAUM_I_LABEL_SIZE])
-{
-  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s%d", family, number);
-  return text;
-}
-
 /* Fill an element from a checked definition. On failure the element owns no memory. */
 static baum_status fill(baum_i_element *element, const void *def)
 {
   const baum_i_definition *definition = element->definition;
   const char *given = ((const baum_i_def_head *)def)->name;
-  char text[BAUM_I_LABEL_SIZE];
-  const char *name = given ? given : name_by_number(element->family, element->index, text);
-  element->name = baum_i_copy_text(name);
+  const baum_i_text by_number = baum_i_text_of("%s%d", element->family, element->index);
+  element->name = baum_i_copy_text(given ? given : by_number.text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
     baum_i_free(element->def); /* which owns no memory */
@@ -161,11 +152,10 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
 {
   BAUM_I_TRY(complete(definition, def, out));
   BAUM_I_TRY(baum_i_check_name(family->name, number, out->head.name));
-  char name[BAUM_I_LABEL_SIZE];
-  char label[BAUM_I_LABEL_SIZE];
-  (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", family->name, number,
-                 out->head.name ? out->head.name : name_by_number(family->name, number, name));
-  return baum_i_fields_check(definition, mechanism, out, label);
+  const baum_i_text by_number = baum_i_text_of("%s%d", family->name, number);
+  const baum_i_text label = baum_i_text_of("%s %d \"%.80s\"", family->name, number,
+                                           out->head.name ? out->head.name : by_number.text);
+  return baum_i_fields_check(definition, mechanism, out, label.text);
 }
 
 baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *family,
@@ -195,10 +185,9 @@ static baum_status find(const baum_mechanism *mechanism, const baum_i_family *fa
 
 static baum_status check_kind(const baum_i_element *element, const baum_i_definition *definition)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return element->definition == definition
            ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s is a %s, not a %s", baum_i_label(element, label),
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s is a %s, not a %s", baum_i_label(element).text,
                          element->definition->kind, definition->kind);
 }
 
@@ -218,9 +207,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
                               const void *def, baum_i_element *element)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  baum_i_label(element, label);
-  BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label));
+  const baum_i_text label = baum_i_label(element);
+  BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label.text));
   const baum_i_span *span = baum_i_family_span(family, element);
   baum_i_span next;
   BAUM_I_TRY(make_span(mechanism, element->definition, def, element->index, &next));
@@ -229,7 +217,8 @@ static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_fami
     same = next.bodies[i] == span->bodies[i];
   }
   baum_i_free(next.bodies);
-  return same ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies cannot change", label);
+  return same ? BAUM_OK
+              : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies cannot change", label.text);
 }
 
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,

@@ -3,7 +3,6 @@
  * solution of (5), which is computed once per row of output, and only if a channel needs it. */
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/rotation.h"
@@ -133,9 +132,8 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
     return m->joints[joint]->type->driven ? 1 : fail_channel(k, "only drivers have an effort");
   }
   static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to record"};
-  char label[BAUM_I_LABEL_SIZE];
-  (void)snprintf(label, sizeof label, "channel %d", k);
-  bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label, &fields) == BAUM_OK;
+  const baum_i_text label = baum_i_text_of("channel %d", k);
+  bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label.text, &fields) == BAUM_OK;
   return has ? 2 : -1;
 }
 
@@ -160,18 +158,17 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
 void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char *text, size_t size)
 {
   facts f = facts_of(c->quantity);
-  char label[BAUM_I_LABEL_SIZE];
   bool named = c->quantity == BAUM_JOINT_COORDINATE && c->coordinate != BAUM_COORDINATE_FIRST;
   baum_i_append(text, size, "%s", named ? baum_i_coordinate_name(c->coordinate) : f.word);
   if (f.of == OF_BODY) {
     const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
-    baum_i_append(text, size, " of %s", baum_i_label(&body->element, label));
+    baum_i_append(text, size, " of %s", baum_i_label(&body->element).text);
     if (c->point[0] != 0.0 || c->point[1] != 0.0) {
       baum_i_append(text, size, " at (%g, %g) m", c->point[0], c->point[1]);
     }
   } else if (c->joint.index1 != 0 && (f.of == OF_JOINT || f.of == OF_ROWS)) {
     baum_i_append(text, size, " of %s",
-                  baum_i_joint_label(m, baum_i_joint_index(m, c->joint), label));
+                  baum_i_joint_label(m, baum_i_joint_index(m, c->joint)).text);
   }
 }
 

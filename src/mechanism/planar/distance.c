@@ -39,11 +39,10 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
     numbers[LENGTH] = baum_i_separation_in_design(mechanism, &joint->span, parameters);
   }
   if (!(numbers[LENGTH] > 0.0)) {
-    char label[BAUM_I_LABEL_SIZE];
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: length is not given and is 0 m in the design configuration, must be > 0",
-      baum_i_label(&joint->element, label));
+      baum_i_label(&joint->element).text);
   }
   return BAUM_OK;
 }

@@ -40,10 +40,9 @@ static baum_status check_carrier(const baum_mechanism *mechanism, const baum_pla
   int carrier = baum_i_body_index(mechanism, def->carrier);
   bool is_a = carrier == baum_i_body_index(mechanism, def->body_a);
   if (is_a || carrier == baum_i_body_index(mechanism, def->body_b)) {
-    char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: carrier and %s are both %s", label,
                        is_a ? "body_a" : "body_b",
-                       baum_i_label(&mechanism->bodies[carrier]->element, text));
+                       baum_i_label(&mechanism->bodies[carrier]->element).text);
   }
   return BAUM_OK;
 }

@@ -149,11 +149,10 @@ static baum_status lower_axis(const baum_mechanism *mechanism, const baum_i_join
 
 static baum_status fail_opposite(const baum_i_joint *joint)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: axis and axis_b point in opposite directions in the design "
                      "configuration; turn one of them round",
-                     baum_i_label(&joint->element, label));
+                     baum_i_label(&joint->element).text);
 }
 
 /* Rotates x_a by the smallest rotation that takes z_a to z_b, and makes it x_b. Hence the angle is
@@ -213,7 +212,6 @@ static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_
   double z_a[3];
   double z_b[3];
   double normal[3];
-  char label[BAUM_I_LABEL_SIZE];
   BAUM_I_TRY(lower_points(mechanism, joint, parameters));
   const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z_a);
   const baum_i_spatial_frame b = design_axis(mechanism, joint, 1, z_b);
@@ -224,7 +222,7 @@ static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_
               : baum_i_fail(BAUM_ERR_ARGUMENT,
                             "%s: axis and axis_b are parallel in the design configuration, must "
                             "be perpendicular",
-                            baum_i_label(&joint->element, label));
+                            baum_i_label(&joint->element).text);
 }
 
 static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -235,7 +233,6 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   double *axes = parameters + BAUM_I_SPATIAL_AXES_A;
   double z[3];
   double x[3];
-  char label[BAUM_I_LABEL_SIZE];
   BAUM_I_TRY(lower_points(mechanism, joint, parameters));
   const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z);
   bool given = baum_i_spatial_is_given(def->x_axis);
@@ -245,7 +242,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   if (!(given ? put_axes(&a, z, x, axes)
               : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is along axis, must not be",
-                       baum_i_label(&joint->element, label));
+                       baum_i_label(&joint->element).text);
   }
   return lower_axes_b(mechanism, joint, parameters);
 }
