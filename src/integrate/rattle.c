@@ -225,7 +225,7 @@ static baum_status check_mechanism(const baum_mechanism *m)
   }
   for (int k = 0; k < m->force_count; k++) {
     const baum_i_force *force = m->forces[k];
-    if (force->type->depends_on_velocity && force->type->depends_on_velocity(force->element.def)) {
+    if (force->type->depends_on_velocity && force->type->depends_on_velocity(force)) {
       return fail_velocities(&force->element);
     }
   }

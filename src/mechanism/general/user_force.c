@@ -18,9 +18,9 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-static bool depends_on_velocity(const void *def)
+static bool depends_on_velocity(const baum_i_force *force)
 {
-  return ((const baum_user_force_def *)def)->depends_on_velocity;
+  return ((const baum_user_force_def *)force->element.def)->depends_on_velocity;
 }
 
 static baum_i_given_force given(const baum_i_force *element)
