@@ -201,9 +201,7 @@ static baum_status add_integrator(void *user, const baum_integrator *integrator)
 baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid_wanted)
 {
   const char *call = "baum_study_add_standard";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   baum_study_grid wanted = baum_study_grid_default();
   if (grid_wanted) {
     BAUM_I_TRY(baum_i_study_take(&wanted, sizeof wanted, grid_wanted, call));
@@ -212,9 +210,8 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   grid g = {.study = study, .wanted = &wanted};
   BAUM_I_TRY(baum_i_study_rate(study, &g.rate));
   const char *formulation = baum_formulation_name(wanted.formulation);
-  char missing[BAUM_I_NAME_SIZE];
-  baum_i_print(missing, sizeof missing,
-               "study grid: this build has no such integrator with the formulation %s",
-               formulation ? formulation : "that is asked for");
-  return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing);
+  const baum_i_text missing =
+    baum_i_text_of("study grid: this build has no such integrator with the formulation %s",
+                   formulation ? formulation : "that is asked for");
+  return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing.text);
 }

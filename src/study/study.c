@@ -3,7 +3,6 @@
 #include <baum/study.h>
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <baum/version.h>
@@ -236,6 +235,11 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
   return BAUM_OK;
 }
 
+baum_status baum_i_study_check(const baum_study *study, const char *call)
+{
+  return study ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+}
+
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call)
 {
   return study->running ? baum_i_fail(BAUM_ERR_STATE, "%s: baum_study_run() is still running", call)
@@ -419,9 +423,7 @@ baum_status baum_study_reference_read(const baum_study *study, baum_study_refere
                                       size_t caller_size)
 {
   const char *call = "baum_study_reference_read";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   BAUM_I_TRY(baum_i_check_sized(out, caller_size, call));
   baum_study_reference whole = study->reference.out;
   whole.text = study->reference.text;
@@ -444,9 +446,7 @@ baum_status baum_study_reference_sample(const baum_study *study, int32_t k, doub
                                         double *v, double *lambda)
 {
   const char *call = "baum_study_reference_sample";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   const baum_i_samples *r = &study->reference.samples;
   if (!r->values) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been computed", call);

@@ -306,26 +306,17 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
 
 /* ---- the joints ---- */
 
-static const baum_i_def_field spatial_spherical_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_spherical_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type spherical = {
-  {BAUM_I_SPATIAL_JOINT(spatial_spherical, "spatial spherical joint", check_points, lower_points,
-                        3)},
+  {BAUM_I_SPATIAL_JOINT(spatial_spherical, "spatial spherical joint", check_points, lower_points, 3,
+                        BAUM_I_SPATIAL_FIELDS(baum_spatial_spherical_def))},
   .rows = {POINT_ROWS},
 };
 
 BAUM_I_DEFINE(joint, spatial_spherical, spherical.type)
 
-static const baum_i_def_field spatial_revolute_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type revolute = {
-  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5),
+  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE)},
   .rows = {POINT_ROWS, PARALLEL_ROWS},
   .coordinate_rows = {ANGLE},
@@ -334,14 +325,9 @@ static const baum_i_spatial_joint_type revolute = {
 
 BAUM_I_DEFINE(joint, spatial_revolute, revolute.type)
 
-static const baum_i_def_field spatial_universal_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_universal_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type universal = {
   {BAUM_I_SPATIAL_JOINT(spatial_universal, "spatial universal joint", check_two_axes,
-                        lower_two_axes, 4),
+                        lower_two_axes, 4, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_universal_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE, BAUM_COORDINATE_ANGLE_B)},
   .rows = {POINT_ROWS, {BAUM_I_Z_A, BAUM_I_Z_B}},
   /* The first angle is that of z_b about z_a relative to body_a. The second is that of body_b about
@@ -352,14 +338,9 @@ static const baum_i_spatial_joint_type universal = {
 
 BAUM_I_DEFINE(joint, spatial_universal, universal.type)
 
-static const baum_i_def_field spatial_cylindrical_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type cylindrical = {
-  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes,
-                        4),
+  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes, 4,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, LINE_ROWS},
   .coordinate_rows = {ALONG(BAUM_I_Z_A), ANGLE},
@@ -368,13 +349,9 @@ static const baum_i_spatial_joint_type cylindrical = {
 
 BAUM_I_DEFINE(joint, spatial_cylindrical, cylindrical.type)
 
-static const baum_i_def_field spatial_prismatic_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type prismatic = {
-  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5),
+  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {PARALLEL_ROWS, LINE_ROWS, {BAUM_I_X_A, BAUM_I_Y_B}},
   .coordinate_rows = {ALONG(BAUM_I_Z_A)},
@@ -384,14 +361,10 @@ static const baum_i_spatial_joint_type prismatic = {
 
 BAUM_I_DEFINE(joint, spatial_prismatic, prismatic.type)
 
-static const baum_i_def_field spatial_planar_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
-  BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-"),
-  {0},
-};
-
 static const baum_i_spatial_joint_type planar = {
-  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3),
+  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
+                        BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-")),
    COORDINATES(BAUM_COORDINATE_X, BAUM_COORDINATE_Y, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, {BAUM_I_Z_A, BAUM_I_APART}},
   .coordinate_rows = {ALONG(BAUM_I_X_A), ALONG(BAUM_I_Y_A), ANGLE},
@@ -400,13 +373,9 @@ static const baum_i_spatial_joint_type planar = {
 
 BAUM_I_DEFINE(joint, spatial_planar, planar.type)
 
-static const baum_i_def_field spatial_fixed_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_fixed_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type fixed = {
-  {BAUM_I_SPATIAL_JOINT(spatial_fixed, "spatial fixed joint", check_turning, lower_fixed, 6)},
+  {BAUM_I_SPATIAL_JOINT(spatial_fixed, "spatial fixed joint", check_turning, lower_fixed, 6,
+                        BAUM_I_SPATIAL_FIELDS(baum_spatial_fixed_def))},
   .rows = {POINT_ROWS,
            {BAUM_I_X_A, BAUM_I_Y_B},
            {BAUM_I_Y_A, BAUM_I_Z_B},
@@ -417,15 +386,11 @@ static const baum_i_spatial_joint_type fixed = {
 
 BAUM_I_DEFINE(joint, spatial_fixed, fixed.type)
 
-static const baum_i_def_field spatial_point_on_line_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_line_def),
-  BAUM_I_NUMBERS(baum_spatial_point_on_line_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0),
-  {0},
-};
-
 static const baum_i_spatial_joint_type point_on_line = {
-  {BAUM_I_SPATIAL_JOINT(spatial_point_on_line, "spatial point on a line", check_axis, lower_axis,
-                        2),
+  {BAUM_I_SPATIAL_JOINT(
+     spatial_point_on_line, "spatial point on a line", check_axis, lower_axis, 2,
+     BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_line_def),
+     BAUM_I_NUMBERS(baum_spatial_point_on_line_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {LINE_ROWS},
   .coordinate_rows = {ALONG(BAUM_I_Z_A)},
@@ -433,15 +398,11 @@ static const baum_i_spatial_joint_type point_on_line = {
 
 BAUM_I_DEFINE(joint, spatial_point_on_line, point_on_line.type)
 
-static const baum_i_def_field spatial_point_on_plane_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_plane_def),
-  BAUM_I_NUMBERS(baum_spatial_point_on_plane_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0),
-  {0},
-};
-
 static const baum_i_spatial_joint_type point_on_plane = {
-  {BAUM_I_SPATIAL_JOINT(spatial_point_on_plane, "spatial point on a plane", check_axis, lower_axis,
-                        1)},
+  {BAUM_I_SPATIAL_JOINT(
+    spatial_point_on_plane, "spatial point on a plane", check_axis, lower_axis, 1,
+    BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_plane_def),
+    BAUM_I_NUMBERS(baum_spatial_point_on_plane_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0))},
   .rows = {{BAUM_I_Z_A, BAUM_I_APART}},
 };
 
