@@ -149,6 +149,24 @@ baum_status baum_i_check_given(const char *label, const char *field, bool given)
                : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL, must be given", label, field);
 }
 
+baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
+                                      bool point_allowed)
+{
+  if (point && (a || b)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point and %s are both given; give point alone, or point_a and point_b",
+                       label, a ? "point_a" : "point_b");
+  }
+  if (a != b) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
+                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
+  }
+  return point || a
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
+                         label, point_allowed ? "point, or " : "");
+}
+
 static baum_status check_function(const baum_i_def_field *f, const void *def, const char *label)
 {
   return baum_i_check_given(label, baum_i_text_of("%s()", f->name).text, has_function(f, def));

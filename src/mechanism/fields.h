@@ -177,6 +177,10 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
   return baum_i_check_number(label, field, unit, BAUM_I_RULE_POSITIVE, value);
 }
 
+/* Check that the points of an element are given in one way: `point`, or point_a and point_b. */
+baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
+                                      bool point_allowed);
+
 /* Check that a required function or array is given: `def->mass != NULL` for the field "mass()". */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);
 

@@ -49,12 +49,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL", call);
   }
   *out = NULL;
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
   if (!isfinite(t0) || !isfinite(t1) || t0 == t1) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: t0 is %g s and t1 is %g s; they must be finite and differ", call, t0,

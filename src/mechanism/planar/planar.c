@@ -76,40 +76,17 @@ static bool is_given(const double point[2])
   return !isnan(point[0]);
 }
 
-static baum_status check_with_point(const baum_i_planar_head *head, const char *label,
-                                    bool point_allowed)
+static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
+                                 bool point_allowed)
 {
-  if (!point_allowed) {
+  bool point = is_given(head->point);
+  if (point && !point_allowed) {
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: point is given, but the length would be zero; give point_a and point_b instead", label);
   }
-  bool a = is_given(head->point_a);
-  if (a || is_given(head->point_b)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: point and %s are both given; give point alone, or point_a and point_b",
-                       label, a ? "point_a" : "point_b");
-  }
-  return BAUM_OK;
-}
-
-static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
-                                 bool point_allowed)
-{
-  if (is_given(head->point)) {
-    return check_with_point(head, label, point_allowed);
-  }
-  bool a = is_given(head->point_a);
-  bool b = is_given(head->point_b);
-  if (a != b) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
-                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
-  }
-  if (!a) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
-                       label, point_allowed ? "point, or " : "");
-  }
-  return BAUM_OK;
+  return baum_i_check_points_given(label, point, is_given(head->point_a), is_given(head->point_b),
+                                   point_allowed);
 }
 
 static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_id id,

@@ -65,35 +65,17 @@ static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_sp
 
 /* ---- points ---- */
 
-static baum_status check_with_point(const char *label, bool a, bool b, bool has_length)
+static baum_status check_one_way(const baum_i_spatial_head *head, const char *label,
+                                 bool has_length)
 {
-  if (has_length) {
+  bool point = baum_i_spatial_is_given(head->point);
+  if (point && has_length) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: point is given and leaves no length; give point_a and point_b instead",
                        label);
   }
-  return !a && !b ? BAUM_OK
-                  : baum_i_fail(BAUM_ERR_ARGUMENT,
-                                "%s: point and %s are both given; give point alone, or point_a "
-                                "and point_b",
-                                label, a ? "point_a" : "point_b");
-}
-
-static baum_status check_one_way(const baum_i_spatial_head *head, const char *label,
-                                 bool has_length)
-{
-  bool a = baum_i_spatial_is_given(head->point_a);
-  bool b = baum_i_spatial_is_given(head->point_b);
-  if (baum_i_spatial_is_given(head->point)) {
-    return check_with_point(label, a, b, has_length);
-  }
-  if (a != b) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
-                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
-  }
-  return a ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
-                         label, has_length ? "" : "point, or ");
+  return baum_i_check_points_given(label, point, baum_i_spatial_is_given(head->point_a),
+                                   baum_i_spatial_is_given(head->point_b), !has_length);
 }
 
 baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
