@@ -44,12 +44,8 @@ static baum_status complete(const baum_i_definition *definition, const void *def
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the definition is NULL", definition->kind);
   }
   size_t size = ((const baum_i_def_head *)def)->struct_size;
-  if (!baum_i_is_struct_size(size, definition->size)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size is %zu, must be %zu, or that of an older version; start "
-                       "from the default definition",
-                       definition->kind, size, definition->size);
-  }
+  BAUM_I_TRY(baum_i_check_struct_size(size, definition->size, definition->kind, "",
+                                      "the default definition"));
   assert(definition->size <= sizeof *out);
   baum_i_fields_set(definition, out);
   memcpy(out, def, fields_of(definition, size));
@@ -59,11 +55,9 @@ static baum_status complete(const baum_i_definition *definition, const void *def
 
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
 {
-  if (baum_i_takes_sized(def, caller_size)) {
-    whole_def whole;
-    baum_i_fields_set(definition, &whole);
-    baum_i_give_sized(def, caller_size, &whole, definition->size);
-  }
+  whole_def whole;
+  baum_i_fields_set(definition, &whole);
+  baum_i_give_sized(def, caller_size, &whole, definition->size);
 }
 
 /* ---- an element's own copy ---- */

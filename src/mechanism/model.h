@@ -347,7 +347,7 @@ struct baum_i_joint_type {
   baum_i_definition definition;
   int width;        /* BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction has no force and moment */
   bool scleronomic; /* Phi never depends on t */
-  bool is_pin;      /* its rows are exactly those of pin_rows.h */
+  bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
   /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
    * joint. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);

@@ -5,7 +5,6 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/sized.h"
@@ -23,9 +22,7 @@ static const baum_event_def defaults = {
 
 void baum_event_def_init(baum_event_def *def, size_t caller_size)
 {
-  if (baum_i_takes_sized(def, caller_size)) {
-    baum_i_give_sized(def, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(def, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status check_source(const baum_mechanism *m, const baum_event_def *def,
@@ -219,27 +216,15 @@ static baum_status begin_last(baum_simulation *run)
 
 /* ---- public ---- */
 
-static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
-{
-  const char *call = "baum_simulation_add_event";
-  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
-  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
-  if (!baum_i_is_struct_size(def->struct_size, sizeof *def)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size of the definition is %zu, must be %zu, or that of an older "
-                       "version; start from baum_event_def_default()",
-                       call, def->struct_size, sizeof *def);
-  }
-  return BAUM_OK;
-}
-
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,
                                       int32_t *index)
 {
-  BAUM_I_TRY(check_add(simulation, def));
+  const char *call = "baum_simulation_add_event";
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
   baum_event_def given = baum_event_def_default();
-  /* fields that an older version lacks keep their defaults */
-  memcpy(&given, def, def->struct_size);
+  BAUM_I_TRY(baum_i_take_sized(&given, sizeof given, def, call, " of the definition",
+                               "baum_event_def_default()"));
   int number = simulation->events ? simulation->events->count : 0;
   BAUM_I_TRY(baum_i_check_name("event", number, given.name));
   BAUM_I_TRY(

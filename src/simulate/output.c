@@ -175,9 +175,7 @@ void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char 
 void baum_channel_init(baum_channel *channel, size_t caller_size)
 {
   const baum_channel defaults = {.struct_size = sizeof defaults};
-  if (baum_i_takes_sized(channel, caller_size)) {
-    baum_i_give_sized(channel, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(channel, caller_size, &defaults, sizeof defaults);
 }
 
 baum_channel baum_i_channel(const baum_channel *channels, int k)
@@ -195,12 +193,8 @@ static baum_status check_size(const baum_channel *channels, int k)
 {
   const size_t size = channels->struct_size;
   size_t own = 0;
-  if (!baum_i_is_struct_size(size, sizeof *channels)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "channel 0: struct_size is %zu, must be %zu, or that of an older version; "
-                       "start from baum_channel_of()",
-                       size, sizeof *channels);
-  }
+  BAUM_I_TRY(
+    baum_i_check_struct_size(size, sizeof *channels, "channel 0", "", "baum_channel_of()"));
   memcpy(&own, (const char *)channels + (size_t)k * size, sizeof own);
   return own == size ? BAUM_OK
                      : baum_i_fail(BAUM_ERR_STRUCT,

@@ -78,7 +78,7 @@ static baum_status copy_options(const baum_study *study, const baum_simulation_o
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   *out = baum_simulation_options_default();
-  BAUM_I_TRY(baum_i_study_take(out, sizeof *out, options, call));
+  BAUM_I_TRY(baum_i_take_sized(out, sizeof *out, options, call, "", "the default"));
   return out->integrator ? baum_i_study_check_idle(study, call)
                          : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
 }

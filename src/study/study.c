@@ -157,9 +157,7 @@ void baum_study_options_init(baum_study_options *options, size_t caller_size)
     .energy_account = true,
     .validate = true,
   };
-  if (baum_i_takes_sized(options, caller_size)) {
-    baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status check_options(const baum_study *study, const baum_study_options *o)
@@ -214,22 +212,6 @@ static baum_status check_begun(const baum_study *study, const baum_study_options
   return study->begun && what ? refuse_change("baum_study_set_options", what) : BAUM_OK;
 }
 
-baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call)
-{
-  size_t given = 0;
-  memcpy(&given, from, sizeof given);
-  if (!baum_i_is_struct_size(given, size)) {
-    return baum_i_fail(
-      BAUM_ERR_STRUCT,
-      "%s: struct_size is %zu, must be %zu, or that of an older version; start from "
-      "the default",
-      call, given, size);
-  }
-  memcpy(to, from, given); /* fields that an older version lacks keep their defaults */
-  memcpy(to, &size, sizeof size);
-  return BAUM_OK;
-}
-
 baum_status baum_i_study_check(const baum_study *study, const char *call)
 {
   return study ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
@@ -248,7 +230,7 @@ baum_status baum_study_set_options(baum_study *study, const baum_study_options *
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   baum_study_options o = baum_study_options_default();
-  BAUM_I_TRY(baum_i_study_take(&o, sizeof o, options, call));
+  BAUM_I_TRY(baum_i_take_sized(&o, sizeof o, options, call, "", "the default"));
   BAUM_I_TRY(check_options(study, &o));
   BAUM_I_TRY(baum_i_study_check_idle(study, call));
   BAUM_I_TRY(check_begun(study, &o));

@@ -121,9 +121,6 @@ struct baum_study {
 
 /* ---- study.c ---- */
 
-/* Copies a caller's struct, of this version or an older one, to `to`, which contains defaults. */
-baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
-
 /* Returns BAUM_ERR_STATE inside baum_study_run(). */
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 
