@@ -125,6 +125,10 @@ typedef struct baum_i_definition {
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
+/* Set the first members of a definition of baum_NAME_def. */
+#define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
+  .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
+
 static inline const void *baum_i_field_at(const baum_i_def_field *field, const void *def)
 {
   return (const char *)def + field->offset;

@@ -340,10 +340,7 @@ static baum_status check_derivatives(const void *given, baum_i_point *point)
 }
 
 static const baum_i_body_type type = {
-  .definition = {.kind = "user coordinates",
-                 .size = sizeof(baum_coordinates_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(coordinates, "user coordinates", fields), .check = check,
                  .check_derivatives = check_derivatives},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,

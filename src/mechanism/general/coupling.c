@@ -291,12 +291,8 @@ static baum_status check_derivatives(const void *element, baum_i_point *point)
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "coupling",
-                 .size = sizeof(baum_coupling_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(coupling, "coupling", fields), .check = check,
+                 .parameter_count = PARAMETER_COUNT, .check_derivatives = check_derivatives},
   .scleronomic = true,
   .row_count = 1,
   .lower = lower,

@@ -116,10 +116,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "joint spring",
-                 .size = sizeof(baum_joint_spring_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(joint_spring, "joint spring", fields), .check = check,
                  .parameter_count = BAUM_I_SPRING_NUMBERS,
                  .check_derivatives = baum_i_spring_check},
   .lower = lower,

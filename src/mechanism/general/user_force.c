@@ -79,9 +79,7 @@ static baum_status check_derivatives(const void *force, baum_i_point *point)
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "user force",
-                 .size = sizeof(baum_user_force_def),
-                 .fields = fields,
+  .definition = {BAUM_I_DEFINITION(user_force, "user force", fields),
                  .check_derivatives = check_derivatives},
   .force = force,
   .depends_on_velocity = depends_on_velocity,

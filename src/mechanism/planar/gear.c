@@ -112,10 +112,7 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar gear",
-                 .size = sizeof(baum_planar_gear_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(planar_gear, "planar gear", fields), .check = check,
                  .parameter_count = PARAMETER_COUNT},
   .scleronomic = true,
   .row_count = 1,

@@ -183,11 +183,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "planar spring",
-                 .size = sizeof(baum_planar_spring_def),
-                 .fields = fields,
-                 .check = baum_i_planar_check_apart,
-                 .parameter_count = PARAMETER_COUNT,
+  .definition = {BAUM_I_DEFINITION(planar_spring, "planar spring", fields),
+                 .check = baum_i_planar_check_apart, .parameter_count = PARAMETER_COUNT,
                  .check_derivatives = baum_i_spring_check},
   .lower = lower,
   .force = force,

@@ -92,11 +92,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "planar torsion spring",
-                 .size = sizeof(baum_planar_torsion_spring_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = BAUM_I_SPRING_NUMBERS,
+  .definition = {BAUM_I_DEFINITION(planar_torsion_spring, "planar torsion spring", fields),
+                 .check = check, .parameter_count = BAUM_I_SPRING_NUMBERS,
                  .check_derivatives = baum_i_spring_check},
   .lower = lower,
   .force = force,

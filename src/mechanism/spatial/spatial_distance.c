@@ -98,11 +98,8 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "spatial distance joint",
-                 .size = sizeof(baum_spatial_distance_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT},
+  .definition = {BAUM_I_DEFINITION(spatial_distance, "spatial distance joint", fields),
+                 .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = 1,

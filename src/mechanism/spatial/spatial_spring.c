@@ -130,12 +130,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "spatial spring",
-                 .size = sizeof(baum_spatial_spring_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT,
-                 .check_derivatives = baum_i_spring_check},
+  .definition = {BAUM_I_DEFINITION(spatial_spring, "spatial spring", fields), .check = check,
+                 .parameter_count = PARAMETER_COUNT, .check_derivatives = baum_i_spring_check},
   .spatial = true,
   .lower = lower,
   .force = force,
