@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Planar joints whose rows are a point, a distance from an axis, or an angle.
  *
- * Revolute joint (pin) and fixed joint (weld): two points, one on each body, coincide. With p = A s,
- * p' = k x p = (-p_y, p_x), k x k x p = -p:
+ * Revolute joint (pin) and fixed joint (weld): two points, one on each body, coincide. With
+ * p = A s, p' = k x p = (-p_y, p_x), k x k x p = -p:
  *
  *   Phi   = r_a + p_a - r_b - p_b                               (2)
  *   J     = [ I   k x p_a   -I   -k x p_b ]                     (2 x 6)
