@@ -78,8 +78,8 @@ static baum_status fill(baum_i_element *element, const void *def)
 {
   const baum_i_definition *definition = element->definition;
   const char *given = ((const baum_i_def_head *)def)->name;
-  const baum_i_text by_number = baum_i_text_of("%s%d", element->family, element->index);
-  element->name = baum_i_copy_text(given ? given : by_number.text);
+  element->name =
+    baum_i_copy_text(given ? given : baum_i_text_of("%s%d", element->family, element->index).text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
     baum_i_free(element->def); /* which owns no memory */
@@ -146,9 +146,10 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
 {
   BAUM_I_TRY(complete(definition, def, out));
   BAUM_I_TRY(baum_i_check_name(family->name, number, out->head.name));
-  const baum_i_text by_number = baum_i_text_of("%s%d", family->name, number);
-  const baum_i_text label = baum_i_text_of("%s %d \"%.80s\"", family->name, number,
-                                           out->head.name ? out->head.name : by_number.text);
+  const char *name = out->head.name;
+  const baum_i_text label =
+    baum_i_text_of("%s %d \"%.80s\"", family->name, number,
+                   name ? name : baum_i_text_of("%s%d", family->name, number).text);
   return baum_i_fields_check(definition, mechanism, out, label.text);
 }
 
