@@ -10,17 +10,20 @@
 #include "mechanism/model.h"
 
 typedef enum baum_i_form {
-  BAUM_I_LINE,    /* through all points */
-  BAUM_I_AREA,    /* closed, through all points */
-  BAUM_I_DISC,    /* centre; normal */
-  BAUM_I_BALL,    /* centre */
-  BAUM_I_BOX,     /* centre; half of the edges, along the axes of the body */
-  BAUM_I_BETWEEN, /* from a point on `body` to one on `other` */
-  BAUM_I_ARROW    /* from a point on `body` along a vector in the axes of `other` */
+  BAUM_I_LINE,     /* through all points */
+  BAUM_I_AREA,     /* closed, through all points */
+  BAUM_I_DISC,     /* centre; normal */
+  BAUM_I_BALL,     /* centre */
+  BAUM_I_BOX,      /* centre; half of the edges, along the axes of the body */
+  BAUM_I_CYLINDER, /* centres of both ends */
+  BAUM_I_MESH,     /* vertices */
+  BAUM_I_BETWEEN,  /* from a point on `body` to one on `other` */
+  BAUM_I_ARROW     /* from a point on `body` along a vector in the axes of `other` */
 } baum_i_form;
 
 /* STYLE(name). Pictures of the plane draw them in this order. */
 #define BAUM_I_STYLES(STYLE) \
+  STYLE(BASE, base)          \
   STYLE(GUIDE, guide)        \
   STYLE(GROUND, ground)      \
   STYLE(WHEEL, wheel)        \
@@ -52,9 +55,24 @@ typedef struct baum_i_shape {
   const baum_i_element *element; /* joint, force or body that it shows */
   int body;                      /* the points are in its axes; 0: ground */
   int other;                     /* see the forms */
-  double radius;                 /* [m] of a disc or ball; half the width of lines and edges */
+  double radius;                 /* [m] of a disc, ball or cylinder; half the width of lines */
   int first, count;              /* its points, set by baum_i_draw() */
+  const char *color;             /* "#rrggbb"; NULL: as its style */
+  const int32_t *triangles;      /* (triangle_count x 3) corners of a mesh, among its points */
+  int triangle_count;
 } baum_i_shape;
+
+static inline baum_i_shape baum_i_shape_of(baum_i_style style, baum_i_form form,
+                                           const baum_i_element *element, int body, int other,
+                                           double radius)
+{
+  return (baum_i_shape){.style = style,
+                        .form = form,
+                        .element = element,
+                        .body = body,
+                        .other = other,
+                        .radius = radius};
+}
 
 /* The place of a joint or force between two bodies: its points and axes, in the axes of each
  * body. */
@@ -123,10 +141,11 @@ void baum_i_draw_turn(const baum_i_drawing *drawing, int from, int to, const dou
 void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const double point[3],
                       double out[3]);
 
-/* ---- outlines.c, symbols.c ---- */
+/* ---- outlines.c, user_outlines.c, symbols.c ---- */
 
-/* Draw the body of this index. */
+/* Draw the body of this index: by the outlines of the user, or else by its joints. */
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
+void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 
 /* Draw a joint (number k) or a force (number joint_count + k). */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);

@@ -77,6 +77,8 @@ typedef struct baum_i_body {
   int nv;                          /* number of velocities */
   int mass;                        /* start of its nv x nv values in the mass blocks */
   bool fixed;                      /* welded to ground */
+  int outline_count;
+  struct baum_outline *outlines; /* (outline_count) of the user; NULL: it draws itself */
 } baum_i_body;
 
 typedef struct baum_i_joint {

@@ -290,8 +290,9 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
   return c;
 }
 
-/* Pivots fall to the mass ratio when the slot holds the bob by the light rod, but J keeps its rank.
- * A step must not pass over this configuration as it does over a singular one. */
+/* When the rod is taut, the slot holds the bob only through the light rod: pivots become as small
+ * as the ratio of the masses, but J keeps its rank. A step must not pass over this configuration as
+ * it does over a singular one. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;

@@ -99,6 +99,24 @@ static void tilted_mechanisms_move_as_planar_ones(void **state)
   }
 }
 
+/* The multipliers of the rows that hold the bodies in the plane are amplified rounding errors. */
+static void qr_solves_rows_that_contain_only_rounding(void **state)
+{
+  (void)state;
+  baum_mechanism *m = build("four_bar");
+  baum_simulation *run = NULL;
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rattle();
+  o.formulation = BAUM_FORMULATION_INDEX3;
+  o.solver = BAUM_SOLVER_QR;
+  o.step = 1e-3;
+  check(baum_simulation_create(m, &o, &run));
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* redundant rows */
+  assert_true(baum_simulation_time(run) == 2.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 /* ---- singular configurations ---- */
 
 static baum_counters counters_of(const baum_catalog_choice *choice,
@@ -160,6 +178,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(loops_have_three_redundant_rows),
     cmocka_unit_test(tilted_mechanisms_move_as_planar_ones),
+    cmocka_unit_test(qr_solves_rows_that_contain_only_rounding),
     cmocka_unit_test(crossings_are_seen_where_other_rows_are_chosen),
 #if BAUM_HAVE_SUNDIALS
     cmocka_unit_test(branches_of_singular_configurations_are_told),

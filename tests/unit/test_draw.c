@@ -173,6 +173,24 @@ static void bodies_look_as_their_joints_make_them(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void links_of_a_long_chain_are_longer_than_wide(void **state)
+{
+  (void)state;
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id before = BAUM_GROUND;
+  for (int k = 0; k < 50; k++) {
+    baum_body_id body = add_body(m, NULL, k + 0.5, 0.0);
+    add_pin(m, NULL, before, body, k, 0.0);
+    before = body;
+  }
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  ASSERT_NEAR(drawing.unit, 0.125 * 0.5, 1e-14, 0.0);
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
 static void inner_points_are_not_part_of_an_outline(void **state)
 {
   (void)state;
@@ -340,6 +358,7 @@ int main(void)
     cmocka_unit_test(every_element_with_a_place_is_drawn),
     cmocka_unit_test(all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles),
     cmocka_unit_test(bodies_look_as_their_joints_make_them),
+    cmocka_unit_test(links_of_a_long_chain_are_longer_than_wide),
     cmocka_unit_test(inner_points_are_not_part_of_an_outline),
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
     cmocka_unit_test(names_stay_texts),

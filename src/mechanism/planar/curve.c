@@ -108,7 +108,7 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
 {
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
-  double by_column[6]; /* F_xx, F_xy, F_yy by x and by y */
+  double by_column[6]; /* F_xx by x, by y; F_xy by x, by y; F_yy by x, by y */
   BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column));
   s->g.third[0] = by_column[0];
   s->g.third[1] = by_column[1];
