@@ -15,6 +15,8 @@
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
+BAUM_I_CHECK_SPRING_DEF(baum_joint_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_FIELD(baum_joint_spring_def, joint, JOINT),
   BAUM_I_FIELD(baum_joint_spring_def, coordinate, COORDINATE),

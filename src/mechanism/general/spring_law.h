@@ -24,6 +24,16 @@ typedef struct baum_i_spring_def {
   bool depends_on_velocity;
 } baum_i_spring_def;
 
+#define BAUM_I_SPRING_OFFSET(DEF, field) (offsetof(DEF, field) - offsetof(DEF, stiffness))
+#define BAUM_I_HAS_SPRING_FIELD(DEF, field) \
+  (BAUM_I_SPRING_OFFSET(DEF, field) == offsetof(baum_i_spring_def, field))
+/* Checks that a public definition has these fields in this order. */
+#define BAUM_I_CHECK_SPRING_DEF(DEF)                                                           \
+  _Static_assert(BAUM_I_HAS_SPRING_FIELD(DEF, damping) && BAUM_I_HAS_SPRING_FIELD(DEF, law) && \
+                   BAUM_I_HAS_SPRING_FIELD(DEF, user) &&                                       \
+                   BAUM_I_HAS_SPRING_FIELD(DEF, depends_on_velocity),                          \
+                 #DEF " has the fields of baum_i_spring_def in another order")
+
 #define BAUM_I_SPRING_FIELDS(DEF, PER_LENGTH, PER_RATE, FREE, RULE, UNIT)              \
   BAUM_I_NUMBERS(DEF, stiffness, NOT_NEGATIVE, PER_LENGTH, 0.0),                       \
     BAUM_I_NUMBERS(DEF, damping, NOT_NEGATIVE, PER_RATE, 0.0),                         \

@@ -23,6 +23,8 @@
 /* Parameters. s_a and s_b precede the numbers of the law. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
+BAUM_I_CHECK_SPRING_DEF(baum_planar_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_FIELDS(baum_planar_spring_def),
   BAUM_I_SPRING_FIELDS(baum_planar_spring_def, "N/m", "N s/m", free_length, OPTIONAL_NOT_NEGATIVE,

@@ -15,6 +15,8 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/planar.h"
 
+BAUM_I_CHECK_SPRING_DEF(baum_planar_torsion_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_BODIES(baum_planar_torsion_spring_def),
   BAUM_I_SPRING_FIELDS(baum_planar_torsion_spring_def, "N m/rad", "N m s/rad", free_angle, OPTIONAL,

@@ -23,6 +23,8 @@ enum { LAW = 6, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};
 
+BAUM_I_CHECK_SPRING_DEF(baum_spatial_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_SPATIAL_FIELDS(baum_spatial_spring_def),
   BAUM_I_SPRING_FIELDS(baum_spatial_spring_def, "N/m", "N s/m", free_length, OPTIONAL_NOT_NEGATIVE,
