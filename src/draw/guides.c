@@ -220,7 +220,7 @@ void baum_i_draw_curve(const baum_i_symbol *s)
 /* Draws the rail of body_a, with feet under its ends if it is on the ground. */
 static void draw_rail(const baum_i_symbol *s, double radius, guide *g)
 {
-  find_guide(s, 4.0, g);
+  find_guide(s, 6.0, g);
   baum_i_symbol_axis(&g->symbol, BAUM_I_GUIDE, 0, radius, g->half);
   for (int sign = -1; sign <= 1 && s->place->body[0] == 0; sign += 2) {
     const baum_i_place end = baum_i_move_place(&g->symbol, sign * g->half, g->place.axis[0]);

@@ -14,7 +14,6 @@
 #include "base/file.h"
 #include "base/sized.h"
 #include "draw/drawing.h"
-#include "mechanism/definition.h"
 #include "mechanism/identify.h"
 #include "simulate/run.h"
 
@@ -46,9 +45,7 @@ typedef struct table {
 void baum_page_init(baum_page *page, size_t caller_size)
 {
   const baum_page defaults = {.struct_size = sizeof defaults};
-  if (baum_i_takes_sized(page, caller_size)) {
-    baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
 }
 
 /* ---- checks ---- */
@@ -120,16 +117,8 @@ static baum_status take_page(const baum_page *given, const char *call, baum_page
   if (!given) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: page is NULL", call);
   }
-  if (!baum_i_is_struct_size(given->struct_size, sizeof *given)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size of the page is %zu, must be %zu, or that of an older "
-                       "version; start from baum_page_default()",
-                       call, given->struct_size, sizeof *given);
-  }
   *page = baum_page_default();
-  memcpy(page, given, given->struct_size);
-  page->struct_size = sizeof *page;
-  return BAUM_OK;
+  return baum_i_take_sized(page, sizeof *page, given, call, " of the page", "baum_page_default()");
 }
 
 static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,

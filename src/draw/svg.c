@@ -69,8 +69,14 @@ static void set_view(picture *p)
   for (int i = 0; i < 3 && size > 0.0; i++) {
     up[i] = -g[i] / size;
   }
-  /* x and y are horizontal. If up is an axis of the ground, they are the next two axes. */
-  baum_i_complete_axes(up, x, y);
+  /* x and y are horizontal, as in page.html. */
+  const double other[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0.0};
+  baum_i_cross(up, other, y);
+  double length = sqrt(baum_i_dot3(y, y));
+  for (int i = 0; i < 3; i++) {
+    y[i] /= length;
+  }
+  baum_i_cross(y, up, x);
   for (int i = 0; i < 3; i++) {
     double right = cos(TURN) * x[i] + sin(TURN) * y[i];
     double front = sin(TURN) * x[i] - cos(TURN) * y[i];

@@ -170,7 +170,7 @@ static void keep_open_row(assembly *s)
 static void name_contradicting(const assembly *s, const double *rows, const char *unit,
                                char text[BAUM_I_MESSAGE_SIZE])
 {
-  enum { ROOM = BAUM_I_MESSAGE_SIZE - 2 * BAUM_I_LABEL_SIZE - 256 }; /* for the rest */
+  enum { ROOM = BAUM_I_MESSAGE_SIZE - 512 }; /* for the rest */
   const baum_mechanism *m = s->w->mechanism;
   double worst = worst_displacement(s, rows);
   size_t used = 0;
@@ -181,22 +181,21 @@ static void name_contradicting(const assembly *s, const double *rows, const char
     if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
       continue;
     }
-    char label[BAUM_I_LABEL_SIZE];
     used +=
       (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used, "%s%s (%.3g %s)",
-                           used ? ", " : "", baum_i_joint_label(m, joint, label), rows[i], unit);
+                           used ? ", " : "", baum_i_joint_label(m, joint).text, rows[i], unit);
     last = joint;
   }
 }
 
 static baum_status fail_positions(const assembly *s)
 {
-  char text[BAUM_I_MESSAGE_SIZE], label[BAUM_I_LABEL_SIZE];
+  char text[BAUM_I_MESSAGE_SIZE];
   name_contradicting(s, s->w->phi, "left", text);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: the constraints, or constraints and held bodies, contradict each "
                      "other in %s; before assembly, %s is open most, see baum_mechanism_svg()",
-                     s->t, text, baum_i_row_label(s->w->mechanism, s->open, label));
+                     s->t, text, baum_i_row_label(s->w->mechanism, s->open).text);
 }
 
 static baum_status fail_velocities(const assembly *s)
@@ -309,11 +308,10 @@ static baum_status check_sides(const assembly *s)
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_joint *joint = m->joints[k];
     if (joint->type->is_reversed && joint->type->is_reversed(joint, &s->w->point)) {
-      char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
                          "t = %.9g s: assembly leads to opposite axes in %s; give a design "
                          "configuration in which they point the same way",
-                         s->t, baum_i_joint_label(m, k, label));
+                         s->t, baum_i_joint_label(m, k).text);
     }
   }
   return BAUM_OK;

@@ -280,9 +280,9 @@ def spatial_fixed(m):
 
 @scene(SPACE)
 def spatial_distance(m):
-    a, b = arm(m, "a", (0, 0, 0), (0, 0, 1)), arm(m, "b", (1, 1, 0), (1, 1, 1))
+    a, b = arm(m, "a", (0, 0, 0), (0, 0, 1)), arm(m, "b", (1, 0, 0), (1, 0, 1))
     m.spherical("left", m.ground, a, point=(0, 0, 0))
-    m.spherical("right", m.ground, b, point=(1, 1, 0))
+    m.spherical("right", m.ground, b, point=(1, 0, 0))
     m.spatial_distance("rod", a, b, point_a=(0, 0, 0.5), point_b=(0, 0, 0.5))
 
 
