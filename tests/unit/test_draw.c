@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawings and pages: every kind of element draws itself, the shape of a body follows from its
+/* Drawings and pages: every kind of element has its drawing, the shape of a body follows from its
  * joints, and names that a user gives cannot inject markup. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -137,7 +137,7 @@ static void add_slider(baum_mechanism *m, baum_body_id body)
   must(baum_mechanism_add_planar_translational(m, &def, NULL));
 }
 
-/* A crank with two pins, a rod with three, a block on a guide, and a wheel. */
+/* A crank with two pins, a rod with three pins, a block on a guide, and a wheel. */
 static baum_mechanism *make_crank(void)
 {
   baum_mechanism *m;
@@ -294,7 +294,7 @@ static void names_stay_texts(void **state)
   const baum_channel channel = baum_channel_of(BAUM_Q);
   const char *label = HOSTILE;
   baum_page page = baum_page_default();
-  page.title = "</script></title>\n\t\x01\xff"; /* control characters, no UTF-8 */
+  page.title = "</script></title>\n\t\x01\xff"; /* control characters, invalid UTF-8 */
   page.times = page.plots = page.mark_times = &time;
   page.count = page.channel_count = page.plot_count = page.mark_count = 1;
   page.channels = &channel;
@@ -390,7 +390,7 @@ static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
   }
   assert_in_range(count, 300, 600);
   assert_non_null(strstr(text, "[-3.5,7.25]"));
-  assert_non_null(strstr(text, "[0,4999]")); /* begin and end */
+  assert_non_null(strstr(text, "[0,4999]")); /* range of times */
   baum_mechanism_destroy(m);
 }
 
