@@ -21,8 +21,7 @@ void main() {
   vec3 place = centre + x * p.x + y * p.y + z * p.z + along * p.w;
   if (pass == ${PASSES.SHADOW}) place -= bottom.xyz * (dot(place, bottom.xyz) - bottom.w);
   vec3 at = axes * (place - middle);
-  if (pass == ${PASSES.OUTLINE}) at.xy += measures.y * normalize(turned(outward)).xy;
-  if (pass == ${PASSES.CREASES}) at.z += 5. * measures.y;
+  if (pass == ${PASSES.CREASES} || pass == ${PASSES.OUTLINE}) at += measures.y * normalize(turned(outward));
   gl_Position = vec4(at.xy * window.xy + window.zw, pass == ${PASSES.SHADOW} ? .999 : -at.z / measures.x, 1);
   facing = turned(normal);
   sky = axes * bottom.xyz;
@@ -157,7 +156,8 @@ function putDisc({points: [centre, n], radius}, f, fill, thin, tone) {
 }
 function putSolid(shape, frames) {
   const {form, style, body, radius} = shape, f = frames[body], {fill, edge, width} = look(shape), tone = [...rgb(fill || edge), ...rgb(edge)];
-  const points = form === 'mesh' ? [] : shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, wide = Math.max(radius, thin), none = [0, 0, 0];
+  const points = form === 'mesh' ? [] : shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, none = [0, 0, 0];
+  const wide = Math.max(radius * (1 + .02 * (3 * body % 8)), thin); // lines of different bodies in one place differ
   const axes = [0, 1, 2].map(k => [f.a[k], f.a[3 + k], f.a[6 + k]]);
   if (form === 'ball') putTube(solids.capsule, points[0], points[0], radius, tone);
   else if (form === 'disc') putDisc(shape, f, fill, thin, tone);
@@ -167,8 +167,9 @@ function putSolid(shape, frames) {
   else if (form === 'area') {
     put(ownMesh(shape, () => makePlate(shape.points, 2 * radius || .6 * unit)), axes, f.r, none, tone);
     if (radius) putChain(points, radius, tone, true);
-  } else if (form === 'cylinder' || (points.length === 2 && style !== 'body')) putTube(solids.cylinder, ...points, wide, tone);
-  else putChain(points, wide * (1 + .02 * (3 * body % 8)), tone); // bars that end in one point differ
+  } else if (form === 'cylinder') putTube(solids.cylinder, ...points, radius, tone);
+  else if (points.length === 2 && style !== 'body') putTube(solids.cylinder, ...points, wide, tone);
+  else putChain(points, wide, tone);
 }
 const inThrees = list => Array.from({length: list.length / 3}, (_, k) => list.slice(3 * k, 3 * k + 3));
 

@@ -173,7 +173,7 @@ def key(browser, name):
 
 def wait(browser, until_not="asked"):
     """Wait until the page has drawn the requested frame, or until something else does not hold."""
-    for _ in range(100):
+    for _ in range(500):
         if not browser.run(f"Boolean({until_not})"):
             return
         time.sleep(0.02)
