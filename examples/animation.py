@@ -29,7 +29,7 @@ SCENES = {
     "flyball": Scene("Flyball governor", ["right arm.pose"], ["guide.coordinate"]),
     "robot_arm": Scene("Robot arm", ["body6.pose"], [f"joint{k}.effort" for k in range(2, 14, 2)]),
 }
-LARGEST = 300e3  # [byte] of a page
+LARGEST = 300e3  # [byte] largest size of a page
 
 
 def simulate(name: str, plots: list[str]) -> baum.Run:

@@ -74,7 +74,7 @@ def main() -> int:
     gaps = abs(baum.Workspace(shown).phi(0, q[-1])).reshape(len(GAINS), -1).max(axis=1)
     for (name, (_, phi)), gap in zip(runs.items(), gaps):
         print(f"{name:26}  largest violation {phi.max():.1e} m, at the end {phi[-1]:.1e} m")
-        if gap < 0.1 * R:  # larger ones rotate bodies by large angles
+        if gap < 0.1 * R:  # larger gaps rotate bodies too far to be proportional to the violation
             report.expect("  the gap shown, off by", abs(gap / (ENLARGED * phi[-1]) - 1), 0.1)
         if name != "none":
             ratio = phi[-len(phi) // 4 :].max() / runs["none"][1].max()

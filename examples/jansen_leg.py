@@ -18,7 +18,7 @@ LENGTH = SimpleNamespace(
     **{"h": 0.657, "i": 0.49, "j": 0.5, "k": 0.619, "l": 0.078, "m": 0.15},
 )
 OMEGA = 2 * np.pi  # [rad/s] of the crank
-MASS = 0.1  # [kg] of a body at each of its points
+MASS = 0.1  # [kg] lumped at each point of a body
 
 LEG = {  # the bodies of a leg, and their points
     "upper rod": ("wrist", "knee"),

@@ -82,7 +82,7 @@ static void build(baum_i_parts *parts, const double *p)
   static const double up[3] = {0.0, 0.0, 1.0};
   const double columns[3] = {0.0, 0.5, p[BELOW]};
   const double rates[3] = {p[SPEED], 0.0, 0.0};
-  double arm = ACROSS + ROD * p[BALL] / (ROD + p[BALL]) * 0.25; /* 0.5 m apart */
+  double arm = ACROSS + ROD * p[BALL] / (ROD + p[BALL]) * 0.25; /* rod and ball 0.5 m apart */
   const double mass[BODIES] = {ROD, 3.0, ROD + p[BALL], ROD + p[BALL]};
   const double inertia[BODIES][3] = {
     {ACROSS, ACROSS, AXIAL}, {0.005, 0.005, 0.005}, {AXIAL, arm, arm}, {AXIAL, arm, arm}};

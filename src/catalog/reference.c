@@ -201,8 +201,8 @@ static double most(double a, double b)
   return b > a || isnan(b) ? b : a;
 }
 
-/* Finds the displacement of a body between two poses. Quaternions give the rotation vector in body
- * axes, to first order, whichever signs they have. */
+/* Finds the displacement of a body between two poses. The displacement of a quaternion is the
+ * rotation vector in body axes, to first order; the signs of the quaternions do not matter. */
 static void subtract(const baum_i_catalog_mechanism *of, const double *from, const double *to,
                      double d[BAUM_I_BODY_WIDTH])
 {

@@ -19,8 +19,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 static const int AXIS[JOINTS] = {2, 1, 1, 0, 1, 0};
 static const double AMPLITUDE[JOINTS] = {1.5, 0.8, 1.2, 2.0, 1.0, 3.0}; /* [rad] */
 static const double RATE[JOINTS] = {2.0, 3.0, 2.5, 4.0, 3.5, 5.0};      /* [rad/s] */
-static const double SHARE[JOINTS] = {0.4, 0.45, 0.2, 0.2, 0.1, 0.05};   /* of the reach: lengths */
-static const double MASS[JOINTS - 1] = {20.0, 12.0, 5.0, 3.0, 1.5};     /* [kg] */
+static const double SHARE[JOINTS] = {0.4, 0.45, 0.2, 0.2, 0.1, 0.05}; /* length of a link / reach */
+static const double MASS[JOINTS - 1] = {20.0, 12.0, 5.0, 3.0, 1.5};   /* [kg] */
 
 static int drive(int k, double t, double s[3])
 {
@@ -56,7 +56,8 @@ static double solution(const double *p, double t, double *q, double *v)
   return DBL_EPSILON * (1.0 + RATE[JOINTS - 1] * fabs(t)) * AMPLITUDE[JOINTS - 1];
 }
 
-/* The first link points up, the others along x. */
+/* Moves the axes by the fraction `part` of a link's length along this link. With all angles at 0,
+ * the first link points up, the others along x. */
 static void go(const double *p, baum_i_axes *axes, int link, double part)
 {
   double length = part * SHARE[link] * p[REACH];

@@ -105,7 +105,7 @@ static void build(baum_i_parts *parts, const double *p)
                                       state(p, baum_i_zeros, &p[SPEED], k));
   }
   const double *b = ends[1].r;
-  const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]}; /* to coupler and x */
+  const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]}; /* coupler and x axis */
   baum_joint_id shaft = baum_i_parts_spatial_revolute(
     parts, "shaft", (baum_i_place){BAUM_GROUND, id[0], baum_i_zeros, z});
   baum_i_parts_spatial_revolute(parts, "pivot", (baum_i_place){BAUM_GROUND, id[2], &p[PIVOT_X], x});

@@ -23,7 +23,7 @@
 static const double CLOSE = 1e-9;     /* no other attempt is made if the difference is below this */
 static const double TRUSTED = 1e-3;   /* largest difference of a trusted reference */
 static const double ROUNDING = 1e-15; /* smallest uncertainty */
-static const double PATIENCE = 5.0;   /* time limit of a run of the reference, in entry limits */
+static const double PATIENCE = 5.0;   /* time limit of a run of the reference / entry limit */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
@@ -252,14 +252,14 @@ static bool is_of_position(baum_quantity quantity)
   return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
 }
 
-/* A run at which samples are evaluated one after the other. */
+/* A run that is used to evaluate channels, at one sample after the other. */
 typedef struct probe {
   baum_simulation *run;
   bool lost; /* some angle may have made any number of revolutions */
 } probe;
 
-/* Counts revolutions up to a sample. They are lost where an angle is farther than a quarter of a
- * revolution from where the rates of this sample and the one before lead. */
+/* Counts revolutions up to a sample. The count is lost if an angle differs by more than a quarter
+ * of a revolution from the angle that the velocities of this sample and the one before predict. */
 static void follow(probe *p, const baum_i_state *at)
 {
   double off = baum_i_run_follow_angles(p->run, at);

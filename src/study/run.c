@@ -10,7 +10,7 @@
 
 /* [-] a run with a larger error of positions has followed another motion */
 static const double OFF = 0.1;
-static const double VALIDATED_FOR = 5.0; /* time limit of a validation, in entry limits */
+static const double VALIDATED_FOR = 5.0; /* time limit of a validation / entry limit */
 static const double TIMED_FOR = 0.2;     /* [s] an entry is repeated until this total time */
 
 /* Data that the threads have in common. */

@@ -52,8 +52,8 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* Adds settings without gains, and with alpha = beta for all exponents, with one moderate step or
- * tolerance. */
+/* Adds, at one moderate step or tolerance, a setting without gains and settings with alpha = beta
+ * = 10^k 1/s for all exponents k. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

@@ -69,7 +69,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-/* Frees the entries and methods from these numbers on. */
+/* Removes all entries and methods from these indices on. */
 static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {

@@ -201,13 +201,14 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
     taken += status == BAUM_OK;
     memcpy(s.other.bytes, kept, s.other.size);
   }
-  assert_in_range(taken, 1, 19999); /* states may change, sizes and counts may not */
+  assert_in_range(taken, 1, 19999); /* accepted if only the state changes, refused if a size does */
   free(kept);
   assert_int_equal(baum_simulation_restore(s.run, s.before.bytes, s.before.size), BAUM_OK);
   close_scene(&s);
 }
 
-/* An impossible size is refused; so is a word replaced by 0 that says that a driver has no law. */
+/* An impossible size is refused. Then every word in turn is replaced by 0. One word says that the
+ * driver has a polynomial law; if it is 0, the driver has no law, and restore must refuse that. */
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;

@@ -168,7 +168,7 @@ static bool begins(const char *text, const char *with)
   return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* In these fields NaN means "not given". */
+/* Whether NaN in this field means "not given". */
 static bool may_be_nan(const char *name)
 {
   return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
@@ -528,7 +528,8 @@ static void check_too_large(baum_mechanism *mechanism, const char *element)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Each matrix has 10000^2 = 1e8 entries. An int32_t can count 21 of them. */
+/* Each body has a mass matrix with 10000^2 = 1e8 entries. An int32_t can count the entries of 21
+ * such matrices. */
 static void freezing_refuses_matrices_too_large_to_count(void **state)
 {
   (void)state;

@@ -401,7 +401,8 @@ static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* From an orientation in which the rows are fulfilled, but in which nobody mounts the joint. */
+/* Assembles from an orientation that satisfies all rows although two axes of the joint point in
+ * opposite directions. This must be refused. */
 static void check_reversed(const char *kind, const double orientation[4])
 {
   baum_mechanism *mechanism = mount(kind, NULL);

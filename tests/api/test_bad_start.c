@@ -331,8 +331,8 @@ static void check_fault_on_the_way(step_mode mode, int f)
   assert_non_null(strstr(baum_simulation_message(run), faults[f].message));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
   double t = baum_simulation_time(run);
-  /* The run stands at the step before the fault. Euler's last step may end after the fault, because
-   * it evaluates functions only at the beginning of a step. */
+  /* The run is at the end of the step before the fault. Euler's last step may end after the fault,
+   * because it evaluates functions only at the beginning of a step. */
   bool fixed = mode.fixed;
   if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(mode.integrator),

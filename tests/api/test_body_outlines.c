@@ -19,7 +19,7 @@
 
 enum { BYTES = 1 << 16, FORMS = 6 };
 
-/* The largest coordinate of the polygon, which is concave, is its last. */
+/* A concave polygon. */
 static const double POINTS[4][3] = {{0.0, 0.0, 0.5}, {2.0, 0.0, 0.5}, {0.5, 0.5, 0.5}, {0, 2, 0.5}};
 static const int32_t TRIANGLES[2][3] = {{0, 1, 2}, {0, 2, 3}};
 
@@ -102,7 +102,8 @@ static void draw_design(const baum_mechanism *m, baum_i_drawing *out)
   must(baum_i_drawing_create(m, &(baum_i_samples){NULL, 0, 0}, out));
 }
 
-/* The number of shapes of a body (index, 0: ground); *last is the last of them. */
+/* Returns the number of shapes of a body, given by its index (0: ground); *last receives the last
+ * shape. */
 static int shapes_of(const baum_i_drawing *drawing, int body, baum_i_shape *last)
 {
   int count = 0;
@@ -124,7 +125,7 @@ static void an_outline_replaces_the_shapes_of_its_body(void **state)
     baum_i_form form;
     int count;
     double radius;
-    double last[3]; /* point */
+    double last[3]; /* last point */
   } wanted[FORMS] = {
     {BAUM_I_AREA, 4, 0.0, {0.0, 2.0, 0.5}},  {BAUM_I_DISC, 2, 0.25, {0.0, 0.0, 1.0}},
     {BAUM_I_BOX, 2, 0.0, {1.5, 1.5, 0.0}},   {BAUM_I_CYLINDER, 2, 0.25, {0.0, 0.0, 4.0}},

@@ -73,8 +73,8 @@ static void run_well(asked *b, step_mode mode, state after[2])
   baum_simulation_destroy(run);
 }
 
-/* A method with memory restarts after a failure, so its result differs slightly; the result of a
- * method without memory is the same to the last bit. */
+/* A multistep method restarts after a failure, so its result differs slightly; the result of a
+ * one-step method with a fixed step is the same to the last bit. */
 static void fail_one(asked *b, step_mode mode, const state after[2])
 {
   char says[80];
@@ -99,7 +99,7 @@ static void fail_one(asked *b, step_mode mode, const state after[2])
     check(baum_simulation_advance_to(run, after[1].t));
     const state end = state_of(run);
     for (int i = 0; i < ASKED_NV; i++) {
-      double close = step_mode_remembers(mode) ? 1e-4 : 0.0; /* 100 rtol for methods with memory */
+      double close = step_mode_remembers(mode) ? 1e-4 : 0.0; /* 100 rtol */
       assert_true(fabs(end.q[i] - after[1].q[i]) <= close);
     }
   }

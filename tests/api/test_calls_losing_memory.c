@@ -465,7 +465,7 @@ static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 static void fail_some(const call *c)
 {
   uint64_t wanted = 0;
-  long allocations = count_allocations(c, &wanted); /* the first call allocates for good */
+  long allocations = count_allocations(c, &wanted); /* libraries keep memory of a first call */
   long step = allocations > MOST ? allocations / MOST : 1;
   long before = heap_blocks();
   int failures = 0;

@@ -56,7 +56,7 @@ static void every_entry_says_what_it_is(void **state)
   }
 }
 
-/* Describes a mechanism by weighted sums of q, v and M at its start, of its rows, and of g next to
+/* Describes a mechanism by six weighted sums: of q, v, M, J and nu at its start, and of g close to
  * the start, where no spring has its free length. */
 static void describe(const baum_catalog_choice *choice, double out[6])
 {

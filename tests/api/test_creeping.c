@@ -17,8 +17,8 @@
 
 enum { STEPS = 10000 }; /* a run checks its progress after this many steps */
 
-/* A horizontal link of 1 kg and 1 m in a viscous medium; its angular velocity decays with this rate
- * [1/s]. */
+/* A horizontal link of 1 kg and 1 m with a viscous damper, which makes its angular velocity decay
+ * like exp(-rate t), rate in 1/s. */
 static baum_mechanism *greased_link(double rate)
 {
   baum_mechanism *m = NULL;

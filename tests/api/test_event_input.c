@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events: invalid definitions, event functions that fail, and that locating events allocates
- * nothing. */
+/* Events: invalid definitions are refused, failing event functions end the call, and locating
+ * events allocates nothing. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>

@@ -17,7 +17,7 @@ static baum_status go(baum_simulation *run, double from, double to)
   const baum_channel channels[3] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_A),
                                     baum_channel_of(BAUM_LAMBDA)};
   double times[9];
-  double rows[9][3 * PARALLELOGRAM_NV + 1]; /* 13 rows */
+  double rows[9][3 * PARALLELOGRAM_NV + 1]; /* lambda has NV + 1 rows */
   for (int k = 0; k < 9; k++) {
     times[k] = from + (k + 1) * (to - from) / 9.0;
   }

@@ -37,7 +37,7 @@ static baum_status create(const baum_mechanism *mechanism, baum_solver solver,
   return baum_simulation_create(mechanism, &o, run);
 }
 
-/* One of three. */
+/* A spatial four-bar, or a slider-crank with or without redundant rows. */
 static model make(int kind)
 {
   model m = {0};

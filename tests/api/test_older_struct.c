@@ -20,8 +20,8 @@ static bool is_within(const element_field *field, size_t size)
   return field->offset + field->size <= size;
 }
 
-/* Two structs with the same meaning: `whole` has defaults from `size` on; `cut` ends there and has
- * garbage behind its end. */
+/* Two structs with the same meaning: `whole` has defaults in all bytes from a given size on; `cut`
+ * has this size, and the bytes after its end are garbage. */
 typedef struct two_structs {
   any_def whole;
   any_def cut;
@@ -160,7 +160,7 @@ static void shorter_options_have_defaults_where_they_end(void **state)
     assert_string_equal(text[0], text[1]);
     accepted += whole == BAUM_OK;
   }
-  /* All sizes that include `step`, the last field that these options need. */
+  /* Every size that includes `step`, the last field that these options need, is accepted. */
   assert_int_equal(accepted, OPTION_FIELDS - 5);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -238,7 +238,7 @@ static void explain_names_the_solver(void **state)
   model_destroy(&m);
 }
 
-/* Kinematics and IDA factor other matrices than that of (5). */
+/* Kinematics and IDA do not solve (5): they factor other matrices. */
 static void methods_without_accelerations_say_so(void **state)
 {
   (void)state;
@@ -287,7 +287,8 @@ static void many_joints_below_that_are_fine(void **state)
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   baum_simulation *run = start(m, &o);
   check(baum_simulation_step(run, 10));
-  assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings"); /* a clique */
+  /* Every two nodes are coupled: 41 x 40 / 2 couplings. */
+  assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
@@ -361,7 +362,7 @@ static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
   baum_simulation *run = start(m.mechanism, &o);
   baum_counters counters;
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  assert_true(counters.full_factorizations > 0); /* klu's */
+  assert_true(counters.full_factorizations > 0); /* by KLU */
   baum_simulation_destroy(run);
   model_destroy(&m);
 }

@@ -481,8 +481,8 @@ static baum_status study_little(const model *m)
   return status;
 }
 
-/* Only every seventh of some thousand allocations. Lack of memory is never reported as a refused
- * entry. */
+/* To save time, only every seventh allocation fails. Lack of memory must never be reported as a
+ * refused entry. */
 static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 {
   const model *m = *state;

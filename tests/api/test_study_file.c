@@ -150,7 +150,8 @@ static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **sta
   int first = 0;
   baum_study *want = run_to_the_end(&whole, &first);
   int entries = baum_study_entry_count(want);
-  const int kills[] = {KILLED_AT, entries - 1, entries + 3}; /* during errors, during times */
+  /* The first two kills are during the errors, the last one is during the times. */
+  const int kills[] = {KILLED_AT, entries - 1, entries + 3};
   for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
     run_and_be_killed(&broken, kills[k]);
   }
@@ -218,7 +219,7 @@ static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
   end_scene(&s);
 }
 
-/* The last two begin like a study file; one of them has a zero byte in its first line. */
+/* The last two texts begin like a study file; the last one has a zero byte in its first line. */
 static void a_file_of_something_else_is_refused_and_left_alone(void **state)
 {
   (void)state;
@@ -257,7 +258,8 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The lines of a heavier pendulum's study after the first line of this one's file. */
+/* The file has the first line of this study, but the other lines come from the study of a heavier
+ * pendulum. Their checksums do not match the first line, so the entries run again. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;

@@ -83,7 +83,7 @@ static void a_text_names_every_entry_and_what_was_said(void **state)
     assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
     assert_true(count(text, entry.name) >= 1);
   }
-  assert_true(count(text, "refused") >= 3); /* in counts, entry and messages */
+  assert_true(count(text, "refused") >= 3); /* in the counts, the entry and the messages */
   assert_true(count(text, "unstable") >= 1);
   assert_int_equal(count(text, "Recommended settings"), 1);
   assert_int_equal(count(text, "\n  1e-10  "), 1);
@@ -134,7 +134,7 @@ static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
   char *page = print(scene.study, BAUM_REPORT_PAGE);
   assert_int_equal(count(page, "\"DATA\""), 0);
   assert_int_equal(count(page, "\"levels\": "), 1);                     /* only rk2 has gains */
-  assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4); /* and methods */
+  assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4); /* and 4 methods */
   assert_int_equal(count(page, "http"), 3); /* in http-equiv and in the namespace of SVG, twice */
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);

@@ -103,7 +103,8 @@ static void gains_of_rows_belong_to_the_method(void **state)
 
 /* ---- definition of error ---- */
 
-/* Errors of two entries with steps h and h / 2; without a channel, the study's default error. */
+/* Finds the errors of two entries with steps h and h / 2. The error is that of the channel, or the
+ * study's default error if channel is NULL. */
 static void errors_of(const model *m, const baum_channel *channel, double unit, double errors[2])
 {
   baum_study *study = make(m);
@@ -137,8 +138,8 @@ static void error_may_be_of_channels_by_a_unit(void **state)
   double of_speed[2];
   double of_pull[2];
   errors_of(m, NULL, 0.0, own);
-  errors_of(m, &place, 1.0, same); /* the same as the default, whose length is that of the rod, 1
-                                    * m */
+  /* The default error of positions is relative to the characteristic length, here 1 m. */
+  errors_of(m, &place, 1.0, same);
   errors_of(m, &place, 0.5, finer);
   errors_of(m, &speed, 1.0, of_speed);
   errors_of(m, &pull, 1.0, of_pull);

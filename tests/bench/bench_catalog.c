@@ -4,9 +4,9 @@
  *
  * usage: bench_catalog [ENTRY]
  *
- * The grid has every integrator with each of its formulations, the gains of its rule, of `auto` and
- * two constants, at three settings; no run takes more than 0.05 s. tests/support/catalog_grid.h
- * says which entries are wrong.
+ * The grid has every integrator with each of its formulations, with the gains of its default rule,
+ * of `auto` and of two constants, at three steps or tolerances each. Runs that take more than 0.05
+ * s are stopped. tests/support/catalog_grid.h defines which entries are wrong.
  */
 #include <stdio.h>
 #include <string.h>

@@ -11,13 +11,14 @@
  *
  * Mechanisms, their equations and the reference are those of tests/judge, which share no code with
  * baum. A mechanism is used if two runs of the reference agree to 1e-6. The error of a run is the
- * largest position error at ten samples, relative to the characteristic length for lengths: right
- * below 0.01, grey below 0.1, else wrong. Growth is the largest amplification of a perturbation
- * from any of 20 times to any later one; velocities are divided by the mean rate of the motion.
+ * largest position error at ten samples, with lengths relative to the characteristic length. A run
+ * is right if its error is below 0.01, grey below 0.1, else wrong. Growth is the largest
+ * amplification of a perturbation from any of 20 times to any later one; velocities are divided by
+ * the mean rate of the motion.
  *
- * Fails if more than 3 % of the right runs of a setting are doubted, or if fixed steps are silently
- * wrong: one run with growth up to 30, more than 1 % of the wrong runs with growth up to 1000, or,
- * with error_check, one run with growth up to 1e4.
+ * Fails if more than 3 % of the right runs of a setting are doubted. Also fails if too many wrong
+ * fixed-step runs have no warning that doubts the motion: one with growth up to 30, more than 1 %
+ * of those with growth up to 1000, or, with error_check, one with growth up to 1e4.
  */
 #include <math.h>
 #include <pthread.h>
@@ -245,7 +246,7 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Quantiles of error over estimated error, of runs that have both. */
+/* Prints quantiles of error / estimated error over the runs that have both. */
 static void print_quantiles(const bench *b, int setting)
 {
   double *ratios = malloc((size_t)b->count * sizeof *ratios);

@@ -244,7 +244,7 @@ static bool bench_steps(const arguments *given)
 
 /* ---- fixed bodies ---- */
 
-/* [s] per step; `all`: fixed bodies and their joints are solved too */
+/* Returns the time of a step [s]. If `all`, fixed bodies and their joints are solved as well. */
 static double time_mounted(int frames, bool all)
 {
   model m;
@@ -309,7 +309,7 @@ static bool bench_redundancy(void)
   } pairs[] = {
     {SCENE_TWO_GUIDES, SCENE_ONE_GUIDE},
     {SCENE_THREE_CRANKS, SCENE_THIRD_BY_A_ROD},
-    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* one body less: per body the ratio is 3/4 of this */
+    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* 4 bodies with, 3 without */
   };
   bool fine = true;
   printf("\nredundant rows, ns per evaluation\n%-26s %8s   %-26s %8s %6s\n", "with", "", "without",

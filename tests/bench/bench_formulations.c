@@ -3,11 +3,12 @@
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *
- * An argument is for example ida/ggl or rk4/projection. Without arguments: the formulations of IDA,
- * from index 3 down. Fixed steps are 1/100, 1/1000 and 1/10000 of the whole time. References:
- * tests/data. Error: the largest over all samples, lengths relative to the characteristic length,
- * angles in radians. Phi and Phi': the largest over all steps, in m or rad, and in m/s or rad/s.
- * Evaluations: of residuals or accelerations. Setups: factored matrices.
+ * An argument is for example ida/ggl or rk4/projection. Without arguments, the program compares the
+ * formulations of IDA, from index 3 down. Fixed steps are 1/100, 1/1000 and 1/10000 of the span.
+ * References are those of tests/data. The error is the largest over all samples, with lengths
+ * relative to the characteristic length and angles in radians. Phi [m or rad] and Phi' [m/s or
+ * rad/s] are the largest over all steps. Evaluations are those of residuals or accelerations;
+ * setups are factorizations of matrices.
  */
 #include <math.h>
 #include <stdio.h>

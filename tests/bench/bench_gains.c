@@ -4,15 +4,16 @@
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
  * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over
- * perturbed starts. Cost: evaluations of (7), each of which factors its matrix, plus factorizations
- * of the integrator's own matrix; for `auto` including its pilot run. Error: largest over all
- * coordinates and samples, relative to the scales. `auto` is beaten in a cell where a constant
- *   costs no more and has less than a third of the error, or
- *   has no more error and costs less than 1 / 1.25.
- * The sweep is of 12 decades, four a decade. A run with constant gains is stopped at twice the
- * steps of `auto`, because it can no longer beat it. Gains that fail from any start do not beat it
- * either. --table prints every constant, with a limit of six times the steps. --quick takes every
- * fourth alpha and two starts.
+ * perturbed starts. The cost is the number of evaluations of (7), each of which factors its matrix,
+ * plus factorizations of the integrator's own matrix; that of `auto` includes its pilot run. The
+ * error is the largest over all coordinates and samples, relative to the scales. A constant beats
+ * `auto` in a cell if it
+ *   costs no more than `auto` and has less than a third of its error, or
+ *   has no larger error than `auto` and costs less than 1 / 1.25 of its cost.
+ * The sweep has 49 constants over 12 decades, four per decade. A run with constant gains is stopped
+ * at twice the steps of `auto`, because it can then no longer beat `auto`. A constant with a failed
+ * run does not beat `auto` either. --table prints every constant, with a limit of six times the
+ * steps of `auto`. --quick takes every fourth alpha and two starts.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How energy and violations grow in long runs with every fixed-step integrator: pendulum A01, the
- * undriven slider-crank, and in space a heavy top and a four-bar (RSSR). None dissipates, so the
- * energy should stay constant.
+/* How energy and violations grow in long runs with every fixed-step integrator. The mechanisms are
+ * the pendulum A01, the undriven slider-crank, and in space a heavy top and a four-bar (RSSR). None
+ * of them dissipates energy, so the energy should stay constant.
  *
  *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
  *
- * Prints a line for every decade of steps: least and largest energy change since the start in this
- * decade, relative to the largest kinetic energy; p in "the change grows like the p-th power of
- * time", from this decade and the one before; the largest violations since the start; heap in use;
- * seconds. A run that fails ends with its message.
+ * Prints a line for every decade of steps: the smallest and largest energy change since the start
+ * that occurs in this decade, relative to the largest kinetic energy; the power p of time with
+ * which the change grows, from this decade and the one before; the largest violations since the
+ * start; the heap in use; the computing time in seconds. If a run fails, its message is printed.
  */
 #include <malloc.h>
 #include <math.h>

@@ -6,14 +6,14 @@
  * A study runs rk8, dp5 and rk4 with every formulation and many steps and tolerances. For each
  * error the table has the cheapest entry by CPU time, from the creation of a run to its end. Errors
  * are those of all positions at 50 samples. bench_work_precision compares one angle of the
- * N-four-bar at ten times, and has more settings, so its cheapest runs cost less. Runs through flat
- * configurations locate and report each of them, which is a fifth of their cost with N = 1 at 1e-4;
- * the other programs do not.
+ * N-four-bar at ten times, and has more settings, so its cheapest runs cost less. Runs of baum
+ * through flat configurations locate and report each flat configuration, which takes a fifth of
+ * their time with N = 1 at 1e-4; the other programs do not.
  *
- * The times of the others were measured for this table on a similar machine, over whole runs: the
- * cheapest of Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE with compiled
- * right-hand sides, and a hand-written RK4. No command repeats them. Only ratios of 2 and more are
- * significant.
+ * The times of other programs were measured for this table on a similar machine, over whole runs.
+ * The table shows the cheapest of Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and
+ * CVODE with compiled right-hand sides, and a hand-written RK4. No command repeats these
+ * measurements. Only ratios of 2 and more are significant.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@
 enum { TARGETS = 4, SAMPLES = 50 };
 static const double TARGET[TARGETS] = {1e-4, 1e-6, 1e-8, 1e-10};
 
-/* [s] limit of a run; longer runs are not ten times cheaper than the others */
+/* [s] limit of a run; the cheapest runs, which the table shows, are far shorter */
 static const double LONGEST = 0.2;
 
 typedef struct peer {

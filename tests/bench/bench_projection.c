@@ -6,8 +6,9 @@
  *
  * usage: bench_projection
  *
- * The best of the sweep is chosen by its error, so among 49 scattered errors it is low partly by
- * chance. The geometric mean of its neighbours, in brackets, shows by how much.
+ * The best gain of the sweep has the smallest of 49 scattered errors, so this error is small partly
+ * by chance. The geometric mean of the errors at the two neighbouring gains, in brackets, shows the
+ * size of this effect.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cost of functions in Python: calls in a step of rk4, and the time of a call beyond the
-function itself
+"""The cost of user functions in Python, for the pendulum of the README: the number of calls in a
+step of rk4, and the overhead of a call, which is its time without that of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
-and what a study of it over 2 s takes with those grids.
+`quick` and `full` also measure a study of the pendulum over 2 s with these grids.
 
-The mechanism is the pendulum of the README. Overheads are differences from a run whose functions give
-the same values in C, which needs a C compiler; they are CPU times, the least of several runs.
+The overhead is the difference from a run whose functions compute the same values in C, which needs a
+C compiler. All times are CPU times, the smallest of several runs.
 """
 import ctypes
 import sys

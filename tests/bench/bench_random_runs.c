@@ -5,15 +5,16 @@
  *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     default: 50 mechanisms from
  *   seed 0, from 0 s over 2 s
  *
- * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12. If rk8
+ * A negative span runs backward in time. The reference is rk8 with projection at rtol 1e-12. If rk8
  * with gains and KLU does not agree with it, the mechanism is skipped. The error of a run is the
- * largest position error at the end, lengths relative to the characteristic length. Growth is the
- * amplification of small perturbations of the start. The allowed error is PROMISE rtol times the
- * growth with a variable step; with a fixed step it is the step times the growth, but at least
- * WRONG. A run with a larger error and no warning is poor, or silently wrong if the error is above
- * WRONG; with a fixed step it is only poor if a quarter of the step halves the error. Errors during
- * the motion may grow more than perturbations of the start: check that first. Prints silently wrong
- * runs, failures where the reference succeeds, and unjustified warnings.
+ * largest position error at the end, with lengths relative to the characteristic length. Growth is
+ * the amplification of small perturbations of the start. The allowed error is, with a variable
+ * step, about PROMISE rtol times the growth; with a fixed step, the step times the growth, but at
+ * least WRONG. A run with a larger error and no warning is called poor, or silently wrong if the
+ * error is above WRONG. A fixed-step run is called poor instead of silently wrong if a quarter of
+ * its step halves the error. Errors that arise during the motion may grow more than perturbations
+ * of the start, so check this first if a run is called silently wrong. Prints silently wrong runs,
+ * runs that fail although the reference succeeds, and unjustified warnings.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -59,7 +60,7 @@ typedef struct scene {
   double scale;
   double begin;
   double span;
-  double unit[SIZE]; /* of positions */
+  double unit[SIZE]; /* units of position errors: characteristic length, or 1 */
   double q0[SIZE];
   double v0[SIZE];
   double q[SIZE]; /* at the end */

@@ -4,8 +4,9 @@
  *   bench_reactions [COUNT [FIRST SEED]]     1000 mechanisms from seed 0 by default
  *
  * Each mechanism is evaluated on its constraints and with violations of 1e-6 and 1e-3, by a
- * workspace and by a run. Prints results that are out of balance by more than 1e-9 of the forces,
- * their counts, and the results at mass ratios up to 1e14; fails if there is any such result.
+ * workspace and by a run. Prints and counts the results whose forces are out of balance by more
+ * than 1e-9 of their size, and fails if there are any. Also prints results at mass ratios up to
+ * 1e14.
  */
 #include <math.h>
 #include <stdio.h>

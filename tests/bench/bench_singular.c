@@ -6,10 +6,10 @@
  * STARTS: 20 by default. MECHANISM: all by default, or one of MECHANISMS. SEED of the starts: 1 by
  * default.
  *
- * Each line is for a mechanism and setting: failed runs; right runs, those with a branch warning,
- * and their largest error; wrong runs (an angle off by more than 0.1 rad), those without a branch
- * warning, and those without any warning. The last two columns are the near-singular intervals and
- * forced steps of all runs.
+ * Each line is for a mechanism and a setting. It counts failed runs; right runs, right runs with a
+ * branch warning, and gives the largest error of right runs; then it counts wrong runs (the error
+ * of an angle is above 0.1 rad), wrong runs without a branch warning, and wrong runs without any
+ * warning. The last two columns are the near-singular intervals and forced steps of all runs.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whether tolerances mean the same in space as in the plane: for every integrator of variable step
- * and every formulation, the median of error / rtol over the mechanisms of the catalogue, at rtol =
- * 1e-4, 1e-6 and 1e-8: of the planar ones, of the spatial ones, and their ratio; and of the planar
- * ones of bodies, of the same built of spatial elements in a tilted plane, and their ratio.
+/* Do tolerances mean the same in space as in the plane? Prints medians of error / rtol for every
+ * variable-step integrator with each formulation, at rtol 1e-4, 1e-6 and 1e-8. A line has
+ *
+ *   the medians over planar and spatial mechanisms of the catalogue, and spatial / planar
+ *   the medians over planar mechanisms that consist of bodies ("bodies") and over the same
+ *   mechanisms built of spatial elements in a tilted plane ("tilted"), and tilted / bodies
  *
  * usage: bench_space [INTEGRATOR [--list]]
  *
- * Mechanisms: those with a smooth reference and with a degree of freedom. Error: the largest of
- * positions over all samples, lengths relative to the characteristic length, angles in radians.
- * --list prints every run. Fails where both ratios are above MOST: the motions of the first two
- * lists differ in length and in growth of errors, those of the last two do not.
+ * All mechanisms have a smooth reference and at least one degree of freedom. The error is the
+ * largest of all positions and samples, with lengths relative to the characteristic length and
+ * angles in radians. --list prints every run. Fails if both ratios of a line are above MOST. One
+ * large ratio is accepted, because the motions of planar and spatial mechanisms differ in length
+ * and in the growth of errors.
  */
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +31,7 @@ static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
 typedef struct known {
   baum_catalog_entry entry;
   baum_mechanism *mechanism;
-  baum_mechanism *tilted; /* NULL: none */
+  baum_mechanism *tilted; /* the same in a tilted plane, or NULL */
   int32_t nq;
   bool spatial;
   bool used;
@@ -55,7 +58,7 @@ static known know(int32_t k)
   out.used = mobility.degrees_of_freedom > 0;
   if (out.used && !out.spatial && model_tilt(out.mechanism, 0.0, &out.tilted) == BAUM_OK) {
     (void)baum_mechanism_sizes(out.tilted, &nv, NULL, NULL);
-    if (3 * nv != 7 * out.nq) { /* not all are bodies */
+    if (3 * nv != 7 * out.nq) { /* it has particles or user coordinates */
       baum_mechanism_destroy(out.tilted);
       out.tilted = NULL;
     }
@@ -63,7 +66,8 @@ static known know(int32_t k)
   return out;
 }
 
-/* Rows of the tilted plane as those of the plane, with the revolutions of the reference. */
+/* Converts samples of the tilted mechanism to coordinates in the plane. Angles get the revolutions
+ * of the reference. */
 static void untilt(const known *of, const double *times, const double *tilted, double *q)
 {
   const baum_catalog_choice choice = {.name = of->entry.name};
@@ -82,7 +86,7 @@ static void untilt(const known *of, const double *times, const double *tilted, d
   }
 }
 
-/* Infinite where the run did not come to its end. */
+/* Returns the error of a run, or infinity if the run did not reach its end. */
 static double error_of(const known *of, bool tilted, const baum_simulation_options *o)
 {
   const baum_catalog_choice choice = {.name = of->entry.name};

@@ -5,9 +5,9 @@
  * usage: bench_study [PROBLEM]
  *
  * A study of the standard grid recommends a setting for each error. A second study runs these and
- * the whole grid from perturbed starts over twice the span. A recommendation is met if its error
- * there is at most the requested one. Its price is its cost over that of the cheapest entry of the
- * grid with such an error there.
+ * the whole grid from perturbed starts over twice the span. A recommendation is met if its error in
+ * the second study is at most the requested one. Its price is its cost divided by that of the
+ * cheapest entry of the grid with at most the requested error in the second study.
  */
 #include <math.h>
 #include <stdio.h>

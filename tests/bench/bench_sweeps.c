@@ -4,18 +4,19 @@
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *
- *   four-bar  linkages within 1 % of a change point, every method of fixed step
- *   euler     the same for half a revolution, both Euler methods, which are accurate no longer
- *   taut      a light rod that comes taut, 20 mass ratios, every method of fixed step
- *   rtol      the same rod, 320 mass ratios, every method of variable step at rtol 1e-9
- *   singular  through singular configurations, 60 tolerances, every method of variable step
+ *   four-bar  every fixed-step method on linkages within 1 % of a change point
+ *   euler     both Euler methods on these linkages, for only half a revolution, because they are
+ *             not accurate for longer
+ *   taut      every fixed-step method on a light rod that comes taut, with 20 mass ratios
+ *   rtol      every variable-step method on this rod at rtol 1e-9, with 320 mass ratios
+ *   singular  every variable-step method through singular configurations, with 60 tolerances
  *
  * References are integrated in reduced coordinates without the library. The error is the largest
- * position error at ten samples, lengths relative to the characteristic length: right below 0.01,
- * grey below 0.1, wrong above. A false alarm is a right run with a warning that doubts the motion;
- * a silent run is wrong without such a warning. The last table is the sum of all parts. --full:
- * every linkage with and without gravity, and more steps. --csv: a line for each run. Fails if a
- * run is silently wrong.
+ * position error at ten samples, with lengths relative to the characteristic length. A run is right
+ * if its error is below 0.01, grey below 0.1, and wrong above. A false alarm is a right run with a
+ * warning that doubts the motion; a silent run is a wrong run without such a warning. The last
+ * table is the sum of all parts. --full runs every linkage with and without gravity, and more
+ * steps. --csv writes a line for each run. Fails if a run is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>
@@ -49,8 +50,8 @@ static void sweep_steps(const sweep_scene *s, double first, double last, int n)
   }
 }
 
-/* Shortens the step until a run is right, then takes n steps from a quarter to four times that
- * step, so that about half of the runs are right. */
+/* Shortens the step until a run is right, then runs with n different steps from a quarter to four
+ * times that step, so that about half of the runs are right. */
 static void sweep_limit_of(const sweep_scene *s, int method, double longest, int n)
 {
   double step = longest;
@@ -121,7 +122,7 @@ static int sweep_taut_steps(const arguments *with)
   sweep_begin(&tally, "taut", true, with->csv);
   for (int k = 0; k < RATIOS; k++) {
     sweep_scene s = sweep_taut(spread(1e-5, 1e-1, k, RATIOS), true);
-    double turn = sqrt(s.parameter) * s.rate; /* angle until it is taut: about sqrt(mass ratio) */
+    double turn = sqrt(s.parameter) * s.rate; /* the rod comes taut within about this angle */
     sweep_steps(&s, 5e-4 * s.rate, 2e-2 * s.rate, with->full ? 60 : 15);
     sweep_limit(&s, 0.3 * turn / s.rate, with->full ? 60 : 30);
     sweep_close(&s);

@@ -2,8 +2,8 @@
 /* The speed of a study with two threads and with one, on the standard grid of an undriven
  * slider-crank.
  *
- * All threads measure errors, but one thread measures the times afterwards, so the wall time does
- * not halve. Here each time is measured once. The total CPU time should not grow.
+ * Two threads measure the errors, but only one thread measures the times afterwards, so the wall
+ * time does not halve. Here each time is measured once. The total CPU time should not grow.
  */
 #include <stdio.h>
 #include <stdlib.h>

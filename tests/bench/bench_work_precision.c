@@ -4,9 +4,10 @@
  *
  * usage: bench_work_precision [PROBLEM]
  *
- * Errors: lengths relative to the characteristic length, angles in radians. Time: CPU time of this
- * thread from the creation of the run to the last sample, the smallest of some repeats. A series
- * ends when a run takes longer than LONGEST or the error no longer decreases.
+ * Errors of lengths are relative to the characteristic length, those of angles in radians. The time
+ * is the CPU time of this thread from the creation of the run to the last sample, the smallest of
+ * some repeats. A series ends when a run takes longer than LONGEST or the error no longer
+ * decreases.
  */
 #include <math.h>
 #include <stdio.h>

@@ -57,7 +57,7 @@ static double cross(const double a[2], const double b[2])
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/* row += sign times the derivative of direction . p by the velocities */
+/* Adds `sign` times the derivative of direction . p' with respect to the velocities to the row. */
 static void add_point(double *row, const marker *m, const double direction[2], double sign)
 {
   if (m->first >= 0) {
@@ -81,7 +81,7 @@ typedef struct gap {
   marker b;
   double d[2];
   double dd[2];
-  double bias[2]; /* of d'' without accelerations */
+  double bias[2]; /* d'' if all accelerations are 0 */
 } gap;
 
 static gap measure_gap(const judge_scene *s, const judge_joint *j, const double *q, const double *v)

@@ -37,7 +37,8 @@ double judge_mass(const judge_scene *s, int column);
 /** Factors J~, or J if not weighted. Returns false if the rows are dependent within rounding. */
 bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
 
-/** Replaces x by the nearest vector with J x = rhs, in the metric M, or E if not weighted. */
+/** Replaces x by the nearest vector with J x = rhs, in the metric M, or in the Euclidean metric if
+ *  the factors are not weighted. */
 void judge_nearest(const judge_factors *f, const double *rhs, double *x);
 
 /** Writes column k < n - m of an orthonormal basis of the null space of J; needs unweighted

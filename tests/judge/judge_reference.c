@@ -295,7 +295,7 @@ static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;
   matrix product;
-  matrix from[JUDGE_SEGMENTS]; /* to the present sample */
+  matrix from[JUDGE_SEGMENTS]; /* maps changes at each earlier sample to the present one */
   ref->growth = 1.0;
   ref->growth_end = 1.0;
   ref->growth_q = 1.0;

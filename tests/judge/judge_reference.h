@@ -17,12 +17,12 @@ typedef struct judge_state {
 typedef struct judge_reference {
   double t[JUDGE_SEGMENTS + 1];
   judge_state at[JUDGE_SEGMENTS + 1];
-  double agreement;   /* of two runs with orders 14 and 12, tolerances 1e-12 and 1e-10 */
-  double rate;        /* [1/s] mean over the samples of |v|, in 1 m and 1 rad */
+  double agreement;   /* largest difference of two runs, of orders 14 and 12, at 1e-12 and 1e-10 */
+  double rate;        /* [1/s] mean over the samples of |v|, with v in m/s and rad/s */
   double kinetic;     /* [J] largest kinetic energy of the samples */
   double growth;      /* largest factor of perturbations between any two samples */
   double growth_end;  /* from any sample to the last */
-  double growth_q;    /* as growth, of positions only at the later sample */
+  double growth_q;    /* as growth, but only positions count at the later sample */
   const char *failed; /* why there is no reference, or NULL */
 } judge_reference;
 

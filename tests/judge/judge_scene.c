@@ -14,7 +14,7 @@ static const double PI = 3.14159265358979323846;
 typedef struct pen {
   judge_scene *s;
   judge_dice dice;
-  double spread;  /* decades of masses */
+  double spread;  /* log10 of the largest mass ratio */
   bool frictions; /* dampers */
 } pen;
 
@@ -407,7 +407,7 @@ static bool draw_slider_crank(pen *p)
   return true;
 }
 
-/* Draws a tree, two bodies of which are also connected by a distance joint or a slot. */
+/* Draws a tree and closes a loop by a distance joint or a slot between two of its bodies. */
 static bool draw_loop(pen *p)
 {
   grow_tree(p, 2 + judge_below(&p->dice, 3));
@@ -427,7 +427,9 @@ static bool draw_loop(pen *p)
   return true;
 }
 
-/* Draws a light rod between a slot of ground and a bob. It jerks like a string that comes taut. */
+/* Draws a light rod between a slot of ground and a bob. The bob moves almost freely until the rod
+ * is perpendicular to the slot; then its velocity changes abruptly, as on a string that comes
+ * taut. */
 static void draw_taut(pen *p)
 {
   judge_dice *d = &p->dice;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random planar mechanisms as plain numbers, for bench_doubts. The library and the reference both
- * get them from here. No code is shared with the other random mechanisms of the tests. Conventions
- * of coordinates, axes and rows are those of planar.h. */
+/* Random planar mechanisms as plain numbers, for bench_doubts. Both the library's mechanism and the
+ * reference are built from these numbers. No code is shared with the other random mechanisms of the
+ * tests. Conventions of coordinates, axes and rows are those of planar.h. */
 #ifndef BAUM_JUDGE_SCENE_H
 #define BAUM_JUDGE_SCENE_H
 
@@ -26,7 +26,7 @@ typedef enum judge_kind {
   JUDGE_TRANSLATIONAL,
   JUDGE_DISTANCE,
   JUDGE_DRIVE_ANGLE, /* drives revolute joint `of`; bodies and points are that joint's */
-  JUDGE_DRIVE_SLIDE  /* likewise for a pin in a slot */
+  JUDGE_DRIVE_SLIDE  /* the same for a pin in a slot */
 } judge_kind;
 
 typedef struct judge_joint {

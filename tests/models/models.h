@@ -26,8 +26,8 @@ typedef struct model {
 baum_status model_adopt(baum_mechanism *mechanism, model *out);
 void model_destroy(model *out);
 
-/* One metre, one kilogram and one second in other units. Data of models are in SI units; the
- * mechanism is built in these units. */
+/* The values of one metre, one kilogram and one second in other units. Data of models are in SI
+ * units; the mechanism is built in the other units. */
 typedef struct model_units {
   double length;
   double mass;
@@ -63,13 +63,13 @@ enum { MODEL_CRANK, MODEL_ROD, MODEL_SLIDER };
 enum { MODEL_PIN_GROUND, MODEL_PIN_CRANK, MODEL_PIN_SLIDER, MODEL_GUIDE, MODEL_MOTOR };
 
 typedef struct model_slider_crank {
-  bool driven;        /* the crank rotates at a constant 150 rad/s, else only starts with it */
-  bool rough;         /* crank in place, rod and slider horizontal and out of place */
+  bool driven;        /* a motor keeps the crank at 150 rad/s; else this is its initial velocity */
+  bool rough;         /* only the crank is in its exact pose, and assembly has to move the others */
   bool centric;       /* no eccentricity */
   bool doubled_guide; /* a second guide on the same line: two redundant rows */
-  bool moving;        /* velocities of all bodies are given, else only that of the crank */
+  bool moving;        /* the velocities of all bodies are given; else only that of the crank */
   double angle;       /* [rad] of the crank at start */
-  double rod;         /* [m] its length; 0: as in the paper */
+  double rod;         /* [m] length of the rod; 0: as in the paper */
   double rod_mass;    /* [kg] 0: as in the paper */
   int frames;         /* number of stacked bodies, welded to the ground, that carry the crank */
   const model_units *units; /* NULL: SI */
@@ -115,7 +115,7 @@ typedef struct model_n_four_bar {
   double angle;             /* [rad] of all cranks at start; 0 is flat, a singular configuration */
   double rate;              /* [rad/s] of all cranks at start */
   double crank_mass;        /* [kg] 1 in the benchmark */
-  double coupler_mass;      /* [kg] likewise */
+  double coupler_mass;      /* [kg] 1 in the benchmark */
   const model_units *units; /* NULL: SI */
 } model_n_four_bar;
 
@@ -145,8 +145,8 @@ baum_status model_chain_build(const model_chain *data, model *out);
 
 typedef enum model_parallelogram {
   MODEL_TWO_CRANKS,    /* one crank at each end: 9 coordinates, 8 rows */
-  MODEL_THREE_CRANKS,  /* one more in the middle: 12 coordinates, 12 rows, one redundant */
-  MODEL_THIRD_BY_A_ROD /* the middle one kept parallel by a massless rod of 1 m: 11 rows */
+  MODEL_THREE_CRANKS,  /* a third crank in the middle: 12 coordinates, 12 rows, one redundant */
+  MODEL_THIRD_BY_A_ROD /* a massless rod of 1 m replaces the pin of the middle crank: 11 rows */
 } model_parallelogram;
 
 typedef struct model_parallelogram_data {
@@ -155,7 +155,7 @@ typedef struct model_parallelogram_data {
   double rate;  /* [rad/s] of the cranks at start; 0: 2 rad/s */
   bool doubled; /* a second pin, "pin again", at the tip of the last crank: two rows */
   double aside; /* [m] distance of the second pin from the first, on both of its bodies */
-  double gap;   /* [m] additional distance along the crank */
+  double gap;   /* [m] distance along the crank by which the second pin does not fit */
   double above; /* [m] height of the middle crank's foot above those of the others */
   bool framed;  /* an additional body that is welded to the ground */
   const model_units *units; /* NULL: SI */

@@ -3,9 +3,10 @@
  * and 2 kg.
  *
  * Two cranks keep the coupler horizontal. A third crank of the same length needs only one of the
- * two rows of its pin; the other is redundant. Instead of this pin, a massless rod of 1 m from its
- * tip to the coupler's left end gives the one row that is needed. With `above` > 0 the mechanism
- * has no singular configurations; two cranks alone have them where they are flat.
+ * two rows of its pin; the other row is redundant. Alternatively, a massless rod of 1 m from the
+ * tip of the third crank to the coupler's left end replaces the pin, and gives only the row that is
+ * needed. With three cranks and `above` > 0 the mechanism has no singular configurations; with two
+ * cranks it is singular where it is flat.
  */
 #include "models.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares runs with reference trajectories: largest error over all samples, lengths relative to
- * the characteristic length, angles in radians. */
+/* Compares runs with reference trajectories. The error is the largest over all samples, with
+ * lengths relative to the characteristic length and angles in radians. */
 #ifndef BAUM_TEST_REFERENCE_H
 #define BAUM_TEST_REFERENCE_H
 

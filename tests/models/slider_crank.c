@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and
- * without eccentricity, rod and crank coincide at pi / 2, and J loses rank. */
+/* Variants of the eccentric slider-crank of the catalogue. If the rod is as long as the crank and
+ * there is no eccentricity, rod and crank coincide at a crank angle of pi / 2, and J loses rank. */
 #include "models.h"
 
 #include <math.h>

@@ -57,7 +57,7 @@ typedef struct twin {
   baum_body_id *bodies;  /* (count) */
   double *angles;        /* (count) [rad] */
   baum_joint_id *joints; /* (count) */
-  double *relative;      /* (count) [rad] angle of joint's body b against a */
+  double *relative;      /* (count) [rad] angle of body b minus angle of body a of each joint */
 } twin;
 
 static bool is_ground(baum_body_id id)
@@ -135,7 +135,8 @@ static baum_status add_body(twin *t, int k)
   return baum_mechanism_add_spatial_body(t->into, &to, &t->bodies[k]);
 }
 
-/* Each of these functions adds joint k if it has the kind of the name, else calls the one above. */
+/* Each of these functions adds joint k if it is of the kind that the function's name says.
+ * Otherwise it calls the function above it, which tries another kind. */
 
 static baum_status add_driver(twin *t, int k)
 {

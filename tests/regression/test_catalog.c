@@ -94,7 +94,7 @@ static double worst_of(const double *x, int count)
   return worst;
 }
 
-/* J v - nu */
+/* Computes J v - nu. */
 static void find_rate(const known *k, baum_workspace *workspace, int i, double *rate)
 {
   const double *q = k->q + (size_t)i * (size_t)k->nq;
@@ -184,8 +184,8 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Measured: up to 5e-10, from hundreds of steps whose errors add up; 1.9e-9 after nine
-   * revolutions of the spatial slider-crank; 6e-9 after flat configurations. */
+  /* Measured errors are up to 5e-10, because the errors of hundreds of steps add up; 1.9e-9 after
+   * nine revolutions of the spatial slider-crank; 6e-9 after flat configurations. */
   double wanted = k->entry.smooth ? 3e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);
@@ -237,7 +237,7 @@ static void forty_windows_follow_their_equation(void **state)
   const baum_catalog_choice choice = {"n_four_bar", &windows, 1};
   for (int i = 0; i < N_FOUR_BAR_SAMPLES; i++) {
     check(baum_catalog_reference(&choice, N_FOUR_BAR_T[i], q, NULL));
-    ASSERT_NEAR(q[2], N_FOUR_BAR_Q[i][0], 0.0, 1e-13); /* its digits */
+    ASSERT_NEAR(q[2], N_FOUR_BAR_Q[i][0], 0.0, 1e-13); /* accuracy of the table */
     ASSERT_NEAR(q[242], q[2], 0.0, 0.0);
     ASSERT_NEAR(q[5], 0.0, 0.0, 0.0);
   }

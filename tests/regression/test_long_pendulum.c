@@ -52,7 +52,7 @@ static void the_closed_form_is_that_of_the_table(void **state)
     double q[2];
     closed_form(A01_PENDULUM_T[k], q);
     for (int i = 0; i < 2; i++) {
-      /* The table has 17 digits; g is exactly 9.81 here and the double next to it in the run. */
+      /* The table has 17 digits. Here g is exactly 9.81; the mechanism has the nearest double. */
       ASSERT_NEAR(q[i], A01_PENDULUM_Q[k][i], 0.0, 1e-14);
     }
   }

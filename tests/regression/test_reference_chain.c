@@ -33,7 +33,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_chain_3(&m), BAUM_OK);
-  /* The angular velocities briefly reach 40 rad/s: (40 h)^4 = 6e-10. */
+  /* The angular velocities w briefly reach 40 rad/s, so the error is about (w h)^4 = 6e-10. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-9);
   model_destroy(&m);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The spatial mechanisms of the catalogue by dp5 and the methods of SUNDIALS; the runs of rk8 are
- * in test_catalog.c. */
+/* Compares runs of the spatial mechanisms of the catalogue by dp5, RATTLE and the methods of
+ * SUNDIALS with the references. test_catalog.c does this for rk8. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -65,7 +65,7 @@ static void references_are_met(void **state)
   (void)state;
   check_all(baum_dp5(), BAUM_FORMULATION_PROJECTION, 1e-6);
 #if BAUM_HAVE_SUNDIALS
-  /* Measured up to 4e-6 of the spatial slider-crank, after thousands of steps. */
+  /* The largest measured error is 4e-6, for the spatial slider-crank after thousands of steps. */
   check_all(baum_cvode_bdf(), BAUM_FORMULATION_PROJECTION, 1e-5);
   check_all(baum_ida(), BAUM_FORMULATION_GGL, 1e-5);
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The axes of the grid. Most vary one number of an ordinary cell by powers of ten, and are rows of
- * a table; the others are functions. Names of axes in space begin with "space". */
+/* The axes of the grid. Most of them vary one number of an ordinary cell by powers of ten; these
+ * are rows of the table DECADES. The others are functions. Names of axes in space begin with
+ * "space". */
 #include "axes.h"
 
 #include <math.h>
@@ -73,7 +74,8 @@ static bool is_in_space(const char *axis)
   return strncmp(axis, "space", 5) == 0;
 }
 
-/* In space: a planar scene in a tilted plane, or a spatial entry of the catalogue. */
+/* Returns a cell with ordinary numbers. If the axis is in space, its scene is a planar scene in a
+ * tilted plane or a spatial mechanism of the catalogue. */
 static cell ordinary(const char *axis, scene_kind kind)
 {
   const bool space = is_in_space(axis);
@@ -109,11 +111,11 @@ typedef struct decades {
   const char *name; /* of the axis, to choose it */
   const char *axis; /* as printed */
   size_t number;    /* offset of the varied number, a double of the cell */
-  unsigned kinds;   /* of scenes */
+  unsigned kinds;   /* set of kinds of scenes */
   int from, to, by; /* exponents of ten */
   const way *const *ways;
   bool zero;    /* begin with 0 */
-  int64_t most; /* steps; 0: the ordinary number */
+  int64_t most; /* largest number of steps; 0: that of an ordinary cell */
 } decades;
 
 static const decades DECADES[] = {
@@ -230,8 +232,8 @@ static void sweep_space_violation(cell_list *list)
   sweep_violation(list, "space: violation", "space: violation, exact", SCENE_FOUR_BAR);
 }
 
-/* Four-bars start at `gap` before a singular configuration and move through it. For the
- * slider-crank, `gap` is the difference of rod and crank. */
+/* N-four-bars start `gap` [rad] before a singular configuration and move through it. For the
+ * slider-crank, `gap` [m] is the length of the rod minus that of the crank. */
 static void sweep_singular(cell_list *list, const char *axis, const char *rod, int by)
 {
   for (int decade = 0; decade <= 16; decade += by) {
@@ -277,7 +279,8 @@ static void sweep_bodies(cell_list *list)
   }
 }
 
-/* In space only every second disagreement, and not the most redundant joints. */
+/* In space, takes only every second value of OFF, and not the largest number of redundant
+ * joints. */
 static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
 {
   static const int SPARES[] = {0, 1, 5, 20};
@@ -288,7 +291,7 @@ static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
       cell c = ordinary(axis, kind);
       c.scene.spare = SPARES[n];
       c.scene.off = OFF[i];
-      c.share = 10.0 * SPARES[n] * OFF[i]; /* redundant joints contradict by this */
+      c.share = 10.0 * SPARES[n] * OFF[i]; /* the redundant joints disagree by OFF[i] */
       with_ways(list, c, OFF[i], WAYS);
     }
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stress grid without this library: pendulum and slider-crank as an engineer would program them
- * for CVODE and IDA in an afternoon. Matrices are dense, gains are 5 1/s as in textbooks, atol =
+/* The stress grid without this library: pendulum and slider-crank as a first hand-written program
+ * for CVODE and IDA would solve them. Matrices are dense, gains are 5 1/s as in textbooks, atol =
  * rtol, and runs start in the design configuration. Nothing is scaled, assembled or checked.
  *
  *   bare [--list]
@@ -29,7 +29,8 @@ static const double GAIN = 5.0; /* [1/s] alpha = beta */
 typedef enum bare_way { ADAMS, BDF, INDEX1, INDEX3, BARE_WAYS } bare_way;
 static const char *const BARE_NAMES[BARE_WAYS] = {"CVODE Adams", "CVODE BDF", "IDA index 1",
                                                   "IDA index 3"};
-/* The integrators of the library to compare with; both forms of IDA have the same one. */
+/* The settings of the library that each program is compared with; both programs with IDA are
+ * compared with the same setting. */
 static const char *const BESIDE[BARE_WAYS] = {"adams", "bdf", "ida ggl", "ida ggl"};
 
 /* ---- the equations, by hand ---- */
@@ -40,7 +41,7 @@ typedef struct hand {
   int rows;
   double mass[Q];
   double gravity;
-  double crank; /* lengths */
+  double crank; /* lengths of crank and rod */
   double rod;
 } hand;
 
@@ -457,7 +458,7 @@ int main(int argc, char **argv)
 {
   bool tell = argc > 1 && strcmp(argv[1], "--list") == 0;
   cell_list list = axes_cells(NULL);
-  /* SUNDIALS prints its complaints. */
+  /* SUNDIALS prints messages to stderr; discard them. */
   if (!freopen("/dev/null", "w", stderr)) {
     return EXIT_FAILURE;
   }

@@ -20,22 +20,21 @@ typedef struct cell {
   double value; /* along the axis */
   scene scene;
   const way *way;
-  double periods;   /* duration of the run, in periods of its fastest rate */
-  double step;      /* fixed step, in those periods */
+  double periods;   /* duration of the run / period of its fastest rate */
+  double step;      /* fixed step / this period */
   double rtol;      /* for variable steps */
   double gain;      /* [1/s] alpha = beta; NaN: the default rule */
   double share;     /* [-] added to the permitted error for inexact data, relative to the scale */
   baum_start begin; /* how to begin */
-  int64_t most;     /* steps */
+  int64_t most;     /* largest number of steps */
 } cell;
 
 typedef enum outcome {
   MET,     /* the error is within the promise */
-  REFUSED, /* before the start */
-  STOPPED, /* with a reason */
-  WARNED,  /* that the motion may be wrong */
-  CROSSED, /* wrong, but reported a singularity crossing where branches are within 1e-10
-              */
+  REFUSED, /* the run was not started */
+  STOPPED, /* the run ended early with a message */
+  WARNED,  /* a warning doubts the motion */
+  CROSSED, /* wrong, but reported a singularity crossing where branches are within 1e-10 */
   WRONG,   /* status OK, no warning, and an error above the promise */
   OUTCOMES
 } outcome;
@@ -44,7 +43,7 @@ typedef struct grade {
   outcome outcome;
   bool false_alarm;   /* refused or warned, although the motion is right */
   double error;       /* relative to the scale, or in rad; NaN: none */
-  double promise;     /* largest permitted error, likewise */
+  double promise;     /* largest permitted error, in the same unit */
   double seconds;     /* of the run */
   double all_seconds; /* of run and oracle */
   int64_t steps;

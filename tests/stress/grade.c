@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the error that a run may have, its promise, and compares the actual error with it.
+/* Computes the largest error that a run may have, its promise, and compares the actual error with
+ * it.
  *
- * The error is the largest of all positions at the end, relative to the length scale or in radians.
- * With variable steps, the estimated error of each step, a mean over all coordinates, is at most
- * rtol. It then grows as neighbouring motions diverge. So the promise is
+ * The error is the largest of all positions at the end, with lengths relative to the characteristic
+ * length and angles in radians. With variable steps, the estimated error of each step, a mean over
+ * all coordinates, is at most rtol. It then grows as neighbouring motions diverge. This gives the
+ * promise
  *
  *   CONSTANT x rtol x steps x growth
  *
- * The oracle gives the growth from neighbouring motions. The constant covers the ratio of the
- * largest error to the mean, and of an error to its estimate. With a fixed step the promise is the
- * error of a method of order p,
+ * The oracle gives the growth from neighbouring motions. CONSTANT covers the ratio of the largest
+ * error to the mean, and of an error to its estimate. With a fixed step h and a span T the promise
+ * is the error of a method of order p,
  *
  *   CONSTANT x rate T x (rate h)^p x growth
  *
- * with the fastest rate of the motion: error constants of all methods here are below 1, and
- * derivatives of a motion are a few times powers of that rate. Both promises also include the
- * rounding error of a double for each step.
+ * where rate is the fastest rate of the motion. This is sufficient because the error constants of
+ * all methods are below 1, and the n-th derivative of a motion is a few times rate^n. Both promises
+ * also include the rounding error of a double for each step.
  */
 #include <math.h>
 #include <stdio.h>
@@ -29,8 +31,8 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* Upper bound of every promise: this share of the length scale or, with variable steps, so many
- * times rtol if that is more. A result with a larger error is useless. */
+/* Upper bound of every promise, because a result with a larger error is useless: WORTHLESS or, with
+ * variable steps and if this is larger, TOLERANCES x rtol. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
@@ -46,9 +48,9 @@ const char *outcome_name(outcome o)
 /* ---- the true motion ---- */
 
 typedef struct truth {
-  double rate;   /* [rad/s] fastest */
+  double rate;   /* [rad/s] fastest rate of the motion */
   double span;   /* [s] */
-  double growth; /* [-] of the distance of neighbouring motions */
+  double growth; /* [-] factor by which the distance of neighbouring motions grows */
   oracle_state end;
   bool known;
 } truth;
@@ -120,7 +122,7 @@ static truth find_truth(const scene *s, double span, double rate, double scale)
 /* ---- a run ---- */
 
 typedef struct trial {
-  scene scene; /* as it has begun */
+  scene scene; /* with the actual start of the run */
   model m;
   baum_simulation *run;
   baum_status status;
@@ -232,12 +234,12 @@ static double error_of(const scene *s, const double *q, oracle_state end, double
 
 static double promise_of(const cell *c, const truth *true_, int64_t steps, double scale)
 {
-  double parts = fmax(scale, scene_bodies(&c->scene)); /* rounding of bodies of 1 m adds up */
+  double parts = fmax(scale, scene_bodies(&c->scene)); /* rounding adds up along the bodies */
   double rounding = ROUNDING * (double)(steps + 100) * parts;
   double method = CONSTANT * c->rtol * (double)steps;
   double most = fmax(WORTHLESS, TOLERANCES * c->rtol);
   if (c->way->fixed) {
-    double h = c->step * 2.0 * PI; /* times the rate */
+    double h = c->step * 2.0 * PI; /* step times rate */
     method = CONSTANT * true_->rate * true_->span * pow(h, c->way->order);
     most = WORTHLESS;
   }
@@ -260,7 +262,7 @@ static double scale_of(const cell *c, const trial *t)
 void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time, grade *out)
 {
   double start = s->start;
-  double span = start + time->span - start; /* as doubles have it */
+  double span = start + time->span - start; /* rounded as in the run */
   truth true_ = find_truth(s, span, time->rate, time->scale);
   out->error = error_of(s, q, true_.end, time->scale);
   out->promise = true_.known ? promise_of(c, &true_, out->steps, time->scale) : (double)NAN;
@@ -273,7 +275,8 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* In double precision, a configuration this close to a singular one is singular. */
+/* A configuration closer than this to a singular one counts as singular, because rounding errors
+ * cannot distinguish them. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
@@ -342,8 +345,8 @@ grade cell_grade(const cell *c)
     measure(c, &t, time, &out);
   }
   out.outcome = judge(&t, &out);
-  /* From a singular configuration the motion can take several branches. A warning is right there,
-   * even if the run followed one of them accurately. */
+  /* From a singular configuration the motion can take several branches. A warning is then justified
+   * even if the run followed the expected branch accurately. */
   bool open = c->scene.gap <= SINGULAR;
   out.false_alarm = (out.outcome == WARNED && out.error <= out.promise && !open) ||
                     (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard, Numerische
- * Mathematik 41 (1983) 373). Its error is a series in h^2 for any Jacobian, so differences are
- * sufficient for the Jacobian. If that is zero, the method is that of Gragg, Bulirsch and Stoer.
+ * Mathematik 41 (1983) 373). Its error is a series in h^2 even with an inaccurate Jacobian, so
+ * differences are sufficient. With a zero Jacobian this is the method of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 
@@ -87,7 +87,7 @@ bool oracle_advance(const oracle *o, long double span, oracle_state *state)
     bool last = fabsl(span - done) <= fabsl(h);
     h = last ? span - done : h;
     long double error = step(o, h, *state, &next);
-    /* not a number: shorten */
+    /* A NaN shortens the step, too. */
     if (!(error <= TOLERANCE * (1 + fabsl(state->x)))) {
       h /= 2;
       continue;

@@ -17,7 +17,7 @@ static const long double CRANK = 1.0L;
 static const long double COUPLER = 2.0L;
 static const long double ROCKER = 2.2L;
 static const long double GROUND = 2.5L;
-static const double RELAXED = 0.1; /* [rad] behind the start */
+static const double RELAXED = 0.1; /* [rad] angle at start minus relaxed angle of the spring */
 
 static const scene START[SCENE_KINDS] = {
   [SCENE_BOB] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
@@ -115,7 +115,7 @@ static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
   if (rod == CRANK) {
-    return (turn){-x, -1, 0}; /* the branch on which rod and crank pass smoothly over each other */
+    return (turn){-x, -1, 0}; /* the smooth branch through the configuration where they coincide */
   }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
   long double c = cosl(a.at);

@@ -27,10 +27,10 @@ typedef struct scene {
   scene_kind kind;
   int count;        /* windows, links */
   double angle;     /* [rad] of the first body at start */
-  double rate;      /* [rad/s] likewise */
+  double rate;      /* [rad/s] angular velocity of the first body at start */
   double gravity;   /* [m/s^2] */
   double ratio;     /* [-] mass of the last body to that of the first */
-  double rod;       /* [m] length of the slider-crank's rod; its crank has 1 m */
+  double rod;       /* [m] length of the slider-crank's rod; that of its crank is 1 m */
   double stiffness; /* [N m/rad] torsion spring at the first pin, relaxed at `angle` - 0.1 rad */
   double damping;   /* [N m s/rad] torsion damper at the first pin */
   bool driven;      /* a driver keeps the first body at `rate` */
@@ -38,7 +38,7 @@ typedef struct scene {
   double violation; /* [m] displacement of the last body in the design configuration */
   int spare;        /* number of redundant joints */
   double off;       /* [m] by which redundant joints contradict the others */
-  double gap;       /* [rad] or [-] from the start to a singular configuration, for grade.c */
+  double gap;       /* [rad] or [m] distance from a singular configuration, for grade.c */
   bool tilted;      /* planar mechanism, built of spatial elements in a tilted plane */
   model_units units;
 } scene;
@@ -52,7 +52,7 @@ baum_status scene_build(const scene *s, model *out);
 /* [rad] angle of the first body at start; if driven, the driver's value in double precision. */
 double scene_begin(const scene *s);
 enum { SCENE_NUMBERS = 7 };
-/* Number of coordinates of each body. */
+/* Number of coordinates of each body: 2, 3 or, in space, 7. */
 int scene_width(const scene *s);
 int scene_bodies(const scene *s);
 /* Pose of a body when the angle of the first is x: x, y, angle [m, m, rad], or seven coordinates in

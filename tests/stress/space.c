@@ -45,7 +45,8 @@ int space_bodies(const scene *s)
   return s->kind == SCENE_TOP ? 1 : s->kind == SCENE_BRICARD ? RODS : 3;
 }
 
-/* A top with level axis precesses steadily at m g l / (C n), C its axial moment, n its spin. */
+/* A top with a horizontal axis precesses steadily at m g l / (C n) with its axial moment of inertia
+ * C and its spin n. */
 static double precession(const scene *s)
 {
   double axial = TOP_MASS * TOP_RADIUS * TOP_RADIUS / 2;
@@ -163,7 +164,7 @@ static carried rssr_body(int body, jets x)
   return coupler;
 }
 
-/* The joint angles are a and b in turn, with sin a + sin b + sin a sin b = 0. */
+/* The joint angles are a, b, a, b, a, where b follows from sin a + sin b + sin a sin b = 0. */
 static carried bricard_body(int body, jets a)
 {
   jets sine = jets_sin(a);

@@ -138,8 +138,8 @@ int main(int argc, char **argv)
   if (w.json) {
     print_json(&all);
   }
-  /* At most one false alarm in twenty cells; a thinned grid has only about a hundred cells, so that
-   * chance may double the share. */
+  /* At most one cell in twenty may be a false alarm. A thinned grid has only about a hundred cells,
+   * so chance may double the share, and one in ten is permitted. */
   int cells_to_an_alarm = w.thin > 1 ? 10 : 20;
   bool fine = all.of[WRONG] == 0 && cells_to_an_alarm * all.false_alarms <= all.cells;
   return fine ? EXIT_SUCCESS : EXIT_FAILURE;

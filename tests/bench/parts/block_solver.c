@@ -32,7 +32,7 @@ static void *block_create(scene *at)
   return create(at, false);
 }
 
-/* Only if it differs from "block". */
+/* Returns NULL if this processor has no wide vectors, because "block" is then the same. */
 static void *plain_create(scene *at)
 {
   return baum_i_hot_is_wide() ? create(at, true) : NULL;

@@ -23,7 +23,7 @@ typedef struct gain_problem {
   const double *t;     /* (samples) [s] all after the start */
   const double *scale; /* (nq) length [m] or 1 rad; owned by kept */
   gain_start starts[GAIN_STARTS];
-  double apart; /* largest difference of a reference from one with twice the step */
+  double apart; /* largest difference between a reference and the same with twice the step */
   baum_simulation *kept;
 } gain_problem;
 
@@ -35,7 +35,7 @@ int gain_problem_count(void);
 bool gain_problem_make(int k, int lot, gain_problem *out);
 void gain_problem_clear(gain_problem *problem);
 
-/* Largest difference over all samples, relative to the scales. */
+/* Returns the largest difference of rows from expected, relative to the scales. */
 double gain_problem_error(const gain_problem *problem, const double *rows, const double *expected);
 
 #endif

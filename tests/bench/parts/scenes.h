@@ -12,9 +12,9 @@ typedef enum scene_kind {
   SCENE_FOUR_BAR,
   SCENE_CHAIN,
   SCENE_ONE_GUIDE,      /* undriven slider-crank: 8 rows */
-  SCENE_TWO_GUIDES,     /* two redundant rows more */
-  SCENE_THIRD_BY_A_ROD, /* three parallel cranks, here without a redundant row, below with one */
-  SCENE_THREE_CRANKS,
+  SCENE_TWO_GUIDES,     /* a second guide: two redundant rows */
+  SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
+  SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
   SCENE_TWO_CRANKS
 } scene_kind;
 

@@ -42,7 +42,7 @@ static void front_read(const void *self, double *a, double *lambda)
 
 static void front_destroy(void *self)
 {
-  (void)self; /* the scene's */
+  (void)self; /* belongs to the scene */
 }
 
 static const solver FRONT = {.name = "klu_checked",

@@ -17,10 +17,11 @@ typedef struct sweep_motion {
   long double direction[SWEEP_NUMBERS][SWEEP_NUMBERS];
 } sweep_motion;
 
-/* Stores samples and, if `growth`, the growth in s; m->y is at the end afterwards. */
+/* Integrates the motion to its end, to which m->y is advanced. Stores samples and, if `growth`, the
+ * growth of perturbations in s. */
 void sweep_follow(sweep_scene *s, sweep_motion *m, bool growth);
 
-/* Ends the program with a message if not `fine`. */
+/* Ends the program with a message if `fine` is false. */
 void sweep_must(bool fine, const char *what);
 
 #endif

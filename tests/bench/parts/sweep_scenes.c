@@ -56,8 +56,8 @@ static void set_turning(baum_planar_body_def *def, double rate)
  *   a e(th1) + b e(th2) - c e(th3) - d e(0) = 0
  *   th' = u n(th),  n = (sin(th2 - th3) / a, sin(th3 - th1) / b, sin(th2 - th1) / c)
  *
- * n spans the null space of the Jacobian of both rows, also where the crank is in a dead centre,
- * and is zero in singular configurations only. Along the curve th(s) with dth/ds = n, Lagrange's
+ * n spans the null space of the Jacobian of both rows, even if the crank is in a dead centre, and
+ * is zero only in singular configurations. Along the curve th(s) with dth/ds = n, Lagrange's
  * equation for T = I(s) s'^2 / 2 and V(s) is
  *
  *   I u' + I_s u^2 / 2 + V_s = 0
@@ -423,7 +423,7 @@ typedef struct crossing {
   const char *name;
   int bodies;
   double start[2]; /* angle, rate */
-  double gravity;  /* k / gravity */
+  double gravity;  /* k divided by the acceleration of gravity */
   long double i0;
   long double i1;
   baum_status (*build)(model *m);

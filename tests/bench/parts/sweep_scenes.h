@@ -2,8 +2,8 @@
 /* Scenes of bench_sweeps, each with its motion in reduced coordinates, integrated without the
  * library.
  *
- * Errors are position errors: lengths relative to the characteristic length of the scene, angles in
- * radians.
+ * Errors are errors of positions, with lengths relative to the characteristic length of the scene
+ * and angles in radians.
  */
 #ifndef BAUM_BENCH_SWEEP_SCENES_H
 #define BAUM_BENCH_SWEEP_SCENES_H
@@ -14,12 +14,12 @@ enum { SWEEP_SAMPLES = 10, SWEEP_NQ = 12 };
 
 typedef struct sweep_scene {
   const char *name;
-  double parameter; /* [-] distance from the change point, or mass ratio, or 0 */
+  double parameter; /* [-] relative distance from a change point, mass ratio, or 0 */
   double gravity;   /* [m/s^2] */
   model m;
   int nq;
   double unit[SWEEP_NQ]; /* unit of an error in q: [m] or 1 rad */
-  double span;           /* [rad/s] initial, of the crank; steps are relative to 1 / rate */
+  double span;           /* [s] duration of the motion */
   double rate;           /* [rad/s] initial angular velocity of the crank; steps are relative to 1 /
                           * rate */
   double energy;         /* [J] initial kinetic energy */
@@ -28,7 +28,8 @@ typedef struct sweep_scene {
   double want[SWEEP_SAMPLES][SWEEP_NQ];
 } sweep_scene;
 
-/* Linkages within 1 % of a change point: shortest + longest = sum of the other two lengths. */
+/* Linkages close to a change point: the sum of the shortest and the longest length differs from the
+ * sum of the other two by at most 1 %. */
 enum { SWEEP_FOUR_BARS = 10 };
 sweep_scene sweep_four_bar(int k, bool gravity, double turns);
 

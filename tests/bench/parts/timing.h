@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Timing on a machine that runs other programs too: CPU time of this thread over 41 windows of at
- * least 0.25 ms, of which the 10th percentile is taken, then the smallest over some rounds. Medians
- * would include the load of other programs. */
+/* Timing on a machine that runs other programs too. A round measures the CPU time of this thread in
+ * 41 windows of at least 0.25 ms and takes their 10th percentile; the result is the smallest of
+ * several rounds. A median would include the load of other programs. */
 #ifndef BAUM_BENCH_TIMING_H
 #define BAUM_BENCH_TIMING_H
 
