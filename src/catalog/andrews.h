@@ -15,7 +15,7 @@ static const double ANDREWS_B[2] = {-.03635, .03273};
 static const double ANDREWS_C[2] = {.014, .072};
 
 #define ANDREWS_START  -0.0617138900142764496 /* value of beta for which Theta = 0 */
-#define ANDREWS_C0     4530.0                 /* [N/m] of the spring */
+#define ANDREWS_C0     4530.0                 /* [N/m] stiffness of the spring */
 #define ANDREWS_L0     .07785                 /* [m] free length of the spring */
 #define ANDREWS_MOMENT .033
 

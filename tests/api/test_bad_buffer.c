@@ -149,7 +149,8 @@ static void buffers_with_any_changed_bit_are_refused(void **state)
   close_scene(&s);
 }
 
-/* The same change in two words must not cancel in the checksum, as it does in a plain sum. */
+/* A plain sum of words does not change if the highest bits of two words change; the checksum must
+ * detect this. */
 static void buffers_with_two_changed_signs_are_refused(void **state)
 {
   (void)state;

@@ -430,7 +430,8 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
   baum_study_destroy(study);
 }
 
-/* For each integrator and kind of step the quick grid has one method, with default settings. */
+/* The quick grid has one method, with default settings, for each integrator and kind of step (fixed
+ * or variable). */
 static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
 {
   baum_study *study = make(*state);

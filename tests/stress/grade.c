@@ -4,7 +4,7 @@
  *
  * The error is the largest of all positions at the end, with lengths relative to the characteristic
  * length and angles in radians. With variable steps, the estimated error of each step, a mean over
- * all coordinates, is at most rtol. It then grows as neighbouring motions diverge. This gives the
+ * all coordinates, is at most rtol. An error grows as neighbouring motions diverge. This gives the
  * promise
  *
  *   CONSTANT x rtol x steps x growth

@@ -20,8 +20,7 @@ typedef struct sweep_scene {
   int nq;
   double unit[SWEEP_NQ]; /* unit of an error in q: [m] or 1 rad */
   double span;           /* [s] duration of the motion */
-  double rate;           /* [rad/s] initial angular velocity of the crank; steps are relative to 1 /
-                          * rate */
+  double rate;           /* [rad/s] initial angular velocity of the crank */
   double energy;         /* [J] initial kinetic energy */
   double growth;         /* [-] largest growth of a perturbation; NaN: not computed */
   double times[SWEEP_SAMPLES];
