@@ -32,7 +32,8 @@ def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:
 
 
 def eight_slider_cranks() -> baum.Mechanism:
-    """A mechanism to look at. Its bodies have the colours of the curves with the same number."""
+    """Eight slider-cranks that are only drawn. Bodies and curves with the same index have the same
+    colour, so the eight cranks are added first."""
     m = baum.Mechanism()
     for name, (x, y) in zip(GAINS, PLACES):
         m.planar_body(f"crank, {name}", position=(x + R / 2, y))

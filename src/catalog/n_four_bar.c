@@ -16,7 +16,7 @@
 
 #include "catalog/swing.h"
 
-#define QUARTER 1.5707963267948966 /* of a turn */
+#define QUARTER 1.5707963267948966 /* of a revolution */
 
 enum { WINDOWS, ANGLE, RATE, LENGTH, CRANK_MASS, COUPLER_MASS, GRAVITY, COUNT };
 

@@ -49,7 +49,7 @@ static baum_status fail_file(const baum_i_study_file *file, const char *what)
                      strerror(errno));
 }
 
-/* Writes a line immediately, so that a process that ends leaves only whole lines. */
+/* Writes and flushes a line, so that a process that is killed later has left whole lines. */
 static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed)
 {
   baum_i_study_seal(line, seed);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps and evaluations allocate nothing. Every allocation of the other calls may fail, with no
- * other result than BAUM_ERR_MEMORY. This includes allocations of SuiteSparse and SUNDIALS, except
- * those that heap.h excludes. */
+/* Steps and evaluations allocate nothing. Every other call returns BAUM_ERR_MEMORY if any of its
+ * allocations fails. This includes allocations of SuiteSparse and SUNDIALS, except those that
+ * heap.h excludes. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -440,7 +440,7 @@ static baum_status simulate(void *context)
   return reached_the_end(status) ? BAUM_OK : status;
 }
 
-/* What all runs have in common (assembly, check of derivatives) is tested only with the first. */
+/* Code that all runs share (assembly, check of derivatives) is tested only with the first run. */
 static void runs_survive_every_failing_allocation(void **state)
 {
   (void)state;
@@ -467,7 +467,8 @@ static const double *factors_of_rows(void)
   return factors;
 }
 
-/* Gains of rows only add a copy of the factors, which is the same code for all integrators. */
+/* Gains of rows only add a copy of the factors. This code is the same for all integrators, so one
+ * integrator is tested. */
 static void runs_with_gains_of_rows_survive_every_failing_allocation(void **state)
 {
   (void)state;

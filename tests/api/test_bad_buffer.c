@@ -180,7 +180,8 @@ static void seal(saved *s)
   memcpy(s->bytes + s->size - sizeof h, &h, sizeof h);
 }
 
-/* Random lengths and numbers with a valid checksum: restore neither crashes nor applies a part. */
+/* Random lengths and numbers with a valid checksum. Restore must not crash, and must apply a buffer
+ * as a whole or not at all. */
 static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 {
   (void)state;

@@ -257,7 +257,7 @@ static void check_ids(every_element *parts, const element_kind *kind)
     memcpy(&good, def.bytes + field->offset, sizeof good);
     uint32_t tag = parts->crank.tag;
     const any_id bad[] = {{0, 0}, {0, tag}, {1, tag + 1}, {1, 0}, {99, tag}, {-1, tag}, {-7, 0}};
-    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* the first input may be none */
+    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* an input may be {0, 0}: none */
     for (size_t i = first; i < sizeof bad / sizeof *bad; i++) {
       memcpy(def.bytes + field->offset, &bad[i], sizeof bad[i]);
       (void)snprintf(message, sizeof message, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
@@ -297,7 +297,8 @@ static void none_foreign_and_ground_ids_have_no_definition(void **state)
   for_every_kind(check_own_id);
 }
 
-/* An id of the same family but of another kind. */
+/* Reading or replacing an element by the functions of another kind of the same family is
+ * refused. */
 static void check_other_kind(every_element *parts, const element_kind *kind)
 {
   for (int k = 0; k < ELEMENT_KINDS; k++) {

@@ -165,7 +165,8 @@ static void a_design_too_far_off_is_refused(void **state)
     "\"rod\"|closer");
 }
 
-/* An arm of three bars, designed straight, whose joints all begin at 2.5 rad. */
+/* The arm has three bars and is designed straight, but its drivers begin at joint angles of 2.5
+ * rad. Assembly must find this bent configuration. */
 static void drivers_may_begin_away_from_the_design(void **state)
 {
   (void)state;
@@ -207,7 +208,7 @@ static void drivers_may_begin_away_from_the_design(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A bar on a pin reaches only 1 m, but the driver of its tip begins at 3 m. */
+/* The tip of the bar reaches only 1 m from the pin, but the driver of the tip begins at 3 m. */
 static void drivers_that_begin_out_of_reach_are_refused(void **state)
 {
   (void)state;

@@ -184,13 +184,14 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
   static const double high[3][3] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   scene s = make_scene();
   baum_outline two[2] = {outline_of(BAUM_OUTLINE_MESH), outline_of(BAUM_OUTLINE_MESH)};
-  for (int k = 0; k < 2; k++) { /* both orders */
+  for (int k = 0; k < 2; k++) { /* both orders of the meshes */
     two[k].points = high[0];
     two[1 - k].points = low[0];
     two[0].triangle_count = two[1].triangle_count = 1;
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";
-    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81)); /* seen from above */
+    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0,
+                                    -9.81)); /* pictures are then seen from above */
     must(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
     print_svg(s.mechanism, text);
     const char *red = NULL, *blue = NULL;

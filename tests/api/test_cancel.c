@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run, a sampling or a study may be cancelled at any step. It stops there, and continued, it ends
- * with the same result to the last bit. */
+/* A run, a sampling or a study may be cancelled at any step, where it stops. If it is continued,
+ * its result is the same to the last bit as without the cancellation. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

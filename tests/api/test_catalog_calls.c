@@ -272,7 +272,7 @@ static void errors_are_differences_by_the_scales(void **state)
   assert_int_equal(baum_catalog_compare(&CRANK, m, t, 2, q, v, &error, sizeof error), BAUM_OK);
   ASSERT_NEAR(error.q, 1e-3, 1e-12, 0.0);
   ASSERT_NEAR(error.q_final, 1e-4, 1e-11, 0.0);
-  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the largest of all samples is 150.2 */
+  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the divisor is the largest, 150.2 */
   assert_true(error.v == error.v_final && error.q_time == t[0] && error.v_time == t[1]);
   /* Digits of the reference: 15 for angles of up to 30 rad, 14 for 150 rad/s. */
   assert_true(error.q_floor > 1e-15 && error.q_floor < 5e-14);

@@ -67,7 +67,8 @@ static void accelerations_are_the_slopes_of_velocities(void **state)
   assert_int_equal(baum_simulation_sample(run, times, AROUND, channels, 3, rows[0], NULL), BAUM_OK);
   for (int i = 0; i < 3; i++) {
     double slope = (8.0 * (rows[3][i] - rows[1][i]) - (rows[4][i] - rows[0][i])) / (12.0 * d);
-    /* Fourth order: (150 d)^4 / 30 = 2e-13; rounding of v: 1e-16 / (150 d) = 1e-13. */
+    /* Relative errors: truncation (150 rad/s x d)^4 / 30 = 2e-13, and the rounding of v,
+     * 1e-16 / (150 rad/s x d) = 1e-13. */
     ASSERT_NEAR(rows[2][3 + i], slope, 1e-9, 0.0);
   }
   baum_simulation_destroy(run);

@@ -344,7 +344,7 @@ static const char *pointer_at(const any_def *def, const element_field *field)
   return pointer;
 }
 
-/* Names and arrays have the same content, but are copies at another address. */
+/* Checks that a name or an array has the same content, but is a copy at another address. */
 static void check_same_copied(const element_kind *kind, const element_field *field,
                               const any_def *got, const any_def *want)
 {

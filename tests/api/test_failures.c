@@ -124,7 +124,7 @@ static int flag_of(baum_status status)
 typedef struct expectation {
   fault fault;         /* FAULT_COUNT stands for the locking crank */
   int statuses;        /* a set of flags, one of which must occur */
-  const char *element; /* named */
+  const char *element; /* part of the message that names an element */
   const char *words;   /* part of the message */
 } expectation;
 
@@ -133,7 +133,7 @@ static const expectation EXPECTED[] = {
   {FAULT_RETRIES, CALLBACK, "\"gust\"", "returned 2 (retry)"},
   {FAULT_NAN, NOT_FINITE, "\"gust\"", "is nan at t = "},
   {FAULT_NOISE, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
-  /* a fixed step may instead end at an infinite force, whose message names the force */
+  /* With a fixed step, the force may become infinite instead; that message names the force. */
   {FAULT_GROWTH, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
   {FAULT_COUNT, NOT_FINITE | CONVERGENCE | STEP | SINGULAR, "joint ",
    "at the last good step, t = "},

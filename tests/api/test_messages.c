@@ -72,7 +72,7 @@ static void kinematics_keeps_no_energy_account(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Neighbouring doubles are 1.2e-4 s apart at 1e12 s. */
+/* At a time of 1e12 s, neighbouring doubles are 1.2e-4 s apart, so a shorter step is refused. */
 static void a_step_below_the_rounding_of_time_is_an_error(void **state)
 {
   (void)state;
@@ -86,8 +86,8 @@ static void a_step_below_the_rounding_of_time_is_an_error(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* alpha h = beta h = 1 is dead-beat with Euler. With a factor of 1.97 on the gains, a step leaves
- * 0.97 of a violation. */
+/* alpha h = beta h = 1 is dead-beat with Euler. If the gains of a row are multiplied by 1.97, a
+ * step leaves 0.97 of a violation of this row, which causes a warning. */
 static void factors_that_hardly_damp_are_warned_of(void **state)
 {
   (void)state;

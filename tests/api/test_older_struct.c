@@ -118,7 +118,7 @@ static void a_shorter_definition_has_defaults_where_it_ends(void **state)
       accepted += check_cut(&parts, kind, older_size(&fields.list[f]));
     }
   }
-  /* Enough definitions are accepted, so not only refusals are compared. */
+  /* Checks that the test compares enough accepted definitions, and not only refusals. */
   assert_in_range(accepted, 2 * ELEMENT_KINDS, 1000);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -173,8 +173,8 @@ static void the_present_time_as_target_does_nothing(void **state)
   }
 }
 
-/* Every target time is reached exactly; forward and back again, the start is reached within the
- * error of the method. */
+/* Every target time is reached exactly. A run that goes forward and back again ends at its start,
+ * except for the error of the method. */
 static void out_and_back_ends_near_the_start(void **state)
 {
   (void)state;

@@ -17,7 +17,7 @@ typedef struct judge_body {
   double inertia;
   double length; /* [m] of the rod, along its x axis; 0: particle */
   double pose[3];
-  int first; /* column */
+  int first; /* index of its first coordinate */
 } judge_body;
 
 typedef enum judge_kind {
@@ -36,7 +36,7 @@ typedef struct judge_joint {
   double point_a[2];
   double point_b[2];
   double axis[2]; /* unit, in a's axes */
-  double kept;    /* length or angle */
+  double kept;    /* [m or rad] length or angle that the joint keeps */
   int of;
   double law[5]; /* s = law[0] + law[1] t + law[2] sin(law[3] t + law[4]) */
 } judge_joint;
@@ -49,7 +49,7 @@ typedef struct judge_spring {
   double point_b[2];
   double stiffness;
   double damping;
-  double free; /* length or angle */
+  double free; /* [m or rad] free length or angle */
 } judge_spring;
 
 typedef struct judge_scene {

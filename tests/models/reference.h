@@ -22,7 +22,7 @@ typedef struct reference {
                                  * coordinates themselves */
 } reference;
 
-/* One run. */
+/* The result of a run. */
 typedef struct reference_run {
   baum_status status; /* > 0: warnings */
   double error;       /* NaN if the run failed */

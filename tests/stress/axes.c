@@ -108,8 +108,8 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
 #define NUMBER(FIELD) offsetof(cell, FIELD)
 
 typedef struct decades {
-  const char *name; /* of the axis, to choose it */
-  const char *axis; /* as printed */
+  const char *name; /* name for the command line */
+  const char *axis; /* printed name */
   size_t number;    /* offset of the varied number, a double of the cell */
   unsigned kinds;   /* set of kinds of scenes */
   int from, to, by; /* exponents of ten */

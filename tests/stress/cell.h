@@ -11,13 +11,13 @@ typedef struct way {
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
   bool fixed;   /* the step is fixed */
-  double order; /* at a fixed step, with the default gains */
+  double order; /* order of a fixed-step method with its default gains */
   bool built;   /* part of this build */
 } way;
 
 typedef struct cell {
   const char *axis;
-  double value; /* along the axis */
+  double value; /* value of the number that the axis varies */
   scene scene;
   const way *way;
   double periods;   /* duration of the run / period of its fastest rate */
@@ -25,7 +25,7 @@ typedef struct cell {
   double rtol;      /* for variable steps */
   double gain;      /* [1/s] alpha = beta; NaN: the default rule */
   double share;     /* [-] added to the permitted error for inexact data, relative to the scale */
-  baum_start begin; /* how to begin */
+  baum_start begin; /* option `start` of the run */
   int64_t most;     /* largest number of steps */
 } cell;
 

@@ -75,7 +75,8 @@ static double distance(const scene *s, long double x, long double y, double scal
   return most;
 }
 
-/* Returns the rate of oscillation on a stiff spring. The acceleration at rest does not show it. */
+/* Returns the rate of oscillation on a stiff spring, from the slope of the acceleration. The size
+ * of the acceleration, which rate_at() uses, does not show this rate. */
 static double stiff_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};

@@ -25,7 +25,7 @@ typedef enum scene_kind {
 
 typedef struct scene {
   scene_kind kind;
-  int count;        /* windows, links */
+  int count;        /* number of windows or links */
   double angle;     /* [rad] of the first body at start */
   double rate;      /* [rad/s] angular velocity of the first body at start */
   double gravity;   /* [m/s^2] */
@@ -37,7 +37,7 @@ typedef struct scene {
   double start;     /* [s] time at start */
   double violation; /* [m] displacement of the last body in the design configuration */
   int spare;        /* number of redundant joints */
-  double off;       /* [m] by which redundant joints contradict the others */
+  double off;       /* [m] distance by which the redundant joints do not fit */
   double gap;       /* [rad] or [m] distance from a singular configuration, for grade.c */
   bool tilted;      /* planar mechanism, built of spatial elements in a tilted plane */
   model_units units;

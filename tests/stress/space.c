@@ -218,7 +218,7 @@ void space_pose(const scene *s, int body, long double x, long double pose[SPACE_
 
 /* ---- the equation ---- */
 
-/* 2 vec(p^-1 p^(n)) */
+/* Computes w = 2 vec(p^-1 p^(n)) with the n-th derivative of p. */
 static void spin(const carried *c, int n, long double w[3])
 {
   for (int i = 1; i < 4; i++) {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms with a reference trajectory, by number. */
+/* A list of mechanisms with reference trajectories. */
 #ifndef BAUM_BENCH_PROBLEMS_H
 #define BAUM_BENCH_PROBLEMS_H
 
 #include "reference.h"
 
 typedef struct problem {
-  const char *name; /* a word */
+  const char *name; /* for the command line */
   const char *what; /* description with duration */
   reference with;
   double step; /* [s] longest useful step */
