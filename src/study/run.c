@@ -22,7 +22,7 @@ typedef struct workers {
   baum_i_entry **order; /* (count) entries to be measured */
   int count;
   int next;
-  int done; /* number of entries measured, plus number of entries timed or not to be timed */
+  int done; /* progress: 1 per entry that is measured, 1 more when it is timed or needs no time */
   baum_status status;
   baum_i_kept_message message; /* message of the status */
 } workers;

@@ -138,7 +138,7 @@ void baum_study_cancel(baum_study *study)
 /* ---- options ---- */
 
 enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
-static const double MOST_NUMBERS = 1e8; /* numbers q, v and lambda of all samples, in each thread */
+static const double MOST_NUMBERS = 1e8; /* values of q, v, lambda in the samples of a thread */
 
 static int most_samples(const baum_mechanism *m)
 {

@@ -190,8 +190,7 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
     two[0].triangle_count = two[1].triangle_count = 1;
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";
-    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0,
-                                    -9.81)); /* pictures are then seen from above */
+    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81)); /* the view is from above */
     must(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
     print_svg(s.mechanism, text);
     const char *red = NULL, *blue = NULL;

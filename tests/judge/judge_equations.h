@@ -24,7 +24,7 @@ typedef struct judge_rows {
 typedef struct judge_factors {
   int n;
   int m;
-  double columns[JUDGE_ROWS][JUDGE_N]; /* of J~^T: Householder vectors, then r */
+  double columns[JUDGE_ROWS][JUDGE_N]; /* Householder vectors of J~^T */
   double r[JUDGE_ROWS][JUDGE_ROWS];
   double root[JUDGE_N]; /* M^1/2, or ones */
 } judge_factors;
