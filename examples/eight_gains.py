@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Baumgarte's gains do, in motion: the driven slider-crank by explicit Euler with the eight
-sets of gains of slider_crank.py, side by side. Writes a page that shows the violations enlarged,
-as gaps in the joints, and plots the logarithms of their true sizes."""
+"""Shows what Baumgarte's gains do: eight driven slider-cranks move side by side, integrated by
+explicit Euler with the eight sets of gains of slider_crank.py. Writes a page that shows the
+violations enlarged, as gaps in the joints, and plots the logarithms of their true sizes."""
 
 import sys
 import warnings

@@ -113,7 +113,8 @@ def main() -> int:
 
     print(f"camber from {camber.min():.2f} to {camber.max():.2f} deg")
     print(f"chassis moved by {np.ptp(heights) * 1e3:.0f} mm, plate by {BUMP * 1e3:.0f} mm")
-    # The plate alone acts vertically on the whole, so it gives all bodies their accelerations.
+    # Apart from gravity, only the plate exerts a vertical force on the bodies. This force is
+    # therefore the sum of m (a + g) over all bodies.
     force = sum(mass * (run[f"{name}.acceleration"][:, 1] + 9.81) for name, mass in MASSES.items())
     report.expect(
         "force of the road, off by [N]", abs(run["road.effort"][:, 0] - force).max(), 1e-8

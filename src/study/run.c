@@ -112,7 +112,7 @@ static void note_failure(workers *c, baum_status status)
   }
 }
 
-/* Returns the deadline of a run whose time limit is this many entry limits. */
+/* Returns the deadline of a run whose time limit is `limits` times the entry limit. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){

@@ -310,7 +310,7 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* Complete a truncated line, which is then ignored as damaged. */
+  /* A newline ends a truncated line. The line is later ignored as damaged. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 

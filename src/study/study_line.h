@@ -7,7 +7,7 @@
 
 enum { BAUM_I_STUDY_LINE = 4096 }; /* largest length of a line, with the terminating zero */
 
-/* Appends all fields with `filed`, in their order. */
+/* Appends all fields whose `filed` is true, in their order. */
 void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
                                const baum_i_field *fields);
 

@@ -137,8 +137,8 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
     work += weight * h / 3.0 * rows[k][2] * rows[k][4];
     largest = fmax(largest, fabs(energy));
   }
-  /* The power has harmonics up to about ten times the 150 rad/s: Simpson's error is near (1500 h)^4
-   * / 180 = 2e-7 of the largest energy. */
+  /* The power has harmonics up to about 1500 rad/s, ten times the speed of the crank. The relative
+   * error of Simpson's rule is therefore near (1500 rad/s x h)^4 / 180 = 2e-7. */
   double change = rows[INTERVALS][0] + rows[INTERVALS][1] - rows[0][0] - rows[0][1];
   assert_true(fabs(change) > 0.1 * largest);
   ASSERT_NEAR(work, change, 0.0, 2e-7 * largest);

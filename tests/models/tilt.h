@@ -9,7 +9,8 @@
 /* Adds spatial elements for the bodies, particles, pins, guides, rods, drivers, springs and loads
  * of a planar mechanism, with the same names in the same order, and its gravity. */
 baum_status model_tilt_into(const baum_mechanism *planar, baum_mechanism *into);
-/* Makes and freezes such a mechanism. Its design puts the last body `aside` [m] off the plane. */
+/* Makes and freezes such a mechanism. In its design configuration the last body is `aside` [m] off
+ * the plane. */
 baum_status model_tilt(const baum_mechanism *planar, double aside, baum_mechanism **out);
 
 /* Converts x, y, angle in the plane to q (7) of a body in space. */
