@@ -90,8 +90,7 @@ static void add_joints(slider_crank *s, const double a[3], const double b[3])
   memcpy(ball.point, a, sizeof ball.point);
   CHECK(baum_mechanism_add_spatial_spherical(s->mechanism, &ball, &s->ball));
 
-  baum_spatial_universal_def cross =
-    baum_spatial_universal_def_default(); /* about z of the slider */
+  baum_spatial_universal_def cross = baum_spatial_universal_def_default(); /* z of the slider */
   cross.body_a = s->slider;
   cross.body_b = s->rod;
   memcpy(cross.point, b, sizeof cross.point);

@@ -105,7 +105,7 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- interpolated settings ---- */
 
-/* A setting between two entries of a method, or at one entry, if `coarse` and `fine` are the same. */
+/* A setting between two entries of a method, or at one entry if `coarse` equals `fine`. */
 typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;

@@ -167,7 +167,8 @@ static void invalid_choices_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* An integrator refuses a formulation with the list of those that it offers, and accepts those. */
+/* An integrator accepts the formulations that it offers. It refuses the others with a message that
+ * lists those that it offers. */
 static void check_pair(const baum_mechanism *mechanism, const baum_integrator *integrator,
                        baum_formulation formulation)
 {

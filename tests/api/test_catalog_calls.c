@@ -274,7 +274,7 @@ static void errors_are_differences_by_the_scales(void **state)
   ASSERT_NEAR(error.q_final, 1e-4, 1e-11, 0.0);
   ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the divisor is the largest, 150.2 */
   assert_true(error.v == error.v_final && error.q_time == t[0] && error.v_time == t[1]);
-  /* Digits of the reference: 15 for angles of up to 30 rad, 14 for 150 rad/s. */
+  /* The reference has 15 digits of angles, which are up to 30 rad, and 14 digits of velocities. */
   assert_true(error.q_floor > 1e-15 && error.q_floor < 5e-14);
   ASSERT_NEAR(error.v_floor, 1e-14, 1e-2, 0.0);
   q[NQ] = (double)NAN;

@@ -332,7 +332,7 @@ static void assert_same_numbers(const double *got, const double *want, int count
 static void check_ask(baum_workspace *w, fault *f, int which)
 {
   request want = request_of(w);
-  check(ASKS[which](&want)); /* a first call computes what is kept: the metric of GGL */
+  check(ASKS[which](&want)); /* the first call computes the metric of GGL and keeps it */
   want = request_of(w);
   f->calls = 0;
   check(ASKS[which](&want));
