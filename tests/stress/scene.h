@@ -18,7 +18,7 @@ typedef enum scene_kind {
   /* Spatial mechanisms of the catalogue: */
   SCENE_SPATIAL_CRANK, /* slider-crank; its spring acts on the slider */
   SCENE_RSSR,          /* four-bar, driven */
-  SCENE_BRICARD,       /* has a redundant row; `ratio` is that of moments of inertia */
+  SCENE_BRICARD,       /* has a redundant row; `ratio` is a ratio of moments of inertia */
   SCENE_TOP,           /* heavy top that precesses steadily with a horizontal axis */
   SCENE_KINDS
 } scene_kind;
