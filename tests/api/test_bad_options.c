@@ -167,8 +167,7 @@ static void invalid_choices_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* An integrator accepts the formulations that it offers. It refuses the others with a message that
- * lists those that it offers. */
+/* An integrator accepts the formulations that it offers and names them when it refuses another. */
 static void check_pair(const baum_mechanism *mechanism, const baum_integrator *integrator,
                        baum_formulation formulation)
 {
