@@ -13,7 +13,7 @@ enum { REFERENCE_SAMPLES = 21 };
 
 static const baum_catalog_choice REFERENCE = {.name = "slider_crank_eccentric"};
 
-/* [s] of sample k */
+/* Returns the time of sample k [s]. */
 static inline double reference_time(int k)
 {
   double times[REFERENCE_SAMPLES];
