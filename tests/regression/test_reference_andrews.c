@@ -121,8 +121,8 @@ static void multipliers_have_the_sign_of_the_equations(void **state)
       ASSERT_NEAR(rows[i * ROW + k], ANDREWS_V[i][k], 0.0, 1e-8);
     }
     for (int k = 0; k < 6; k++) {
-      /* Forces change by 4530 N/m x 0.03 m within some tenths of a radian, or 1e3 N/rad. An error of
-       * 3e-12 rad therefore causes an error of 3e-9 N. */
+      /* Forces change by 4530 N/m x 0.03 m within some tenths of a radian, or 1e3 N/rad. An error
+       * of 3e-12 rad therefore causes an error of 3e-9 N. */
       ASSERT_NEAR(rows[i * ROW + 7 + k], ANDREWS_LAMBDA[i][k], 0.0, 1e-8);
     }
   }
