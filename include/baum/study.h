@@ -56,7 +56,7 @@ BAUM_API void baum_study_destroy(baum_study *study);
 /** Called after each entry and during the reference, by one thread at a time, which may differ from
  *  the calling thread.
  *  @param study  the study
- *  @param done number of known errors plus number of known times
+ *  @param done   number of entries whose error is known plus number of those whose time is known
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
@@ -162,8 +162,9 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
 
 /** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, and rtol of 1e-2 to 1e-14.
  *  BAUMGARTE also gets gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a
- *  period or at rtol 1e-7. Every entry should meet its tolerance or say why not. The entry limit
- *  bounds the time of tiny steps.
+ *  period or at rtol 1e-7. Every entry should either be as accurate as its setting suggests or have
+ *  a message or warning that explains why not. The entry limit bounds the CPU time of entries with
+ *  tiny steps.
  *  @param study       unchanged on failure
  *  @param integrator  NULL: all in this build that take a step or a tolerance
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
@@ -427,7 +428,7 @@ typedef struct baum_study_method {
   int32_t entries;                   /**< [-] number of entries. */
   int32_t usable;                    /**< [-] entries that are done and not `off`. */
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
-  double slope;       /**< [-] d log error / d log step or rtol where errors fall; NaN: unknown. */
+  double slope;       /**< [-] d log error / d log step, or rtol in place of step; NaN: unknown. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN: unknown. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN: unknown. */
   /** [-] geometric mean of error_validated / error over its entries; NaN if none was validated to
@@ -447,8 +448,8 @@ BAUM_API int32_t baum_study_method_count(const baum_study *study);
 BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
-/** Find the Pareto front: the entries for which no other is both cheaper and more accurate. Entries
- *  at the floor of the reference count as equally accurate.
+/** Find the Pareto front: the entries for which no other entry is both cheaper and more accurate.
+ *  Entries at the floor of the reference count as equally accurate.
  *  @param      study     the study
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] of `entries`; >= 0
@@ -458,8 +459,8 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
-/** Interpolate the cost of a method at an error, on the line through the logarithms of its entries,
- *  up to one setting beyond its ends.
+/** Interpolate the cost of a method at an error, linearly in the logarithms of error and cost.
+ *  Beyond the first and last entry it extrapolates by at most the distance of two entries.
  *  @param      study   the study
  *  @param      method  0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0

@@ -38,8 +38,8 @@ def raise_later(error: BaseException | None) -> None:
 
 
 def make(function: Call, *arguments: Any) -> errors.Status:
-    """Call a function that returns a status. Raise the exception of a callback, or baum.Error for a
-    status below 0.
+    """Call a function that returns a status. Raise the exception of a callback that has stopped it,
+    or baum.Error for a status below 0.
 
     A call may succeed although a callback failed, for example where the library evaluates a
     mechanism at times that the run will not reach. In this case the exception is discarded.

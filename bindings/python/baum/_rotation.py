@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Orientations and inertia tensors in the forms that users have, on their way to the library."""
+"""Converts orientations and inertia tensors from the forms that users may give to those of the
+library."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-ROUNDING = 1e-6  # of numbers that were typed in
+ROUNDING = 1e-6  # allowed deviation of a rotation matrix, for numbers that were typed in
 
 
 def _matrix(value: Any, label: str) -> Array:
@@ -65,8 +66,8 @@ def quaternion(value: Any, label: str) -> Array:
 
 
 def _of_matrix(r: Array) -> Array:
-    """The row of 4 p p^T whose diagonal entry is the largest, divided by its length (Shepperd
-    1978); w >= 0."""
+    """The quaternion p of a rotation matrix, with w >= 0: the row of 4 p p^T with the largest
+    diagonal entry, normalized (Shepperd 1978)."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)

@@ -52,8 +52,8 @@ def taylor() -> Gains:
 
 
 def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
-    """Gains of an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta. hertz: frequency
-    [Hz] > 0. damping_ratio: [-] > 0."""
+    """Gains given as an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta. hertz:
+    natural frequency [Hz] > 0. damping_ratio: [-] > 0, 1 is critical."""
     return Gains("frequency", hertz=hertz, damping_ratio=damping_ratio)
 
 

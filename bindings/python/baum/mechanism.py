@@ -150,7 +150,7 @@ class Mechanism(Adding, AddingInSpace):
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
         table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
         drawing = str(self.draw())
-        return drawing + table if "<title>" in drawing else table  # nothing has a place
+        return drawing + table if "<title>" in drawing else table  # there is nothing to draw
 
     def _count(self, family: str) -> int:
         return sum(
@@ -353,8 +353,8 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """The numbers that place joints and forces in body axes before bodies are moved, by
-        element."""
+        """The numbers that joints and forces take from the present design configuration and must
+        keep when bodies are moved, by element."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
@@ -457,7 +457,8 @@ class Mechanism(Adding, AddingInSpace):
         frozen mechanism. Notebooks show it; save("x.svg") writes it. A red line joins the two
         points of a joint that is open.
 
-        Bodies draw themselves from the points of their joints, or as large as their inertia.
+        The shape of a body follows from the points of its joints or, without these, from its
+        inertia.
         """
         return drawings.draw(self, q)
 
@@ -472,13 +473,13 @@ class Mechanism(Adding, AddingInSpace):
         plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
         marks: Sequence[tuple[Scalar, str]] = (),
     ) -> Page:
-        """A page that shows any motion of a frozen mechanism, such as one that was computed
-        elsewhere or joined from several runs. Run.page() shows a run.
+        """A page that shows any motion of a frozen mechanism, for example a motion that was
+        computed elsewhere or joined from several runs. Run.page() shows a run.
 
         t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
         traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
-        neighbours with the same unit share a plot. marks: times [s] and texts on the time axis.
-        Constraint violations of q are shown as they are.
+        consecutive curves with the same unit share a plot. marks: times [s] and texts on the time
+        axis. Constraint violations of q are shown as they are.
         """
         made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
         if path is not None:

@@ -62,8 +62,8 @@ class Event(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where a body is in q and v. in_body_axes: the angular velocity in v is in body axes, although
-    the channel of the body has it in ground axes."""
+    """Indices of a body in q and v. in_body_axes: v contains the angular velocity in body axes,
+    while the channel of the body has it in ground axes."""
 
     q: slice
     v: slice

@@ -208,8 +208,8 @@ class Simulation(_calls.Closing):
         "kinematics"                         neither: drivers prescribe all degrees of freedom
         baum.integrators() lists them with order and formulations.
     step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
-    atol: added to rtol [unit of the coordinate] >= 0, default none. max_step: longest variable step
-        [s] > 0, default none. Set it if forces start late.
+    atol: [unit of the coordinate] >= 0, added to rtol times the scale, default none. max_step:
+        longest variable step [s] > 0, default none. Set it if forces start late.
     formulation: "default" is the first formulation that the integrator offers; "unstabilized",
         "baumgarte", "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
         "generalized_alpha" have "index3" only.
@@ -226,8 +226,8 @@ class Simulation(_calls.Closing):
         functions with differences first. max_steps: number of steps after which a call fails.
     energy_account: record the works that `energy_account` and its channel report.
     error_check: estimate the error of the motion by a second integration
-        (counters.error_estimate), and warn if it is large. Without it, runs with fixed steps are
-        still checked as soon as their error may matter.
+        (counters.error_estimate), and warn if it is large. Without this option, runs with fixed
+        steps are checked only when the sum of their local errors is large enough to matter.
     progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
         A function progress(t) is called every progress_interval seconds of wall time, and cancels
         the run if it returns a true value.
@@ -386,8 +386,8 @@ class Simulation(_calls.Closing):
     def set_input(self, input: InputLike, value: Scalar) -> None:
         """Set an input from the present time on. The value holds until it is set again.
 
-        Variable-step methods restart; multistep methods then take small steps. A loop that sets
-        inputs often runs best with a fixed step, or with "rk8".
+        Variable-step methods restart; those with several steps (CVODE, IDA) then take small steps.
+        A loop that sets inputs often runs best with a fixed step, or with "rk8".
         """
         found = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
@@ -647,7 +647,7 @@ class Simulation(_calls.Closing):
         return found
 
     def _warn(self) -> None:
-        """Issue Python warnings for warnings of the run that are new or have occurred again."""
+        """Issue a Python warning for each warning of the run that is new or has occurred again."""
         before, self._warned = self._warned, {}
         for warning in self.warnings:
             self._warned[warning.code] = warning.count

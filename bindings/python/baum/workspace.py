@@ -94,7 +94,7 @@ class Workspace(_calls.Closing):
         return moved
 
     def difference(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """The displacement (nv) by which move() goes from one configuration to another."""
+        """The displacement (nv) by which move() takes `start` to `end`."""
         out = np.empty(self._sizes.nv)
         start, end = self._q(start), self._q(end)
         self._call(lib.baum_workspace_difference, address(start), address(end), address(out))
