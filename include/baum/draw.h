@@ -109,8 +109,8 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 
 /** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
  *  view from above. Red lines show where the constraints of a joint are violated: between points
- *  that should coincide, from a point to the line, plane or curve on which it should be, and between
- *  axes that should be parallel.
+ *  that should coincide, from a point to its line, plane or curve, and between axes that should be
+ *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.

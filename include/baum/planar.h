@@ -16,8 +16,7 @@
  *  initial guess.
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b. The effort of a driver of the joint is not part of it.
- */
+ *  point on body_b. The reaction does not include the effort of a driver of the joint. */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H
 

@@ -119,7 +119,7 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  BAUM_GROUND. All bodies must have an angle.
  *
  *  Reaction: the generalized force -J^T lambda on the velocities of body_a, body_b and the carrier,
- *  without ground. Its forces are zero. */
+ *  without ground. Its force components are zero, because the row contains angles only. */
 typedef struct baum_planar_gear_def {
   size_t struct_size;   /**< Set by the default. Do not write. */
   const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */

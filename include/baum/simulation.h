@@ -162,8 +162,8 @@ typedef enum baum_solver {
   /** Sparse rank-revealing QR; slow. For comparison and singular configurations. */
   BAUM_SOLVER_QR = 2,
   /** Schur complement in blocks of two rows, without a fallback. It is refused if a body has more
-   *  than about 50 joints, if the joints form a dense net, or if the mass matrix is not positive
-   *  definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
+   *  than about 50 joints, if the joints form a dense network, or if the mass matrix is not
+   *  positive definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
@@ -371,8 +371,9 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param      simulation  the run
  *  @param[out] buffer      (capacity) of any alignment. NULL: only size is written, and the run
  *                          does not change.
- *  @param      capacity    [byte] at least the size that NULL gives. This size is constant during a
- *                          run, plus 32 bytes for each time of a schedule.
+ *  @param      capacity    [byte] at least the size that a call with NULL writes. This size is
+ *                          constant during a run, except that each time of a schedule adds 32
+ *                          bytes.
  *  @param[out] size        [byte] number of bytes written; with NULL the largest number needed
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
@@ -386,8 +387,8 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account
  *  are the same. It cannot check user functions: they must be the same, and the state that they
  *  keep is not saved. Gains and redundant rows chosen at the start are those of the saved run.
- *  Restoring allocates only if the saved run has set drivers, has longer schedules or omits other
- *  rows than this run.
+ *  Restoring allocates memory only if drivers were set in the saved run, or if it has longer
+ *  schedules or omits other redundant rows than this run.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least what baum_simulation_save() wrote

@@ -231,9 +231,9 @@ BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, d
 
 /** Compute spectral radii on a rectangular grid of the plane.
  *  @param      integrator    the method
- *  @param      alpha_h       [-] (2) first and last column, finite
- *  @param      beta2_h2      [-] (2) first and last row, finite
- *  @param      columns,rows  [-] >= 1; a single one is at the first value
+ *  @param      alpha_h       [-] (2) alpha h of the first and last column, finite
+ *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and last row, finite
+ *  @param      columns,rows  [-] >= 1; a single column or row is at the first value
  *  @param[out] radius        [-] (rows x columns) row-major; infinite if it overflows
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],

@@ -329,13 +329,13 @@ class Mechanism(Adding, AddingInSpace):
 
         With another position, angle or orientation of a body, the copy is the same mechanism in
         another design configuration: joints and forces keep their points and axes in body axes, and
-        they keep the lengths, angles and offsets that they took from the design configuration.
-        In the copy's definitions all of these are given as numbers. Assembly closes the joints,
-        which may move the changed body too: give position and angle that fit, or held=True. A joint
-        or force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
-        configuration. Angles of spatial joints are 0 in the new design configuration. ValueError if
-        this would change an angle that a driver, a coupling or a spring uses, or the relative
-        orientation of a spatial weld or prismatic joint.
+        they keep the lengths, angles and offsets that they took from the design configuration. In
+        the copy's definitions all of these are given as numbers. Assembly closes the joints, which
+        may move the changed body too: give position and angle that fit, or held=True. A joint or
+        force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
+        configuration. Angles of spatial joints are 0 in the new design configuration. Raises
+        ValueError if the changes would alter such an angle that a driver, a coupling or a spring
+        uses, or the relative orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy

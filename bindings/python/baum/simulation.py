@@ -221,8 +221,8 @@ class Simulation(_calls.Closing):
         and multipliers [-] > 0. tolerance_lambda: finite only for "ida" with "baumgarte" or
         "unstabilized".
     start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
-        configuration that violates constraints; "as_given" accepts it unchanged.
-    solver: "auto", "klu", "qr" or "block". check_derivatives: compare the derivatives of your
+    configuration that violates constraints; "as_given" accepts it without assembly. solver: "auto",
+    "klu", "qr" or "block". check_derivatives: compare the derivatives of your
         functions with differences first. max_steps: number of steps after which a call fails.
     energy_account: record the works that `energy_account` and its channel report.
     error_check: estimate the error of the motion by a second integration
