@@ -35,9 +35,9 @@
  *
  *  Versions: fields are only ever appended to a struct. `struct_size` tells the library which
  *  fields a program knows. A program that was compiled with an older version passes a smaller
- *  struct, and the missing fields have their defaults. Any other size, such as that of an all-zero
- *  struct or of a newer version, is refused (BAUM_ERR_STRUCT). In a struct that the library fills,
- *  it writes the first caller_size bytes only.
+ *  struct, and the missing fields have their defaults. Any other size, such as 0 in an all-zero
+ *  struct or the size of a newer version, is refused (BAUM_ERR_STRUCT). In a struct that the
+ *  library fills, it writes the first caller_size bytes only.
  *
  *  Callbacks: q and v hold the coordinates of the named bodies one after the other. Matrices are
  *  dense and row-major. Outputs are zeroed before the call. Return 0 on success, > 0 to ask for a
@@ -108,8 +108,8 @@ typedef int baum_force_fn(double t, const double *q, const double *v, const doub
 
 /** The law of a driver: s[0] is the value, s[1] the first and s[2] the second derivative at time t.
  *  s[1] and s[2] must be the exact derivatives; baum_mechanism_check_derivatives() compares them.
- *  The library also calls the law at times outside the run: to check derivatives, and to explore
- *  the constraints around the start. Returns the same as baum_q_fn. */
+ *  The library also calls the law at times outside the run: to check derivatives, and to find
+ *  redundant rows in configurations near the start. Returns the same as baum_q_fn. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */

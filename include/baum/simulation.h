@@ -596,7 +596,7 @@ typedef struct baum_counters {
    *  spectral_radius is. */
   double damping;
   int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
-  /** [-] the part of these intervals after which the motion is or may be on another branch. */
+  /** [-] near-singular intervals after which the motion is or may be on another branch. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration, taken regardless of their error
    *  estimate. */

@@ -244,10 +244,10 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  most a given number. The number 1 gives the region of stability; a smaller number gives the
  *  region where violations decay at least that fast.
  *
- *  Every part of the region, and every hole, is a closed curve that repeats its first point, with
- *  the region on its right. One point of NaNs separates curves. The points lie where the spectral
- *  radius has the given value, or on an axis where the axis bounds the region. Parts smaller than
- *  about a hundredth of the whole may be missed. Uses 30 kB of stack.
+ *  A closed curve, which repeats its first point, bounds each part of the region and each hole in
+ *  it. The region is on the right of the curve. One point of NaNs separates curves. The points lie
+ *  where the spectral radius has the given value, or on an axis where the axis bounds the region.
+ *  Parts smaller than about a hundredth of the whole may be missed. Uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
  *  @param      capacity          [-] of the arrays; >= 0. 2000 is enough for every method here.

@@ -78,7 +78,8 @@ typedef struct baum_study_options {
   double entry_limit;
   /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
   double time_budget;
-  /** Measure the work of the stabilization, at the cost of baum_energy_account. Default: true. */
+  /** Measure the work of the stabilization. This takes the additional evaluations that
+   *  baum_energy_account states. Default: true. */
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
@@ -130,7 +131,8 @@ typedef struct baum_study_grid {
    *  the motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN: 1e-13, or 1e-11 if a user
-   *  constraint has neither jacobian nor gamma, because differences are no more accurate. */
+   *  constraint has neither jacobian nor gamma, because finite differences are not more accurate
+   *  than this. */
   double finest;
   /** A first answer for about a 25th of the cost: every integrator with its default formulation (or
    *  the one above) and its default gains, at most 5 settings; `constants` is ignored.
@@ -307,7 +309,7 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.
  *  NaN: unknown. error_validated is infinite if the setting fails in the validation, and NaN for
- *  entries that cost far more than others of the same accuracy. */
+ *  entries that are not validated because they cost far more than others of the same accuracy. */
 typedef struct baum_study_entry {
   size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
@@ -388,7 +390,7 @@ BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_stu
  *  @param[out] v       (nv) NaN if unknown. May be NULL.
  *  @param[out] lambda  (nc) NaN if unknown. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not computed; a study that finds all
- *           entries in its file does not compute it again) */
+ *           entries in its file does not compute the reference again) */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
                                                  double *q, double *v, double *lambda);
 

@@ -24,8 +24,8 @@ def _is_matrix(value: Any) -> bool:
 
 
 def tensor(value: Any, label: str) -> Array:
-    """The six numbers xx, yy, zz, xy, xz, yz of an inertia given by them, by its three principal
-    moments or by a 3 x 3 matrix."""
+    """The six numbers xx, yy, zz, xy, xz, yz of an inertia. value: these numbers, three principal
+    moments or a 3 x 3 matrix."""
     if _is_matrix(value):
         i = _matrix(value, label)
         if not np.allclose(i, i.T, rtol=0.0, atol=1e-9 * abs(i).max()):
@@ -41,8 +41,8 @@ def tensor(value: Any, label: str) -> Array:
 
 
 def quaternion(value: Any, label: str) -> Array:
-    """The quaternion w, x, y, z of an orientation given by it, by a 3 x 3 rotation matrix or by a
-    Rotation of SciPy."""
+    """The quaternion w, x, y, z of an orientation. value: this quaternion, a 3 x 3 rotation matrix
+    or a Rotation of SciPy."""
     if hasattr(value, "as_quat"):  # x, y, z, w
         return np.roll(vector(value.as_quat(), 4, label), 1)
     if not _is_matrix(value):

@@ -156,7 +156,7 @@ def polygons(text: str) -> list[Array]:
         word = reader.take(_COMMAND)
         if word is None and command in ("", "Z", "z"):
             raise reader.error("a command is wanted, such as M or L")
-        if word is None:  # repeats the last command; lines follow the first point of a subpath
+        if word is None:  # repeats the last command; points after that of an M begin lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")

@@ -231,7 +231,7 @@ class Adding:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a pin of body_b in a straight slot of body_a, in which it can rotate. One row [m].
+        """Add a pin of body_b that slides and rotates in a straight slot of body_a. One row [m].
 
         Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
         ground axes with `point`, else in the axes of body_a. point: in ground axes in the design

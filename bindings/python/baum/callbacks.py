@@ -61,7 +61,7 @@ def _without_ones(shape: Shape) -> Shape:
 
 
 def _checked(value: Any, shape: Shape, label: str) -> Array:
-    """A returned value as an array of that shape; sides of length 1 may be omitted. Raises
+    """A returned value as an array of that shape; dimensions of length 1 may be omitted. Raises
     TypeError or ValueError for other values."""
     wanted = _without_ones(shape)
     asked = "a number" if not wanted else f"an array of shape {shape}"

@@ -52,7 +52,7 @@ class Kind:
         return found
 
     def coordinate(self, name: str) -> str:
-        """The name of a coordinate of a joint that may be given as "first"."""
+        """The name of a coordinate of a joint; "first" gives the name of the first one."""
         return self.coordinates[0] if name == "first" else name
 
     def function(self, verb: str) -> Any:

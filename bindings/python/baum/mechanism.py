@@ -353,8 +353,8 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """The numbers that joints and forces take from the present design configuration and must
-        keep when bodies are moved, by element."""
+        """For each joint and force, its name and the numbers that it takes from the present design
+        configuration and must keep when bodies are moved."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
