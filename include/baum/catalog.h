@@ -47,7 +47,7 @@ typedef struct baum_catalog_entry {
   /** How its reference was computed and checked; "" if it has none. */
   const char *provenance;
   const char *note;        /**< Advice for running it; may be "". */
-  int32_t parameter_count; /**< [-] see baum_catalog_parameter_at(). */
+  int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
   int32_t sample_count;    /**< [-] samples of the reference; 0: it has none. */
   double start_time;       /**< [s] start of the problem and its reference. */
   double end_time;         /**< [s] end of the problem and its reference. */

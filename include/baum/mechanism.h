@@ -19,7 +19,9 @@
  *  symbols.
  *
  *  Units: any consistent set. Only the default gravity assumes SI. Angles are in radians. Comments
- *  give units in SI, [-] for a pure number, and shapes of arrays in parentheses.
+ *  give units in SI, [-] for a pure number, and shapes of arrays in parentheses. The *scale* of a
+ *  coordinate is the characteristic length for a length, 1 for an angle, and `scale` for user
+ *  coordinates.
  *
  *  Order: q, v, constraint rows and lambda follow the order in which bodies and joints were added.
  *

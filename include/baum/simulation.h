@@ -621,8 +621,9 @@ typedef struct baum_counters {
 BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                               size_t caller_size);
 
-/** Where the energy of a run came from since its start or the last baum_simulation_set_state();
- *  setting inputs and drivers does not reset it. Positive work adds energy to the mechanism.
+/** Where the energy of the mechanism came from since the start of the run or the last
+ *  baum_simulation_set_state(); setting inputs and drivers does not reset the account. Positive
+ *  work adds energy to the mechanism.
  *
  *  The residual is the energy error of the method. It falls with the step at the order of the
  *  method, or with the tolerance. If an evaluation fails, the account ends with a warning, and

@@ -4,14 +4,15 @@
  *  with each integrator.
  *
  *  Gains make constraint violations follow Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6), which the
- *  integrator solves together with the motion. Each step h multiplies a violation by roots z of the
- *  characteristic equation of the method. The *spectral radius* is the largest |z|; violations
- *  decay if it is below 1. It depends on the method and on the point (alpha h, beta^2 h^2). The
- *  points where violations decay are the *region of stability* of the method. The functions below
- *  compute it. They need no mechanism, allocate nothing and may be called from any thread.
+ *  integrator solves together with the motion. A violation is a sum of modes, and each step h
+ *  multiplies a mode by z, a root of the characteristic equation of the method. The *spectral
+ *  radius* is the largest |z|; violations decay if it is below 1. It depends on the method and on
+ *  the point (alpha h, beta^2 h^2). The points where violations decay are the *region of stability*
+ *  of the method. The functions below compute it. They need no mechanism, allocate nothing and may
+ *  be called from any thread.
  *
- *  "No region" below means that the method has no such region: it chooses its step, or it needs no
- *  gains. */
+ *  "No region" below means that the method has no such region: it always chooses its step (CVODE
+ *  and IDA), or it needs no gains. */
 #ifndef BAUM_STABILIZATION_H
 #define BAUM_STABILIZATION_H
 

@@ -252,8 +252,9 @@ class Adding:
         point_b: ArrayLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a pinion of body_b, centred at its point, that rolls on a rack of body_a along an
-        axis. One row [m]: displacement - radius (angle_b - angle_a) = offset.
+        """Add a pinion of body_b that rolls on a rack of body_a. body_b's point is its centre, and
+        the axis is the direction of the rack. One row [m]: displacement - radius (angle_b -
+        angle_a) = offset.
 
         radius: [m]; positive if the rack is on the left of the centre, looking along the axis;
         negative if it is on the right, which is below for the axis (1, 0). axis, point, point_a,

@@ -3,7 +3,7 @@
 
 The functions stability...() take an integrator or its name. They raise ValueError for a name that
 does not exist, TypeError for values that are not numbers, and baum.Error for an integrator without
-a region of stability, such as one that chooses its steps.
+a region of stability, such as "cvode_bdf" and "rattle".
 """
 
 from __future__ import annotations
@@ -187,7 +187,8 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """The effect of gains with a method in words, also for a method that chooses its steps."""
+    """The effect of gains with a method in words, also for a method without a region of stability.
+    """
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 

@@ -196,7 +196,7 @@ class Mechanism(Adding, AddingInSpace):
         return found
 
     def find(self, family: str, value: Any) -> Any:
-        """The body, joint or input of a handle, a name or an id of the library; None for the id
+        """The body, joint or input for a handle, a name or an id of the library; None for the id
         "none". Raises KeyError or TypeError for anything else."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
@@ -334,8 +334,8 @@ class Mechanism(Adding, AddingInSpace):
         may move the changed body too: give position and angle that fit, or held=True. A joint or
         force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
         configuration. Angles of spatial joints are 0 in the new design configuration. Raises
-        ValueError if the changes would alter such an angle that a driver, a coupling or a spring
-        uses, or the relative orientation of a spatial weld or prismatic joint.
+        ValueError if the changes would alter the angle of a spatial joint that a driver, a coupling
+        or a spring uses, or the relative orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy

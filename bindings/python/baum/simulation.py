@@ -449,7 +449,7 @@ class Simulation(_calls.Closing):
         function(t, q, v) of the whole state passes zero. direction: 1 rising, -1 falling in time, 0
         both. terminal: the call ends with Status.STOP_EVENT at the event, and the next call
         continues; otherwise it is only recorded in `events`. name: for messages. tolerance: of the
-        time [s], default chosen by the library. coordinate: which one of `joint`, as in driver().
+        time [s], default its rounding. coordinate: which one of `joint`, as in driver().
         """
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()

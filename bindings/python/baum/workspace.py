@@ -159,7 +159,8 @@ class Workspace(_calls.Closing):
 
     def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
         """Reaction of a joint as in its channel `reaction`: for most joints the force [N] and the
-        moment [N m] on body_b (3). lambda_: multipliers (nc), as acceleration() returns them."""
+        moment [N m] on body_b (3, in space 6). lambda_: multipliers (nc), as acceleration() returns
+        them."""
         found = self.mechanism.find("joint", joint)
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))
