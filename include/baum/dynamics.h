@@ -209,7 +209,7 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
  *  @param[in]  dae          which equations
  *  @param      c            [1/s] finite
  *  @param[in]  y,dy         as for baum_workspace_residual()
- *  @param[out] out          receives nonzeros, and fills the arrays that are not NULL
+ *  @param[out] out          receives nonzeros; its arrays are filled unless they are NULL
  *  @return  also BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const baum_dae *dae, double c, double t,

@@ -337,7 +337,8 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
 
 /** A force at a point of a body and a torque on the body, both constant or multiplied by an input.
  *  The point is fixed in the body. The direction of the force is fixed in ground axes or in the
- *  body. A load in ground axes without torque and input has a potential; other loads have none. */
+ *  body. A load in ground axes with neither torque nor input has a potential; other loads have
+ *  none. */
 typedef struct baum_planar_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */

@@ -73,8 +73,8 @@ BAUM_API const baum_integrator *baum_rattle(void);
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** Solves the implicit equations of a step by fixed-point iteration, which treats the stiff terms
- *  of the gains by Newton's method. Stiff forces therefore limit the steps, but high gains do not.
+/** Solves the implicit equations of a step by fixed-point iteration, but treats the stiff terms of
+ *  the gains by Newton's method. Stiff forces therefore limit the steps, but high gains do not.
  *  CVODE projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);

@@ -223,8 +223,8 @@ BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, 
  *  distance is within 1 % of the least.
  *  @param      integrator                  the method
  *  @param      alpha_h,beta2_h2            [-] finite, the requested point
- *  @param[out] good_alpha_h,good_beta2_h2  [-] the nearest good point; the requested point if it is
- *                                          good
+ *  @param[out] good_alpha_h,good_beta2_h2  [-] the nearest such point; the requested point if its
+ *                                          spectral radius is <= 0.9
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
                                             double beta2_h2, double *good_alpha_h,

@@ -71,7 +71,7 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 
 def _merged(corners: Array) -> tuple[Array, Triangles]:
-    """Vertices and triangles from the corners (3 m, 3) of triangles: equal corners become one
+    """Vertices and triangles from the corners (3 m, 3) of m triangles: equal corners become one
     vertex."""
     vertices, numbers = np.unique(corners + 0.0, axis=0, return_inverse=True)
     return vertices, numbers.reshape(-1, 3).astype(np.int32)

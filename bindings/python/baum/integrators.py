@@ -187,8 +187,7 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """The effect of gains with a method in words, also for a method without a region of stability.
-    """
+    """The effect of gains with a method in words, also for a method without a region."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 
