@@ -514,11 +514,11 @@ BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 /** Copy a mechanism. The copy is not frozen. Ids of the original are valid in the copy, and the
  *  other way round, until elements are added to either.
  *
- *  Definitions are copied as they were given. Values that they leave to the design configuration
- *  therefore follow from that of the copy. These are the places of joints with `point`, and
- *  lengths, angles and offsets that were not given. To keep these values while you change the
- *  position or angle of a body, first give point_a, point_b, lengths, angles and offsets as
- *  numbers. Function pointers and `user` are shared.
+ *  Definitions are copied as they were given. Values that definitions leave to the design
+ *  configuration therefore follow from the design configuration of the copy. These are the places
+ *  of joints with `point`, and lengths, angles and offsets that were not given. To keep these
+ *  values while you change the position or angle of a body, first give point_a, point_b, lengths,
+ *  angles and offsets as numbers. Function pointers and `user` are shared.
  *  @param      mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure; release it with
  *                         baum_mechanism_destroy()

@@ -31,8 +31,8 @@ typedef struct baum_simulation baum_simulation;
 
 /** @return explicit Euler, order 1, fixed step. BAUMGARTE (dead-beat), UNSTABILIZED, PROJECTION */
 BAUM_API const baum_integrator *baum_euler(void);
-/** @return  semi-implicit (symplectic) Euler, order 1, fixed step: velocities first. Formulations
- *           as baum_euler() */
+/** @return semi-implicit (symplectic) Euler, order 1, fixed step; it updates the velocities first.
+ *  Formulations as baum_euler() */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
 /** @return  explicit midpoint rule, order 2, fixed step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED
  */

@@ -83,8 +83,9 @@ class _Task:
         self._error: BaseException | None = None
 
     def claim(self) -> bool:
-        """Whether the caller is the first to claim this call. Only the first may make or discard
-        the call, because Ctrl-C may interrupt before the worker has received it."""
+        """Whether the caller is the first to claim this call. The worker claims a call before
+        making it. The main thread claims a call to discard it, if Ctrl-C has come before the worker
+        received it."""
         me = object()
         return self._claims.setdefault("first", me) is me
 

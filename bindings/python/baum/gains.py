@@ -59,7 +59,8 @@ def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
 
 def deadbeat() -> Gains:
     """Gains with the fastest decay per step. Needs a fixed step. Runge-Kutta methods of order above
-    1 lose their order with these gains. Multistep methods have no such gains and are refused."""
+    1 lose their order with these gains. Multistep methods have no such gains and refuse the rule.
+    """
     return Gains("deadbeat")
 
 
