@@ -61,8 +61,8 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* Find J at to->q and to->t. to->q need not satisfy the constraints. The configuration can then
- * serve as `from` below. */
+/* Compute J at to->q and to->t. to->q need not satisfy the constraints. The configuration can then
+ * be `from` of baum_i_continuation_solve(). */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to);
 
 /* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. A

@@ -21,7 +21,8 @@ typedef struct baum_i_cvode_newton {
 baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials);
 void baum_i_cvode_newton_close(baum_i_cvode_newton *newton);
 
-/* Fill the matrix at (t, y), y = (q, v). Statuses of an acceleration. */
+/* Fill the matrix at (t, y), y = (q, v). Returns the status of baum_i_problem_acceleration() or of
+ * baum_i_sundials_klu_fill(). */
 baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, const double *y,
                                      double gamma);
 

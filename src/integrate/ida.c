@@ -274,7 +274,7 @@ static int attach_newton(ida_run *run)
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-/* The calls about linear solvers return flags of another list. They can fail only for lack of
+/* The calls about linear solvers return IDALS flags, not IDA flags. They can fail only for lack of
  * memory. IDA's scaling of solutions is switched off, because solve() scales them. */
 static int attach_klu(baum_i_sundials *sundials)
 {

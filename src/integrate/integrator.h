@@ -62,7 +62,7 @@ struct baum_integrator {
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
   baum_i_method method;             /* amplification */
-  baum_i_method_family family;      /* of methods without one */
+  baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   double seen;                      /* BDF: tested fraction of the error that a step contributes */
   /* both Eulers: the steady violation is (h/2)|gamma|, (alpha/beta^2) h |gamma| */
   bool predicts_violation;

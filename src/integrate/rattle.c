@@ -40,9 +40,10 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes of coordinates below this fraction count as rounding. Coordinates smaller than the scale,
- * as of a body at the origin, are replaced by the scale. The largest angle of a step is included
- * because rounding of the momentum rotates a slender body about its axis. */
+/* Changes of coordinates, relative to their scales, count as rounding below this fraction of the
+ * largest of three numbers: 1, the largest scaled position, and the largest angle by which a body
+ * rotates in the step. The angle is included because rounding of the momentum rotates a slender body
+ * about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
 /* Changes that no longer decrease count as rounding up to this multiple of ROUNDING. */
 static const double STALLED = 256.0;

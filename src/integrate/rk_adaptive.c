@@ -10,15 +10,15 @@
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
  *
- * For all F_4 ... the interpolant has the values and rates of both ends. Norm and tolerances are
- * the same as for CVODE, so that rtol means the same for all methods. Extra rates of the
- * interpolant are evaluated only if a time inside the step is requested, and never affect the
- * motion.
+ * Whatever F_4 and the later terms are, the interpolant has the states and rates of both ends of the
+ * step. Norm and tolerances are the same as for CVODE, so that rtol means the same for all methods.
+ * Extra rates of the interpolant are evaluated only if a time inside the step is requested, and
+ * never affect the motion.
  *
  * Projection: the end of a step is projected before its rate is evaluated, so that the interpolant
- * ends and the next step begins at the projected state. If the error estimate needs that rate, it
- * is computed after the projection. This saves one evaluation in each step, and the projection
- * changes the state by no more than the estimate.
+ * ends and the next step begins at the projected state. If the error estimate needs that rate, the
+ * estimate is computed after the projection, so the rate is evaluated only once. This is accurate
+ * enough, because the projection changes the state by no more than the estimate.
  *
  * The end of a step is t + h after rounding, and h is then set to the difference of the rounded
  * times, so that time and motion agree. */
@@ -35,8 +35,8 @@ static const double SHARE_OF_ERROR3 = 0.01;
  * problem->distrusts_projection. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is larger. The times of its stages still
- * differ. */
+/* Shortest step, relative to the time or to T, whichever is larger. At this length the times of the
+ * stages still differ. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
