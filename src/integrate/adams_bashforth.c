@@ -34,8 +34,8 @@ static double *slot(const baum_i_adams *run, int j)
 
 /* ---- one step ---- */
 
-/* Compute w_j(theta) / theta by Horner's rule. The caller multiplies by the actual step length, which
- * is theta times the step of the grid and so restores the factor theta. */
+/* Compute w_j(theta) / theta by Horner's rule. The caller multiplies by the actual step length,
+ * which is theta times the step of the grid and so restores the factor theta. */
 static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
 {
   int steps = table->steps;

@@ -136,8 +136,8 @@ static baum_status solve(const baum_i_continuation *path, const double *rows, do
 
 /* ---- Newton ---- */
 
-/* Find the row with the largest violation, measured as a displacement, among the active rows (`kept`)
- * or among the omitted rows. Return this violation. */
+/* Find the row with the largest violation, measured as a displacement, among the active rows
+ * (`kept`) or among the omitted rows. Return this violation. */
 static double violation(const baum_i_continuation *path, bool kept, int *row)
 {
   const baum_workspace *w = path->workspace;
@@ -323,8 +323,8 @@ bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configura
 
 /* ---- impasse ---- */
 
-/* Normalize the left singular vector u to max |u_i| d_i = 1, where d is path->distance. u consists of
- * constraint forces that nearly cancel: J^T u is almost 0. */
+/* Normalize the left singular vector u to max |u_i| d_i = 1, where d is path->distance. u consists
+ * of constraint forces that nearly cancel: J^T u is almost 0. */
 static void normalize_left(const baum_i_continuation *path)
 {
   double largest = 0.0;

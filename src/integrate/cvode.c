@@ -6,9 +6,9 @@
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
  * Adams: Adams-Moulton of orders 1 to 12 with fixed-point iteration. If there are gains, Newton's
- * iteration with their part of the Jacobian is used instead (cvode_embedded.c). BDF: orders 1 to 5 with
- * Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured in
- * the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
+ * iteration with their part of the Jacobian is used instead (cvode_embedded.c). BDF: orders 1 to 5
+ * with Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured
+ * in the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 

@@ -17,8 +17,8 @@
  *
  * a is not the acceleration at t but, to second order, the acceleration at t + (alpha_m - alpha_f)
  * h. a is initialized with the acceleration at that time; otherwise the multipliers of the first
- * steps would have errors of first order. If the length of the step changes, the difference a - v' is
- * scaled in proportion.
+ * steps would have errors of first order. If the length of the step changes, the difference a - v'
+ * is scaled in proportion.
  *
  * The first step after every start begins at the state projected onto the constraints. Otherwise a
  * violation would cause velocities of its size divided by h, which later steps would reduce only
@@ -55,8 +55,8 @@ static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 static const double STALLED = 64.0;
 /* Larger changes that have stopped decreasing, up to LARGEST_NOISE, count as rounding up to NOISES
  * times the change that find_noise() measures by altering all unknowns by the fraction NUDGE. The
- * rounding error of a large coordinate may be large relative to the scale of a small coordinate that
- * is coupled to it. */
+ * rounding error of a large coordinate may be large relative to the scale of a small coordinate
+ * that is coupled to it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;

@@ -12,8 +12,8 @@
  * integrated and no error accumulates: a requested configuration is solved to rounding for every
  * step length. Steps only ensure that the motion stays on its branch: a step that may have passed a
  * singular configuration is refused and shortened. If no step is short enough, the run ends. The
- * mechanism is then at a lock-up (a fold of the path, beyond which no configuration exists) or where
- * branches cross. */
+ * mechanism is then at a lock-up (a fold of the path, beyond which no configuration exists) or
+ * where branches cross. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

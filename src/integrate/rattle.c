@@ -42,8 +42,8 @@ enum { ITERATIONS = 50 };
 
 /* Changes of coordinates, relative to their scales, count as rounding below this fraction of the
  * largest of three numbers: 1, the largest scaled position, and the largest angle by which a body
- * rotates in the step. The angle is included because rounding of the momentum rotates a slender body
- * about its axis. */
+ * rotates in the step. The angle is included because rounding of the momentum rotates a slender
+ * body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
 /* Changes that no longer decrease count as rounding up to this multiple of ROUNDING. */
 static const double STALLED = 256.0;

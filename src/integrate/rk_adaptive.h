@@ -35,9 +35,9 @@ typedef struct baum_i_rk_adaptive {
   double h;        /* its signed length */
   double *end;     /* (size) (q, v) at its end */
   double *weights; /* (size) 1 / tolerance */
-  double *dense;   /* ((3 + pair->dense) x size) F of the last step */
-  bool has_step;   /* t .. weights belong to an accepted step */
-  bool has_dense;  /* F belongs to that step */
+  double *dense;   /* ((3 + pair->dense) x size) F_1, F_2, ... of the interpolant */
+  bool has_step;   /* the members from t to weights belong to an accepted step */
+  bool has_dense;  /* `dense` belongs to that step */
   bool unfinished; /* a start or step failed, so the next step restarts */
   int64_t rejected;
   int64_t forced;
