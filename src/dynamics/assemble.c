@@ -21,8 +21,8 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU =
-  1e-10; /* relative size of S; no step reduces the violation by more than this factor */
+/* Relative size of S. No step reduces the violation by more than this factor. */
+static const double MU = 1e-10;
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
@@ -181,7 +181,8 @@ static baum_status fail_inconsistent(const assembly *s, const double *rows, cons
 
 /* ---- positions ---- */
 
-/* Count in w->phi only what shall vanish. */
+/* Subtract from w->phi the violations that shall stay, so that it contains only what must
+ * vanish. */
 static void leave(const assembly *s)
 {
   for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {
@@ -273,7 +274,8 @@ static baum_status assemble_positions(assembly *s)
                                "left");
 }
 
-/* Refuse axes that have become opposite instead of parallel, because the rows hold for both. */
+/* Refuse axes that have become opposite instead of parallel. The constraint equations cannot
+ * distinguish the two cases. */
 static baum_status check_sides(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;

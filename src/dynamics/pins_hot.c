@@ -53,7 +53,7 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
 /* Compute the markers on body 0 (a) or 1 (b) of both pins. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* The body block of a planar body has the number of the body. */
+  /* Body blocks of planar bodies are numbered like the bodies. */
   return markers_on(
     &frames[(ptrdiff_t)two->pin[0].body_block[body]],
     &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],

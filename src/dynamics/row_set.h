@@ -21,7 +21,7 @@ typedef struct baum_i_row_set {
   double pivot_at_last_selection; /* relative; 0: never */
 } baum_i_row_set;
 
-/* Find the rank and the omitted rows at the assembled configuration (t, q). Also
+/* Find the rank and the omitted rows at the assembled configuration (t, q). May also return
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q);
 

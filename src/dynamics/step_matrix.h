@@ -31,8 +31,8 @@ typedef struct baum_i_step_matrix baum_i_step_matrix;
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out);
 void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is allowed */
 
-/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. Also BAUM_ERR_SINGULAR without a
- * message, BAUM_ERR_MEMORY. */
+/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. May also return BAUM_ERR_SINGULAR
+ * without a message, BAUM_ERR_MEMORY. */
 baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace *workspace,
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);
