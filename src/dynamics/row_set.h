@@ -18,7 +18,7 @@ typedef struct baum_i_row_set {
   int count;                      /* omitted rows */
   unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
-  double pivot_at_last_selection; /* relative; 0: never */
+  double pivot_at_last_selection; /* relative to the usual pivot; 0: none */
 } baum_i_row_set;
 
 /* Find the rank and the omitted rows at the assembled configuration (t, q). May also return
@@ -28,8 +28,8 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
 /* Find the rank of J in the workspace, with columns scaled by work_v (nv) (0 for fixed bodies), and
  * mark one largest set of independent rows in `selected`. Rows that are already marked come first.
  * A row belongs to the set if its distance from the span of the rows before it, relative to its
- * length, is above `distance`. The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE. */
+ * length, is above `distance`. The set contains the rows of welds that fix bodies. May return
+ * BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
 /* If possible, keep a set of the same size whose rows are well separated in this configuration.
@@ -40,9 +40,9 @@ baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const do
  * omitted now do not matter. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same.
- * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED if the block solver does not suit the new set, or statuses
- * of user functions. On failure nothing changes. */
+/* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same. May
+ * return BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED if the block solver does not suit the new set, or
+ * statuses of user functions. On failure nothing changes. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
 /* Omit other rows if the pivot, relative to its usual value, is poor and another set is better.

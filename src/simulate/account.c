@@ -6,7 +6,7 @@
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * The part of g that has the potential V changes V and does no further work. The powers are
+ * Forces with a potential V leave T + V unchanged and do not count as work. The powers are
  * integrated over each step by Gauss' rule. At the nodes inside the step, lambda is computed from
  * the integrated equations, (5) or (7). (5) is also used for the formulations of index 2 and 3,
  * because the second line of (5) is the derivative of J v = nu or Phi = 0, which their motion
@@ -41,7 +41,8 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* A projection by more than this many tolerances does not correct an error of the method. */
+/* A projection by more than this many tolerances does not correct an error of the method. It
+ * removes an initial violation, for example. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
@@ -187,8 +188,8 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potential energies to `works`. Only those count whose forces have a share
- * in the powers (baum_i_mechanism_potential_of_whole()). */
+/* Add `factor` times the potential energies to `works`. This includes only potentials of elements
+ * whose power was computed from all of their forces, also from those that have the potential. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -40,8 +40,9 @@ static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
 static const double KNOWN = 0.1;      /* a jump with a larger estimated error is not judged */
 static const double SMALL_TURN = 0.4; /* relative change of v in a step that resolves a turn */
-/* A violation of a singular configuration causes a gap. Its smallest pivot may be OPENED times as
- * large as the violation explains; in an example the factor was about five. */
+/* A violation of the constraints opens a gap where branches would otherwise cross. Smallest pivots
+ * of up to OPENED times the violation are explained by it; in an example the factor was about five.
+ * If the pivot is below GAP_OF_VIOLATION times the violation, the violation has opened the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 static const double GAP =

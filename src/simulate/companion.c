@@ -59,7 +59,7 @@ static const int64_t FREE = 1000;
 
 enum {
   STRIDE = 8, /* number of steps between stored states */
-  UNSEEN = 16 /* largest number of steps with unknown error, plus a quarter of all */
+  UNSEEN = 16 /* with more steps of unknown error, and more than a quarter, it is unknown */
 };
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;

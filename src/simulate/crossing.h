@@ -33,7 +33,7 @@ struct baum_i_crossings {
 
   baum_i_knot recent[BAUM_I_RECENT];      /* last states in order of time */
   baum_i_knot clear[BAUM_I_HERMITE_MOST]; /* clear states: far from singular ones and each other */
-  baum_i_knot at;                         /* a state between two */
+  baum_i_knot at;                         /* scratch: states between others */
   baum_i_knot other;
   baum_i_knot between;
   baum_i_knot lowest; /* t, pivot and q of the lowest pivot of the present crossing */
@@ -49,8 +49,9 @@ static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossi
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is allowed */
 
-/* The following functions do nothing if crossings are NULL, except where noted. Discard the states,
- * because another motion begins. */
+/* The following functions do nothing if crossings are NULL, except where noted. */
+
+/* Discard the states, because another motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
 /* Note a state of the run. The last solution must be that of this state. Evaluates nothing. */

@@ -19,7 +19,7 @@ typedef struct baum_i_event_mark {
 } baum_i_event_mark;
 
 typedef struct baum_i_event {
-  baum_event_def def; /* `name` is an own copy */
+  baum_event_def def; /* owns its `name` */
   int joint;          /* joint of its coordinate, or -1 */
   double next;        /* value at the state evaluated last */
   double found;       /* time at which it passes zero in the present interval; NaN: none */
@@ -44,8 +44,8 @@ void baum_i_events_destroy(baum_i_events *events);
 
 /* Call the following functions only if run->events is not NULL. */
 
-/* Evaluate all events at a state and write the values to `next`. BAUM_OK, BAUM_ERR_CALLBACK,
- * BAUM_ERR_NOT_FINITE. */
+/* Evaluate all events at a state and write the values to `next`. Returns BAUM_OK, BAUM_ERR_CALLBACK
+ * or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
 /* Start the search at the present state, whose values have just been evaluated. begin() is for a

@@ -53,8 +53,8 @@ typedef struct given {
   double before;
 } given;
 
-/* Append the jumps of other inputs from the k-th up to and including t. Returns the index of the
- * next jump. */
+/* Append the jumps of other inputs, beginning with the k-th, up to and including time t. Returns
+ * the index of the next jump. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks before each step whether the run must stop: because of the user, progress(), too many
- * steps, or steps that are too short.
+/* Checks before each step whether the run must stop: because of baum_simulation_cancel(), the
+ * result of progress(), too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
