@@ -64,7 +64,7 @@ struct baum_integrator {
   baum_i_method method;             /* amplification */
   baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   double seen;                      /* BDF: tested fraction of the error that a step contributes */
-  /* both Eulers: the steady violation is (h/2)|gamma|, (alpha/beta^2) h |gamma| */
+  /* both Euler methods: steady |Phi'| = (h/2) |gamma|, |Phi| = (alpha/beta^2) h |gamma| */
   bool predicts_violation;
   /* solves the residual form with multipliers; otherwise uses accelerations or configurations */
   bool solves_residuals;

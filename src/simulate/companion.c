@@ -59,7 +59,9 @@ static const int64_t FREE = 1000;
 
 enum {
   STRIDE = 8, /* number of steps between stored states */
-  UNSEEN = 16 /* with more steps of unknown error, and more than a quarter, it is unknown */
+  /* The error of the run is unknown if the local error is unknown in more steps than this, and in
+   * more than a quarter of all steps. */
+  UNSEEN = 16
 };
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;

@@ -36,9 +36,10 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* Estimate the smallest pivot for the check of the rows. Pivots of KLU vary irregularly, and pivots
- * of QR fall only very close to a singular configuration. With these solvers the rows are therefore
- * checked after every 0.1 rad of motion, which costs little compared with their other work. */
+/* Replace the smallest pivot in the check of the rows if KLU or QR solves: pivots of KLU vary
+ * irregularly, and pivots of QR fall only very close to a singular configuration. Return 0, which
+ * causes a check, after every WHILE of motion, otherwise 1. The checks cost little compared with
+ * the other work of these solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
