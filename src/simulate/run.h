@@ -119,8 +119,8 @@ static inline double baum_i_run_last_end(const baum_simulation *run)
  * workspace. */
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
-/* Create a workspace with the solver and the omitted rows of the run. Returns BAUM_OK,
- * BAUM_ERR_MEMORY. */
+/* Create a workspace with the solver and the omitted rows of the run. Returns the statuses of
+ * baum_i_workspace_create() and baum_i_use_blocks(). */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
 
 enum { BAUM_I_NO_JOINT = -1 };

@@ -24,7 +24,7 @@ static double find_pivot(const baum_simulation *run)
 
 /* Tell whether rounding errors of a projection are larger than the error of a step by h. With the
  * rounding error e, the relative pivot p and the rate w, projection causes errors of e / p in the
- * direction of the velocity, and a step of order k errors of about (h w)^(k+1) / 100. */
+ * direction of the velocity. A step of order k causes errors of about (h w)^(k+1) / 100. */
 static bool is_below_rounding(const baum_simulation *run, double h)
 {
   double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);

@@ -25,9 +25,8 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-/* Updates the nearest crossing with that between a node and the node before it in direction d,
- * exactly one of which is good.
- */
+/* Locates the crossing between a node and the node before it in direction d, exactly one of which
+ * is good. Stores the crossing if it is the nearest so far. */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
   double before[2] = {node[0], node[1]};
