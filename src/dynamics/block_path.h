@@ -25,10 +25,10 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;              /* (even pin_count x 4) */
+  double *points;              /* (pin_count, made even, x 4) points of the pins */
   int group_count;             /* groups of joints that are not pins of the block */
   baum_i_joint_group *groups;  /* (group_count) */
-  const baum_i_joint **joints; /* memory of the groups */
+  const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
   baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) force on bodies with a constant force */

@@ -59,7 +59,7 @@ struct baum_workspace {
   baum_i_kkt_choice choice;
   baum_i_block_path *path;      /* NULL: kkt solves */
   baum_i_block_path *motion;    /* for all but fixed bodies; = path if there are none */
-  baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
+  baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
   bool blocks_only;             /* no other solver is allowed */
   baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
   /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
@@ -89,11 +89,11 @@ struct baum_workspace {
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) for rates of q */
-  double *rate_q; /* (mass_size) of baum_i_linearize_rate() */
+  double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
-  double *jw_q; /* (jacobian_size) */
+  double *jw_q; /* (jacobian_size) (J w)_q */
   double *jv_q; /* (J v)_q, if rows have different gains */
   double *gamma_q;
   double *gamma_v;

@@ -9,7 +9,7 @@
 static int root_of(int *parent, int body)
 {
   while (parent[body] != body) {
-    parent[body] = parent[parent[body]]; /* halves the path */
+    parent[body] = parent[parent[body]]; /* halves the path to the root */
     body = parent[body];
   }
   return body;

@@ -9,7 +9,7 @@
 
 /* Input and output of the kernel. */
 typedef struct baum_i_pins {
-  const double *points; /* (even pin_count x 4) on body a and on body b, in the order of
+  const double *points; /* (pin_count, made even, x 4) on body a and on body b, in the order of
                           block->pins */
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */

@@ -18,7 +18,7 @@
  * odd, the last pin is in both halves and only one half is stored. This struct points to the data
  * of two pins. */
 typedef struct two_pins {
-  ptrdiff_t second; /* 1, or 0 for a single pin; a constant after inlining */
+  ptrdiff_t second; /* index of the second pin: 1, or 0 for one pin; constant after inlining */
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;

@@ -43,7 +43,7 @@ static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* relati
 /* Rank at a configuration; it is clear if both numbers are equal. */
 typedef struct rank_found {
   int all;
-  int clear; /* without nearly dependent rows */
+  int clear; /* rank without nearly dependent rows */
 } rank_found;
 
 typedef struct search {

@@ -15,7 +15,7 @@ typedef struct baum_i_row_set {
   /* rank of J at the initial configuration, which is (nearly) singular if this is less than
    * `rank` */
   int rank_at_start;
-  int count;                      /* omitted rows */
+  int count;                      /* number of omitted rows */
   unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
   double pivot_at_last_selection; /* relative to the usual pivot; 0: none */

@@ -16,7 +16,7 @@ enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
-  double *full;              /* values of the form */
+  double *full;              /* values of the matrix of `form` */
   unsigned char *factor;     /* of each value: BY_NOTHING, ... */
   baum_i_compressed pattern; /* (nv + nc) its slots: values except BY_NOTHING, in order */
   double *values;

@@ -26,7 +26,7 @@
 /* Memory of a run. */
 typedef struct cvode_run {
   baum_i_sundials sundials;
-  N_Vector work;                  /* of the projection */
+  N_Vector work;                  /* scratch of the projection */
   SUNNonlinearSolver fixed_point; /* Adams without gains */
   baum_i_cvode_embedded embedded; /* Adams with gains */
   baum_i_cvode_newton newton;     /* BDF */

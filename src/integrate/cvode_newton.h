@@ -13,8 +13,8 @@ typedef struct baum_i_cvode_newton {
   double *numbers;        /* memory of all arrays below */
   double *y;              /* (n) q, v, lambda */
   double *dy;             /* (n) q', v', 0 */
-  double *mass;           /* block values of M at the state of the matrix */
-  double *jacobian;       /* likewise J */
+  double *mass;           /* block values of M, for which the matrix was computed */
+  double *jacobian;       /* the same for J */
 } baum_i_cvode_newton;
 
 /* As baum_i_sundials_klu_open() and _close(); attach newton->solver with newton->klu.matrix. */

@@ -24,7 +24,7 @@ typedef struct baum_i_free_rotation {
   double axis_2[3];
   double excess_0; /* 1/I_0 - 1/I_1 */
   double excess_2; /* 1/I_2 - 1/I_1 */
-  double largest;  /* 1/I of the smallest moment */
+  double largest;  /* the largest of 1/I_0, 1/I_1 and 1/I_2 */
 } baum_i_free_rotation;
 
 baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9]);

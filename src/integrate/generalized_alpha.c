@@ -223,7 +223,7 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
     dy[i] = run->dy[i] * (1.0 + NUDGE);
   }
   memcpy(y + run->nq, run->y + run->nq,
-         (size_t)run->nv * sizeof *y); /* v depends on the other unknowns */
+         (size_t)run->nv * sizeof *y); /* v follows from the other unknowns */
   BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
   BAUM_I_TRY(baum_i_residual(w, &dae, t, y, dy, run->residual));

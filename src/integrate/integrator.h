@@ -57,11 +57,11 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* passed to open(): the method of a family */
-  int order;                        /* 0: variable */
+  const void *table;                /* passed to open(), to select one method of a family */
+  int order;                        /* 0: variable order */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
-  baum_i_method method;             /* amplification */
+  baum_i_method method;             /* amplification of violations */
   baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   double seen;                      /* BDF: tested fraction of the error that a step contributes */
   /* both Euler methods: steady |Phi'| = (h/2) |gamma|, |Phi| = (alpha/beta^2) h |gamma| */

@@ -27,8 +27,8 @@
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
-static const double SHRINKAGE = 0.5; /* largest factor after a refusal */
-static const double COLLAPSE = 0.1;  /* smallest factor */
+static const double SHRINKAGE = 0.5; /* largest factor on the step length after a refusal */
+static const double COLLAPSE = 0.1;  /* smallest factor on the step length */
 /* [rad] Largest rotation in a first step, approximately. */
 static const double FIRST_TURN = 0.1;
 /* The shortest step is SHORTEST times 1/rate of the motion plus TIME_ROUNDINGS times the rounding

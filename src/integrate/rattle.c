@@ -62,18 +62,18 @@ typedef struct rattle_run {
   rattle_rotation *rotations; /* (rotation_count); NULL in planar mechanisms */
   double largest_angle;       /* [rad] >= 1, h |momentum| / (smallest moment of inertia) */
   int64_t iterations;
-  double *memory;  /* all below */
+  double *memory;  /* memory of the arrays below */
   double *q;       /* (nq) end of the step */
-  double *v;       /* (nv) half velocities */
-  double *mean;    /* (nv) velocities that move q; v unless bodies rotate */
-  double *moments; /* (nv) replace gyroscopic moments at the end; NULL unless bodies rotate */
+  double *v;       /* (nv) v', velocities after the first half of the step */
+  double *mean;    /* (nv) velocities that move q; the array v unless bodies rotate */
+  double *moments; /* (nv) used in place of gyroscopic moments at the end; NULL: no body rotates */
 } rattle_run;
 
 /* ---- rotations ---- */
 
-/* Find the mean velocities of a step from its half velocities, and the moments that replace the
- * gyroscopic moments in its second half. The half velocities contain the gyroscopic moment at the
- * start, because a does; this is undone here. */
+/* Find the mean velocities of a step from v', and the moments that replace the gyroscopic moments
+ * in its second half. v' contains the gyroscopic moment at the start, because a does; here this
+ * moment is removed from the momentum. */
 static void rotate_bodies(rattle_run *run, const baum_i_state *state, double h)
 {
   memcpy(run->mean, run->v, (size_t)run->nv * sizeof *run->v);

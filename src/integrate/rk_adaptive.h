@@ -20,14 +20,14 @@ typedef struct baum_i_rk_pair {
   const double *error3; /* (error_count) of order 3, or NULL */
   int extra;
   const double *extra_c;   /* (extra) */
-  const double *extra_a;   /* rows of weights of all earlier rates: s + 1, s + 2, ... numbers */
+  const double *extra_a;   /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
   int dense;               /* number of F_4 ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 
 /* Memory of a run. */
 typedef struct baum_i_rk_adaptive {
-  baum_i_rk rk; /* first, for baum_i_rk_step() */
+  baum_i_rk rk; /* first member, because baum_i_rk_step() uses it */
   const baum_i_rk_pair *pair;
   baum_i_step_control control;
   double t;        /* start of the last step */

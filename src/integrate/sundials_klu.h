@@ -22,8 +22,8 @@ typedef struct baum_i_sundials_klu {
   double *defect;    /* (n) b - A x */
   double *size;      /* (n) |b| + |A| |x| */
   double *entry;     /* (n) largest entry of each row of A */
-  N_Vector right;    /* (n) for the caller */
-  N_Vector solution; /* (n) likewise */
+  N_Vector right;    /* (n) scratch for the caller */
+  N_Vector solution; /* (n) scratch for the caller */
   bool fresh;        /* pivots were chosen for the present matrix */
 } baum_i_sundials_klu;
 

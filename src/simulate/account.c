@@ -56,13 +56,13 @@ struct baum_i_account {
   baum_i_problem problem; /* the run's problem, with this workspace */
   int nodes;
   bool fresh;        /* no step since the last restart of the method */
-  bool far;          /* the projection of the last step moved far */
+  bool far;          /* the last projection moved the state far (FAR) */
   void *stepper;     /* second instance of the method, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */
   baum_i_state node;
   double *unprojected; /* (nq + nv) end of the last step, or a sample, before projection */
-  double *end_a;       /* (nv) fixed step: acceleration at the end of the last step */
-  double *lambda;      /* (nc) of (5) */
+  double *end_a;       /* (nv) acceleration at the end of a step; if `far`, at its start */
+  double *lambda;      /* (nc) multipliers by (5) */
 };
 
 /* Nodes of Gauss' rules over (-1, 1). Row n - 1 is the rule with n nodes. */

@@ -45,8 +45,8 @@ static const double SMALL_TURN = 0.4; /* relative change of v in a step that res
  * If the pivot is below GAP_OF_VIOLATION times the violation, the violation has opened the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-static const double GAP =
-  1e-5; /* smallest violation of a gap, as a displacement; 0 if branches cross */
+/* Smallest violation, as a displacement, that shows a gap. Where branches cross it is 0. */
+static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
 

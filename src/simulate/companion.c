@@ -70,7 +70,7 @@ struct baum_i_companion {
   /* The members before `method` are plain numbers, which are saved. */
   int64_t unseen; /* number of steps whose local errors are unknown */
   int64_t begun;  /* number of evaluations of the run before the companion started */
-  double sum;     /* of local errors */
+  double sum;     /* sum of local errors */
   double apart;   /* [s] time since which run and companion differ; NaN: they agree */
   int32_t doing;  /* a state_of_companion */
 
@@ -78,10 +78,10 @@ struct baum_i_companion {
   baum_workspace *workspace;
   baum_i_problem problem; /* of the companion */
   void *self;
-  baum_i_local_error local; /* of the run */
+  baum_i_local_error local; /* local errors of the run */
   baum_i_state state;       /* start of the companion's next step */
   baum_i_state at;          /* present state of the run */
-  baum_i_state kept[2];     /* states of the run STRIDE or more, and less than STRIDE, steps ago */
+  baum_i_state kept[2]; /* earlier states of the run: [0] at least STRIDE steps old, [1] newer */
 };
 
 /* ---- life ---- */

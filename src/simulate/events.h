@@ -20,7 +20,7 @@ typedef struct baum_i_event_mark {
 
 typedef struct baum_i_event {
   baum_event_def def; /* owns its `name` */
-  int joint;          /* joint of its coordinate, or -1 */
+  int joint;          /* joint whose coordinate is the value, or -1 */
   double next;        /* value at the state evaluated last */
   double found;       /* time at which it passes zero in the present interval; NaN: none */
 } baum_i_event;

@@ -24,7 +24,7 @@ typedef struct factors {
 static factors find_factors(const baum_i_knot *knots, int count, int k, double t)
 {
   double l = 1.0;
-  double rate = 0.0; /* of l */
+  double rate = 0.0; /* derivative of l */
   double slope = 0.0;
   for (int i = 0; i < count; i++) {
     if (i != k) {

@@ -198,7 +198,7 @@ baum_status baum_i_run_own_parameters(baum_simulation *run)
   return BAUM_OK;
 }
 
-enum { MOST_NUMBERS = 8 }; /* parameters of a driver */
+enum { MOST_NUMBERS = 8 }; /* largest number of parameters of a driver */
 
 static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, const double law[3])
 {

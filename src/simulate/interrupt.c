@@ -12,7 +12,7 @@
 #include "simulate/run.h"
 
 enum { PACE_STEPS = 10000 };
-static const double SLOWEST = 1e-9; /* mean step times rate */
+static const double SLOWEST = 1e-9; /* smallest mean step times rate */
 
 void baum_simulation_cancel(baum_simulation *simulation)
 {

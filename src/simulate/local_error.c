@@ -106,7 +106,7 @@ double baum_i_local_error_of_step(baum_i_local_error *e, const baum_simulation *
   double h = run->state.t - e->t;
   double error = 0.0;
   if (e->known > 1 && !(fabs(h - e->h) <= SAME_STEP * fabs(h))) {
-    e->known = 1; /* only the acceleration at the start of this step */
+    e->known = 1; /* only the acceleration at the start of this step is still useful */
   }
   if (e->known == BAUM_I_ACCELERATIONS) {
     double rate = baum_i_scaled_size(run->workspace->mechanism, run->state.v);

@@ -182,7 +182,8 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
-    double size = 0.0; /* factor of the steady violation (docs/theory/stabilization.md) */
+    /* The steady violation is proportional to |gamma| (docs/theory/stabilization.md). */
+    double size = 0.0;
     (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
     run->largest_gamma = fmax(run->largest_gamma, size);
   }

@@ -34,7 +34,7 @@ static void project_present(baum_simulation *run)
   }
 }
 
-static const double WHILE = 0.1; /* [rad] */
+static const double WHILE = 0.1; /* [rad] motion between two checks */
 
 /* Replace the smallest pivot in the check of the rows if KLU or QR solves: pivots of KLU vary
  * irregularly, and pivots of QR fall only very close to a singular configuration. Return 0, which

@@ -72,8 +72,8 @@ struct baum_simulation {
 
   double *parameters;       /* own copy after a driver law has been set, else NULL */
   baum_i_schedule schedule; /* of inputs */
-  double *memory;           /* all arrays below */
-  baum_i_state state;       /* reported */
+  double *memory;           /* memory of the arrays below */
+  baum_i_state state;       /* present state, which is reported */
   baum_i_state ahead;       /* variable step: end of the last internal step */
   baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
   baum_i_state spare;       /* used by steps near a singular configuration */

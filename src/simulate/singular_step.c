@@ -40,7 +40,7 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
   bool skips = false;
   if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
-    skips = is_in_pose(run, find_pivot(run)); /* projection may fail to converge */
+    skips = is_in_pose(run, find_pivot(run)); /* projection need not converge there */
   } else if (run->crossings && status == BAUM_OK) {
     skips = is_below_rounding(run, t - run->state.t);
   }

@@ -215,7 +215,7 @@ static baum_status check_exact(baum_simulation *run)
  * errors of the size by which projection would change the velocities. */
 static const double OPEN = 1e-6; /* relative change of velocities above which the run warns */
 static const double CONTRADICTS = 1e-3; /* relative change above which the start is refused */
-static const double ROUNDING = 1e-13;   /* of the rows, relative to the velocities */
+static const double ROUNDING = 1e-13;   /* rounding of the rows, relative to the velocities */
 
 /* Find the largest velocity violation relative to the size of the velocities, and its row. Returns
  * 0 if nothing moves. */

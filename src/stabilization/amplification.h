@@ -32,7 +32,7 @@ typedef struct baum_i_method {
   baum_i_method_kind kind;
   int degree; /* degree of R, or number k of steps */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
-  double best[2]; /* result of baum_i_stability_best() if its search is slow; otherwise 0 */
+  double best[2]; /* stored result of baum_i_stability_best() if its search is slow, otherwise 0 */
 } baum_i_method;
 
 /* Returns a static text on the effect of gains with a method. chooses_step: the method chooses its

@@ -91,7 +91,7 @@ static bool find_zero(const baum_i_method *method, double best[2])
 typedef struct search {
   const baum_i_method *method;
   double growth; /* the least so far */
-  double s;      /* where */
+  double s;      /* (s, m): where it is in the chart */
   double m;
   double point[2];
 } search;

@@ -23,7 +23,7 @@ typedef struct march {
   const baum_i_method *method;
   double growth;
   double extent;
-  unsigned char node[NODES][NODES]; /* [i][j] */
+  unsigned char node[NODES][NODES]; /* INSIDE, ENTERED */
   baum_i_outline *out;
 } march;
 
