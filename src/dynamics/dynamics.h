@@ -2,7 +2,7 @@
 /* Internal interface of dynamics. A workspace combines the functions of a mechanism with a solver
  * of the saddle-point system.
  *
- * Stages, each named by its arguments:
+ * Stages, with their arguments and results:
  *   position   (t, q):     frames, Phi, J, nu, M
  *   velocity   (t, q, v):  Phi' = J v - nu, gamma, g
  *   solution:              a, lambda of (5) or (7)
@@ -265,7 +265,7 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Fail likewise if a number (nv) divided by the scale of its coordinate overflows. */
+/* Fail in the same way if a value (nv), divided by the scale of its coordinate, overflows. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
 /* Fail with BAUM_ERR_NOT_FINITE. The message names the joint or body of the first number in J,

@@ -8,7 +8,7 @@
  * rank is singular.
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
- * later rows to 1e-16 / d, so redundant rows may pass for independent ones. The rank of such a
+ * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
  * configuration is ambiguous beyond the first nearly dependent row. In this case a neighbour with a
  * clear rank decides, unless its rank is smaller, and the initial configuration counts as singular.
  * If no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins

@@ -16,9 +16,9 @@
 #include "dynamics/block_path.h"
 
 /* Limits on the distance of a row from the span of the rows selected before it, relative to its
- * length. They are tried from MOST down to WORST, by factors STEP. The best set is that of the
- * first limit at which there are as many rows as the rank. The set is well separated if this limit
- * is above LEAST. Kept rows stay in the set if they reach the limit divided by FACTOR. */
+ * length. They are tried from MOST down to WORST, by factors STEP. The first limit that yields as
+ * many rows as the rank gives the best set. The set is well separated if this limit is above LEAST.
+ * Kept rows stay in the set if they reach the limit divided by FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;

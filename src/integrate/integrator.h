@@ -33,7 +33,7 @@ typedef struct baum_i_problem {
   double tolerance_q;      /* [-] > 0, factors on rtol and atol */
   double tolerance_v;      /* [-] > 0 */
   double tolerance_lambda; /* [-] > 0; INFINITY: multipliers are not in the error test */
-  /* explicit methods with variable steps: refuse steps whose end the projection moves far */
+  /* explicit methods with variable steps: refuse a step if the projection moves its end far */
   bool distrusts_projection;
   bool stops;  /* variable step: a step ends exactly at `stop` */
   double stop; /* [s] ahead of the state by more than the rounding of times */

@@ -18,11 +18,11 @@
  * is part of the work of drivers and of the work of the violation (docs/theory/energy.md).
  *
  * States inside a step are computed by the method's own interpolant. For fixed steps of methods up
- * to order 4 they are Hermite polynomials of degree 5 in q and 3 in v, whose error over a step is
- * of order 5. For fixed steps of methods above order 4 they are ends of shorter steps from the same
- * start. Variable steps with a large projection, for example after a start off the constraints, are
- * also replaced by shorter steps from the same start, because the interpolant of a Runge-Kutta pair
- * ends at the projected state and not at the state before the projection.
+ * to order 4 it consists of Hermite polynomials of degree 5 in q and 3 in v, whose error over a
+ * step is of order 5. For fixed steps of methods above order 4 the states are ends of shorter steps
+ * from the same start. Variable steps with a large projection, for example after a start off the
+ * constraints, are also replaced by shorter steps from the same start, because the interpolant of a
+ * Runge-Kutta pair ends at the projected state and not at the state before the projection.
  *
  * IDA first moves a given start onto the constraints of its formulation. This move counts as a
  * projection.

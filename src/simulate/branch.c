@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Decides which branch a motion has taken after a singular configuration.
  *
- * Several branches of motion cross at such a configuration, each with its own direction. The smooth
- * motion is the one whose velocity is continuous. Clear states are states far enough from the
- * configuration. Polynomials p through positions and velocities of the clear states before the
+ * Several branches of motion cross at a singular configuration, each with its own direction. The
+ * smooth motion is the one whose velocity is continuous. Clear states are states far enough from
+ * the configuration. Polynomials p through positions and velocities of the clear states before the
  * configuration are extrapolated to the first clear state after it, and p' is compared with the
  * velocity v there:
  *
@@ -15,9 +15,9 @@
  * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
  * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then there
  * is a gap between the branches: no configuration in between is singular and satisfies the
- * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. A
- * violation that is larger than that of the run and the error of the polynomial shows a gap. Runs
- * whose steps resolve the turn follow the right branch. */
+ * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. If
+ * the violation there is larger than can be explained by the violation of the run and the error of
+ * the polynomial, there is a gap. Runs whose steps resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 

@@ -5,8 +5,8 @@
  * of the run so far. Near a singular configuration p is proportional to the square of the distance,
  * so sqrt(p) falls linearly to zero and rises again linearly.
  *
- * - While p < NEAR, the run is inside an interval, whose ends are the last state before it and the
- *   first state after it.
+ * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
+ *   last state before it and the first state after it.
  * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
  *   states, and its slopes could reach zero between them, the least p of the motion through the
  *   three states is searched.

@@ -5,8 +5,7 @@
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
  * would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the motion.
- * Steps for high gains and stiff forces are far longer than this: with steps of 1e-6 of this time a
- * run takes 1e6 steps. */
+ * High gains and stiff forces need far fewer steps: 1e6 for this time, for example. */
 #include <math.h>
 
 #include "simulate/run.h"

@@ -8,7 +8,7 @@
 #include "simulate/crossing.h"
 
 /* Tell whether the last solution is that of a singular configuration. If the block solver has given
- * up, the pivot is that of another solver and is larger. */
+ * up, the pivot comes from another solver, whose pivots are larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
