@@ -79,7 +79,7 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const baum_i_right_side *right);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
- * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR,
+ * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);

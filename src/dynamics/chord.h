@@ -23,7 +23,7 @@ baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *c
                                 const double *q);
 
 /* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). moments (nv)
- * replace the gyroscopic moments of rigid bodies, unless NULL. May also return BAUM_ERR_SINGULAR,
+ * replace the gyroscopic moments of rigid bodies, unless NULL. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_hold_velocities(baum_workspace *workspace, double t, const double *q,
                                    const double *v, const double *moments, double rate);

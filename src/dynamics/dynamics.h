@@ -282,7 +282,7 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
-/* Set workspace->a to the change of v that removes Phi'. May also return BAUM_ERR_SINGULAR,
+/* Set workspace->a to the change of v that removes Phi'. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);

@@ -13,8 +13,8 @@
  * m is chosen for the least error.
  *
  * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
- * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then there
- * is a gap between the branches: no configuration in between is singular and satisfies the
+ * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. There is
+ * then a gap between the branches, and the singular configurations in this gap violate the
  * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. If
  * the violation there is larger than can be explained by the violation of the run and the error of
  * the polynomial, there is a gap. Runs whose steps resolve the turn follow the right branch. */

@@ -58,8 +58,8 @@ void baum_i_events_go_on(baum_simulation *run);
  * the trial state at the event, or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
-/* [s] Return the difference below which times count as equal when an event leaves zero, and at the
- * start. */
+/* [s] Return the time after a start of the search, or after the last record of the event, within
+ * which the event may leave zero without being recorded again. */
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
 
 static inline int32_t baum_i_sign(double x)

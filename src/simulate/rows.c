@@ -54,8 +54,8 @@ static double guess_pivot(baum_simulation *run)
 /* Tell whether the method keeps its history when other rows are omitted. It may if the positions
  * satisfy the constraints, because the motion then does not depend on the choice of rows.
  * Multipliers jump, but variable-step methods do not test their error. GGL restarts because the
- * jump costs digits (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2 because the
- * violation of positions would grow with each choice. */
+ * jump would increase the error (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2
+ * because the violation of positions would grow with each choice. */
 static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;
