@@ -18,7 +18,7 @@ typedef struct baum_i_row_set {
   int count;                      /* number of omitted rows */
   unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
-  double pivot_at_last_selection; /* relative to the usual pivot; 0: none */
+  double pivot_at_last_selection; /* relative, at the last search in vain; 0: none */
 } baum_i_row_set;
 
 /* Find the rank and the omitted rows at the assembled configuration (t, q). May also return
@@ -32,8 +32,8 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
  * BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* If possible, keep a set of the same size whose rows are well separated in this configuration.
- * Call this before the block paths are created. */
+/* Keep the set of the same size whose rows are separated best in this configuration, if one is
+ * found. Call this before the block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Whether some well-separated set of rows has full rank in this configuration. The rows that are

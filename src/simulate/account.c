@@ -9,8 +9,8 @@
  * Forces with a potential V leave T + V unchanged and do not count as work. The powers are
  * integrated over each step by Gauss' rule. At the nodes inside the step, lambda is computed from
  * the integrated equations, (5) or (7). (5) is also used for the formulations of index 2 and 3,
- * because the second line of (5) is the derivative of J v = nu or Phi = 0, which their motion
- * satisfies. The power of the gains,
+ * because the second line of (5) is the derivative of J v = nu or Phi = 0, which the motion by
+ * these formulations satisfies. The power of the gains,
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5),

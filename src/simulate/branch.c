@@ -42,7 +42,8 @@ static const double KNOWN = 0.1;      /* a jump with a larger estimated error is
 static const double SMALL_TURN = 0.4; /* relative change of v in a step that resolves a turn */
 /* A violation of the constraints opens a gap where branches would otherwise cross. Smallest pivots
  * of up to OPENED times the violation are explained by it; in an example the factor was about five.
- * If the pivot is below GAP_OF_VIOLATION times the violation, the violation has opened the gap. */
+ * If the pivot is below GAP_OF_VIOLATION times the violation, the violation may have opened the
+ * gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 /* Smallest violation, as a displacement, that shows a gap. Where branches cross it is 0. */

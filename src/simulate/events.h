@@ -14,7 +14,7 @@ enum { BAUM_I_EVENT_RECORDS = 1024 };
 typedef struct baum_i_event_mark {
   double value;
   double last;   /* [s] time of its last record; NaN: none */
-  int32_t side;  /* side of zero: -1, 1, or 0 if the value has always been zero */
+  int32_t side;  /* side of zero: -1, 1, or 0 while the value is exactly zero */
   int32_t fresh; /* 1: value has not passed zero since the start, so leaving zero is not an event */
 } baum_i_event_mark;
 
