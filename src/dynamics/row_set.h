@@ -18,7 +18,7 @@ typedef struct baum_i_row_set {
   int count;                      /* number of omitted rows */
   unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
-  double pivot_at_last_selection; /* relative, at the last search in vain; 0: none */
+  double pivot_at_last_selection; /* relative; 0: the last search changed the rows, or none */
 } baum_i_row_set;
 
 /* Find the rank and the omitted rows at the assembled configuration (t, q). May also return

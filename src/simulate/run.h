@@ -166,7 +166,8 @@ baum_status baum_i_run_check_velocities(baum_simulation *run);
  * state. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, whose energy is known, the present state. Grid and energy restart. */
+/* Make the trial state, whose energy is known, the present state. A new time grid begins there, and
+ * changes of energy count from there. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
 /* ---- choose_gains.c, pilot.c ---- */
