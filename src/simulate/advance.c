@@ -258,7 +258,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
 typedef struct public_call {
   struct timespec start;
   baum_i_kept_message before;
-  int64_t taken; /* steps */
+  int64_t taken; /* number of steps */
 } public_call;
 
 static void begin_call(baum_simulation *run, public_call *c)
@@ -279,7 +279,7 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_end_call(run);
   }
-  atomic_store(&run->cancelled, 0); /* also requests from user functions during this call */
+  atomic_store(&run->cancelled, 0); /* including requests from user functions in this call */
   run->counters.wall += baum_i_seconds_since(&c->start);
   if (status == BAUM_OK && look != BAUM_OK) {
     return baum_i_run_fail(run, look);

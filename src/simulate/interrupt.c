@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks before each step whether the run must stop: because of the user, progress(), too many
- * steps, or steps that are too short.
+/* Checks before each step whether the run must stop: because of baum_simulation_cancel(), the
+ * result of progress(), too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
  * would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the motion.
- * Steps for high gains and stiff forces are far longer than this: with steps of 1e-6 of this time a
- * run takes 1e6 steps. */
+ * High gains and stiff forces need far fewer steps: 1e6 for this time, for example. */
 #include <math.h>
 
 #include "simulate/run.h"
 
 enum { PACE_STEPS = 10000 };
-static const double SLOWEST = 1e-9; /* mean step times rate */
+static const double SLOWEST = 1e-9; /* smallest mean step times rate */
 
 void baum_simulation_cancel(baum_simulation *simulation)
 {
