@@ -10,8 +10,9 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Tell whether a caller's struct_size can be the size of this struct or of an older version. It
- * must be a whole number of words and contain at least the first two fields. */
+/* Tell whether `size`, a caller's struct_size, can be the size of this struct (`present`) or of an
+ * older version of it. It must be a multiple of sizeof(size_t), and at least the size of the common
+ * first fields. */
 static inline bool baum_i_is_struct_size(size_t size, size_t present)
 {
   return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
@@ -33,7 +34,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,
                                const baum_i_definition *definition, baum_i_id id, const void *def);
 
-/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the type struct. */
+/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the baum_i_body_type,
+ * baum_i_joint_type or baum_i_force_type. */
 #define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                          \
   const baum_i_definition *const baum_i_##NAME##_definition = &(TYPE).definition;                  \
   void baum_##NAME##_def_init(baum_##NAME##_def *def, size_t caller_size)                          \

@@ -156,7 +156,7 @@ const char *baum_i_row_label(const baum_mechanism *mechanism, int row, char text
   return row < 0 ? text : baum_i_joint_label(mechanism, baum_i_row_joint(mechanism, row), text);
 }
 
-/* ---- stages ---- */
+/* ---- frozen or not ---- */
 
 static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, const char *call)
 {

@@ -13,7 +13,7 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* ---- life ---- */
+/* ---- create, share, destroy ---- */
 
 /* Compute a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
  * probability of 2^-32. A counter is not used, because it would be global state. */
@@ -167,7 +167,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   return status;
 }
 
-/* ---- the whole ---- */
+/* ---- settings and sizes ---- */
 
 baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
 {

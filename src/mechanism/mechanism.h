@@ -64,8 +64,9 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* Compute the powers by class. Requires velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
-/* Compute the potentials, by class, of types whose power includes that of the potential. The energy
- * account adds the change of these potentials to their work. */
+/* Compute potentials by class, only for the types whose power() is that of the whole force,
+ * including the part that has a potential. The energy account adds the change of these potentials
+ * to the integral of the power, and thus obtains the work of the other part. */
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
                                                 double potential[BAUM_I_POWERS]);
 

@@ -176,7 +176,7 @@ static const baum_i_joint_type type = {
                  .check = check,
                  .own = own,
                  .release = release,
-                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* zero: motion() is used */
   BAUM_I_DRIVER_MEMBERS(driven, motion),
 };
 

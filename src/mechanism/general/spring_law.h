@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of springs: the tension as a function of a length and its rate. Of a torsion spring
- * these are an angle and its rate, of a joint spring a coordinate and its rate.
+/* Common part of springs: the tension T as a function of a length l and its rate l'. For a torsion
+ * spring, l is an angle; for a joint spring, it is a coordinate of a joint.
  *
- *   T = k (l - l_0) + c l', V = k (l - l_0)^2 / 2, or a user's law T(l, l') without V
+ *   T = k (l - l_0) + c l' with the potential V = k (l - l_0)^2 / 2, or a user's T(l, l') without V
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
 #define BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
@@ -17,19 +17,19 @@ enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBE
 typedef struct baum_i_spring_law {
   const baum_i_element *element;
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
-  baum_spring_fn *law;   /* replaces the numbers unless NULL */
+  baum_spring_fn *law;   /* user function that is used instead of `numbers`, or NULL */
   void *user;
   bool depends_on_rate; /* whether the law depends on l' */
 } baum_i_spring_law;
 
-/* T and its derivatives by l and l'. */
+/* T and its derivatives with respect to l and l'. */
 typedef struct baum_i_tension {
   double value;
   double by_length;
   double by_rate;
 } baum_i_tension;
 
-/* Call the user's law. Returns BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+/* Call the user function. Returns BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                    double length, double rate, baum_i_tension *out);
 
@@ -53,7 +53,8 @@ static inline double baum_i_spring_potential(const baum_i_spring_law *spring, do
   return spring->law ? 0.0 : 0.5 * spring->numbers[BAUM_I_STIFFNESS] * stretch * stretch;
 }
 
-/* Add the power of the tension, except the part that changes V. A user's law has no V. */
+/* Add the power of the tension, except the part that changes V. For a user function, all of it is
+ * added. */
 static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
                                               double length, double rate, double sum[BAUM_I_POWERS])
 {
@@ -67,7 +68,7 @@ static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, b
   return status;
 }
 
-/* Compare the derivatives that a user's law gives with differences. scale is that of the length. */
+/* Compare the derivatives that a user function returns with differences. scale: of the length. */
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                     double length, double rate, double scale);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fixed joint (weld), planar: two points coincide (pin_rows.c) and the relative angle is kept.
  *
- *   Phi = [ r_a + p_a - r_b - p_b           (2)
+ *   Phi = [ r_a + p_a - r_b - p_b           (2 rows)
  *           angle_b - angle_a - angle ]     J = [ 0 0 -1 0 0 1 ], gamma = 0
  */
 #include <math.h>

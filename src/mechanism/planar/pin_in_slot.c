@@ -3,7 +3,7 @@
  * body_b may rotate (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in the
  * axes of body_a, n = A_a (k x e), and d from the marker on body_a to the marker on body_b:
  *
- *   Phi = n . d             (1), see axis_row.h
+ *   Phi = n . d             (1 row), see axis_row.h
  *
  *   coordinate = A_a e . d, see axis_row.h
  */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two points, one on each body, coincide. With p = A s, p' = k x p = (-p_y, p_x), k x k x p = -p:
+/* Two points, one on each body, coincide. With p = A s, k x p = (-p_y, p_x) and k x (k x p) = -p:
  *
- *   Phi   = r_a + p_a - r_b - p_b                               (2)
+ *   Phi   = r_a + p_a - r_b - p_b                               (2 rows)
  *   J     = [ I   k x p_a   -I   -k x p_b ]                     (2 x 6)
- *   gamma = p_a w_a^2 - p_b w_b^2                               (2)
+ *   gamma = p_a w_a^2 - p_b w_b^2                               (2 rows)
  *
  * lambda is the force on body_b. The second derivatives, with any vector w of six numbers, are
  *

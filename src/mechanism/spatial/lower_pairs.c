@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Limit of 1 + cosine for opposite axes, and of the sine for parallel ones. Beyond it the x axis,
- * and so the zero of the angle, would not be determined. */
+/* Axes count as opposite if 1 + cosine is below this, and as parallel if the sine is. Then the x
+ * axis, and with it the zero of the angle, is not determined. */
 static const double OPPOSITE = 1e-6;
 
 /* ---- checks ---- */
@@ -69,7 +69,7 @@ static baum_status check_two_axes(const baum_mechanism *mechanism, const void *d
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis_b is not given", label);
 }
 
-/* ---- numbers ---- */
+/* ---- parameters ---- */
 
 static void normalize(double x[3])
 {
@@ -89,8 +89,8 @@ static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_jo
   return baum_i_spatial_points(mechanism, &joint->element, parameters);
 }
 
-/* Converts an axis of the definition to ground axes. It is given in ground axes if the joint is
- * given by `point`, otherwise in body axes. */
+/* Converts an axis of the definition to ground axes. The definition gives it in ground axes if it
+ * gives `point`, otherwise in body axes. */
 static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_frame *frame,
                       const double axis[3], double out[3])
 {
