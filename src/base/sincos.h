@@ -2,7 +2,7 @@
 /* Sine and cosine of one angle without branches or tables, so that compilers vectorize loops over
  * angles. The error is below 1 ulp up to 1e6 rad. For larger angles callers use the C library.
  *
- *   x = n pi/2 + r + y, |r| <= pi/4, y the part of the remainder that r cannot represent
+ *   x = n pi/2 + r + y,  |r| <= pi/4,  y the part of the remainder that r cannot represent
  *
  * pi/2 is the sum of four parts. The first three have 33 bits, so that their products with n (at
  * most 20 bits) are exact (W. J. Cody, W. Waite, 1980). The rounding errors of the differences are

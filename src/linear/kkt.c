@@ -4,9 +4,9 @@
  *
  * There is a ladder of factorizations, from cheap to robust:
  *
- *   KEEP keep the pivots of the last factorization
- *   CHOOSE choose pivots for the present values
- *   CAREFUL choose pivots only for accuracy
+ *   KEEP     keep the pivots of the last factorization
+ *   CHOOSE   choose pivots for the present values
+ *   CAREFUL  choose pivots for accuracy alone
  *   LAST     rank-revealing QR, least squares
  *
  * Factoring climbs this ladder until the estimated reciprocal condition number (rcond) is large
@@ -281,8 +281,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Tells whether all rows with a large residual are negligible. True only if no further rung can
- * help.
+/* Tells whether all rows with a large residual are negligible. False at lower rungs, where climbing
+ * may help.
  */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
@@ -306,10 +306,10 @@ static bool is_nearly_met(const baum_i_kkt *kkt)
 }
 
 /* Tells whether rows contradict each other and the solver has divided by a rounding error. The
- * residual does not show this, but accelerations are then as large as division by such a pivot
- * makes them. If rows agree close to a singular configuration, multipliers may be as large, but
- * accelerations are not. If rcond is below least_rcond, only rounding separates the configuration
- * from a singular one, and large multipliers show a contradiction, too. */
+ * residual does not show this, but accelerations are then of the order of the right-hand side
+ * divided by rcond. Close to a singular configuration in which rows agree, multipliers may be as
+ * large, but accelerations are not. If rcond is below least_rcond, the matrix is singular to
+ * rounding, and multipliers of this size are a sign of contradiction, too. */
 static bool is_divided_by_rounding(const baum_i_kkt *kkt)
 {
   double rcond = present_rcond(kkt);

@@ -26,8 +26,8 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
  * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
-/* A diagonal entry is the pivot if it is at least this fraction of the largest entry of its
- * column. */
+/* A diagonal entry is chosen as the pivot if it is at least this fraction of the largest entry of
+ * its column. */
 #define BAUM_I_USUAL_THRESHOLD 0.001
 
 /* The two parts of factoring, for a caller that decides when pivots are chosen. _keep() requires

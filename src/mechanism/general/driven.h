@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Common part of drivers: one row that prescribes the coordinate c(q) of another joint.
  *
- *   Phi = c(q) - s(t), J = c_q, nu = s', gamma = s'' - (c_q v)_q v, nu_q = 0
+ *   Phi = c(q) - s(t),   J = c_q,   nu = s',   gamma = s'' - (c_q v)_q v,   nu_q = 0
  *
  * The type of the driven joint gives c, c_q and their derivatives. The driver acts on the bodies of
  * the driven joint.

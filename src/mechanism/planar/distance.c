@@ -2,7 +2,7 @@
 /* Distance joint, planar: a massless rod keeps two points at distance L. With d from the point on
  * body_a to the point on body_b, and F, G of separation.h:
  *
- *   Phi = (d . d - L^2) / (2 L) (1 row); nearly |d| - L if this is small, and smooth at d = 0
+ *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if this is small, and smooth at d = 0
  *   J     = G^T d / L                                (6 columns)
  *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
  *

@@ -4,7 +4,7 @@
  *
  *   p' = p o (0, w) / 2
  *   M = diag(m E, I), constant; for a particle M = m E
- *   g = (m gravity, -w x (I w)), g_w = [I w]x - [w]x I; V = -m gravity . r, [a]x b = a x b
+ *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r;   [a]x b = a x b
  *
  * A displacement (dr, dth), dth in body axes, changes p to p o exp(dth). The difference from p_1 to
  * p_2 is the logarithm of p_1^-1 o p_2.

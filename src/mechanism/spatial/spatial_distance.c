@@ -2,7 +2,7 @@
 /* Distance joint in space: a rod without mass keeps two points at length L. With e from body_a's
  * point to body_b's (spatial_rows.h):
  *
- *   Phi = (e . e - L^2) / (2 L) (1 row); nearly |e| - L if this is small, and smooth at e = 0
+ *   Phi = (e . e - L^2) / (2 L)   (1 row); nearly |e| - L if this is small, and smooth at e = 0
  */
 #include <math.h>
 
