@@ -6,8 +6,8 @@
  *
  * pi/2 is the sum of four parts. The first three have 33 bits, so that their products with n (at
  * most 20 bits) are exact (W. J. Cody, W. Waite, 1980). The rounding errors of the differences are
- * computed and added to y (D. E. Knuth, 1969). The polynomials are those of fdlibm (K. C. Ng, Sun
- * Microsystems, 1993).
+ * computed and included in r and y (D. E. Knuth, 1969). The polynomials are those of fdlibm (K. C.
+ * Ng, Sun Microsystems, 1993).
  */
 #ifndef BAUM_I_BASE_SINCOS_H
 #define BAUM_I_BASE_SINCOS_H

@@ -254,7 +254,7 @@ typedef struct couplings {
   const int32_t *later;
   const double *off;
   baum_i_node *nodes;
-  ptrdiff_t end; /* end of the couplings of the node that is next */
+  ptrdiff_t end; /* end of the couplings of the node to be processed next */
 } couplings;
 
 /* lambda_k -= sum of L^T lambda_later */

@@ -20,8 +20,7 @@ enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
  * orthogonalization. The value is so large that the tolerance on the rank does not matter. */
 static const double clear = 1e-3;
 
-enum { GONE, LEFT, WAITING }; /* state of a block: removed, not removed, not removed and on the
-                               * stack */
+enum { GONE, LEFT, WAITING }; /* states of a block; a WAITING block is on the stack */
 
 typedef struct peeling {
   const baum_i_kkt_structure *structure;

@@ -182,12 +182,12 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Joins columns and their parents to fronts, as long as a front is little wider than each
- * pattern. */
+/* Joins columns and their parents into fronts, as long as a front is little wider than the pattern
+ * of each of its rows of R. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *length = p->mark;    /* length of the chain up to each column */
-  int32_t *least = p->front_of; /* least pattern in this chain */
+  int32_t *least = p->front_of; /* least `count` in this chain */
   fill(p->below, qr->n, NONE);
   for (int32_t k = 0; k < qr->n; k++) {
     int32_t below = p->below[k];

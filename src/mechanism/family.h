@@ -19,7 +19,7 @@ typedef struct baum_i_totals {
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
   size_t size;      /* of an element */
-  size_t span;      /* offset offset of the baum_i_span in an element */
+  size_t span;      /* offset of the baum_i_span in an element */
   size_t count;     /* offset of the element count (an int) in the mechanism */
   baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* k >= 0; ground is not counted */
   /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */

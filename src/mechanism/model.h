@@ -350,8 +350,8 @@ typedef struct baum_i_joint_coordinate {
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  int width;        /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE; 0: other columns, no
-                     * reaction */
+  int width;        /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction is not a
+                     * force and a moment */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are exactly those of pin_rows.h */
   /* Return the coordinate that a driver prescribes. A driver has one row: this coordinate minus a

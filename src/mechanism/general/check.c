@@ -39,7 +39,7 @@ static const double row_tolerance = 1e-9;
 typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value for the previous step */
-  double *value;    /* best */
+  double *value;    /* best difference */
   double *error;    /* error of the best value; < 0: the given value is accepted */
   double *quality;  /* error of the best value, relative to the variation of the function */
   double *step;     /* step of the best value */

@@ -7,7 +7,7 @@
  * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. For
  * steps relative to the scale of a coordinate, the best ones are near 2^-8 for f' and 2^-6 for f''.
  * The steps used are a little smaller, so that functions that vary three times as fast as the scale
- * suggests lose no accuracy. The errors are about 1e-13 and 1e-11.
+ * suggests lose no accuracy. The errors are about 1e-13 for f' and 1e-11 for f''.
  *
  * The same values give differences of fourth order (c = 2/3, -1/12 and 4/3, -1/12). If the two
  * orders agree to 1e-7, the error of the sixth order is about 1e-11. For first derivatives, an

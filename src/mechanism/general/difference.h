@@ -50,7 +50,8 @@ baum_status baum_i_difference_first(const baum_i_field *field, const baum_i_ray 
 baum_status baum_i_difference_second(const baum_i_field *field, const baum_i_ray *ray,
                                      const baum_i_local *at, double *out);
 
-/* Compute dF/dq N, by displacements of length nl, or dF/dv. out (size x nl). */
+/* Compute dF/dv, or dF/dq N, which is the derivative with respect to displacements of q (nl). out
+ * (size x nl). */
 baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable variable,
                                       const baum_i_local *at, double *out);
 

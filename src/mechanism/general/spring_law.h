@@ -46,7 +46,7 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* V */
+/* Return V, or 0 for a user function. */
 static inline double baum_i_spring_potential(const baum_i_spring_law *spring, double length)
 {
   double stretch = length - spring->numbers[BAUM_I_FREE_LENGTH];
