@@ -28,7 +28,7 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV, BAUM_I_XML } baum_i_quoting;
 void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
-/* A number as text. The value that a function returns is valid until the end of the full
+/* A number as text. A text such as baum_i_short(x, 3).text is valid until the end of the full
  * expression. */
 typedef struct baum_i_number {
   char text[40];

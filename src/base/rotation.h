@@ -100,7 +100,7 @@ void baum_i_quaternion_log(const double p[4], double rotation[3]);
  * rotation matrix except for the signs of rows. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
 
-/* Set x to a unit vector orthogonal to the unit vector z, and y to z x x. */
+/* Set x to a unit vector orthogonal to the unit vector z, and y to the cross product of z and x. */
 void baum_i_complete_axes(const double z[3], double x[3], double y[3]);
 
 #endif

@@ -150,7 +150,7 @@ typedef struct baum_i_block {
   baum_i_pin_pair *opposite;     /* (opposite_count) likewise */
   baum_i_full_pair *first_pairs; /* (first_count) likewise */
   baum_i_full_pair *full_pairs;  /* (full_pair_count) pairs that add to their block */
-  int32_t *zeros;                /* (zero_count) blocks to clear first */
+  int32_t *zeros;                /* (zero_count) blocks that no pair sets, to be cleared first */
   int32_t *target;               /* blocks that receive products of couplings, node after node */
   int32_t *place; /* (body_block_count) index of its first number in free[], motion[], ... */
   baum_i_dense_body *dense;       /* (dense_count) */

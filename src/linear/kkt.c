@@ -27,8 +27,8 @@ enum { MOST_REFINEMENTS = 3 };
  * counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
 /* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times its value when
- * the pivots were chosen. With such old pivots rcond shows neither the accuracy nor the distance
- * from a singular configuration. */
+ * the pivots were chosen. The rcond of such old pivots is a measure neither of the accuracy nor of
+ * the distance from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
@@ -63,7 +63,7 @@ struct baum_i_kkt {
   double *scale;
   double *b;
   double *x;
-  double *residual; /* then the correction */
+  double *residual; /* and then the correction computed from it */
   double *size;
 };
 
@@ -297,9 +297,9 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether a least-squares solution nearly satisfies all rows. The usual test is not applied
- * then: if rows contradict each other, unknowns may be so large that rounding dominates the other
- * rows. */
+/* Tells whether a least-squares solution nearly satisfies all rows. This replaces the test for
+ * rounding level: if rows contradict each other, unknowns may be so large that rounding errors
+ * dominate the other rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);

@@ -445,7 +445,7 @@ static double sum_of_squares(const front *f, int32_t j, int32_t first)
   return sum;
 }
 
-/* Replaces column j from row `first` on by -+length, v_1, v_2, ... with v_0 = 1. Returns tau. */
+/* Replaces column j from row `first` on by R_jj, v_1, v_2, ..., where v_0 = 1. Returns tau. */
 static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
   double *x = &row_of(f, first)[j];

@@ -30,7 +30,8 @@ typedef enum baum_i_rule {
   BAUM_I_RULE_DIRECTION /* all numbers of a field are finite, and not all are zero */
 } baum_i_rule;
 
-/* Fields of a kind with OWN are checked, copied and released by functions of the definition. */
+/* Fields whose kind contains OWN are checked, copied and released by functions of the
+ * definition. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
   BAUM_I_FIELD_ARRAY,   /* array of `counter` doubles or NULL, used only at the start of a run */
@@ -40,7 +41,7 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_OWN_COUNT,
   BAUM_I_FIELD_FLAG,
   BAUM_I_FIELD_START_FLAG, /* used only at the start of a run */
-  BAUM_I_FIELD_CLAIM,      /* what user functions depend on; true by default */
+  BAUM_I_FIELD_CLAIM,      /* whether user functions depend on velocities; default: true */
   BAUM_I_FIELD_BODY,       /* required; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body, ground by default */
   BAUM_I_FIELD_BODIES,     /* array of ids of length `counter`, without ground or repetition */
@@ -53,7 +54,7 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_USER           /* pointer for user functions */
 } baum_i_field_kind;
 
-enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* of numbers */
+enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* largest count of numbers in a field */
 
 /* A field of a definition, except struct_size and name. */
 typedef struct baum_i_def_field {
@@ -110,8 +111,8 @@ typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
   const baum_i_def_field *fields; /* all fields in order; one without a name ends the table */
-  /* Ends of the last fields of older versions, for versions whose padding at the end is now used by
-   * a field. 0 ends the list. NULL: none. */
+  /* Some older versions ended with padding that a later field now uses. Lists where their last
+   * fields ended. 0 ends the list. NULL: there are no such versions. */
   const size_t *former;
   int parameter_count; /* numbers of an element in the parameter array */
   /* Check what the table cannot express. Called after the checks of the table. Messages start with

@@ -15,8 +15,9 @@
 
 /* ---- create, share, destroy ---- */
 
-/* Compute a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
- * probability of 2^-32. A counter is not used, because it would be global state. */
+/* Compute a tag from address and time (hash function "mix 13" of D. Stafford). Two mechanisms have
+ * the same tag with a probability of 2^-32. A counter is not used, because it would be global
+ * state. */
 static uint32_t make_tag(const void *address)
 {
   struct timespec now = {0};

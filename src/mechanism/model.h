@@ -269,7 +269,7 @@ typedef enum baum_i_power {
 /* Manifold of a body whose positions are not a vector: q' = N(q) v with q (nq) and v (nv). dx has
  * length nv. See manifold.h. */
 struct baum_i_manifold {
-  /* Set dq = N(q) v. q may be off the manifold as far as stages of an integrator are. */
+  /* Set dq = N(q) v. q may be slightly off the manifold, as in the stages of an integrator. */
   void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
   /* Move q by h v: to the configuration after the time h at constant v, to second order in h. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
@@ -314,14 +314,14 @@ struct baum_i_body_type {
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
   /* Adds g^T v + v^T M' v / 2 of one body, including the power of the potential. NULL: all forces
-   * have the potential, and M' = 0. */
+   * derive from the potential, and M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
 /* Numbers of columns of a body in planar and in spatial elements (general/columns.h). */
 enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPACE };
 
-/* Most coordinates of a joint. */
+/* Largest number of coordinates of a joint. */
 enum { BAUM_I_COORDINATES = 3 };
 
 /* A joint coordinate. Its gradient has `width` columns (of the joint type) for each of the two
@@ -345,7 +345,7 @@ typedef struct baum_i_coordinate_blocks {
 /* One coordinate of a joint. */
 typedef struct baum_i_joint_coordinate {
   const baum_i_joint *joint;
-  int number; /* in the list of its type */
+  int number; /* index in `coordinates` of the joint's type */
 } baum_i_joint_coordinate;
 
 struct baum_i_joint_type {
@@ -392,7 +392,8 @@ struct baum_i_joint_type {
   /* Tell whether the constraints hold, but with axes that point in opposite instead of equal
    * directions. NULL: never. */
   bool (*is_reversed)(const baum_i_joint *joint, const baum_i_point *point);
-  /* Include the points of the joint in the design configuration in a box. NULL: it has none. */
+  /* Extend a box to include the points of the joint in the design configuration. NULL: it has
+   * none. */
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
   /* Its coordinates; the list ends with BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinates[BAUM_I_COORDINATES + 1];

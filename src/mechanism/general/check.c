@@ -6,12 +6,13 @@
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * holds for one step. The second term allows for the rounding of an entry that is small compared
- * with the others of its row. g is rejected if this holds for no step, and if the best d and at
- * least one more d differ from g by more than the error of d. This error is 20 times the difference
- * of the two orders (difference.c), plus twice the difference from the d of the previous step, plus
- * rounding. At a kink, such as dry friction at rest, the derivatives on both sides differ by the
- * same amount for every step. The function has no derivative there, and the check passes.
+ * holds for one step. The size of a row is its largest entry, scaled. The second term allows for
+ * the rounding of an entry that is small compared with the others of its row. g is rejected if this
+ * holds for no step, and if the best d and at least one more d differ from g by more than the error
+ * of d. This error is 20 times the difference of the two orders (difference.c), plus twice the
+ * difference from the d of the previous step, plus rounding. At a kink, such as dry friction at
+ * rest, the derivatives on both sides differ by the same amount for every step. The function has no
+ * derivative there, and the check passes.
  *
  * The check evaluates the design configuration and three configurations near it. In these,
  * coordinates and velocities are quasi-random, so that no value is zero or symmetric by chance. Phi

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A function G(c_0, c_1) of two coordinates. Three elements use it: for a point on a curve, G = 0
- * is the equation of the curve; for a coupling, G = 0 relates the coordinates of two joints; for a
+/* A function G(c_0, c_1) of two coordinates. It has three uses: for a point on a curve, G = 0 is
+ * the equation of the curve; for a coupling, G = 0 relates the coordinates of two joints; for a
  * spatial joint, G is the angle as a function of its cosine and sine.
  *
  * A row has up to four bodies, in the order of its span, and `width` columns for each of them.
@@ -42,7 +42,7 @@ void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, doubl
 void baum_i_composed_add_gradient(const baum_i_inner x[2], const baum_i_outer *g, double *gradient);
 double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g);
 
-/* Second derivatives with respect to the columns of the row, to which functions add terms. */
+/* Second derivatives with respect to the columns of the row. Functions add to them. */
 typedef struct baum_i_composed_blocks {
   int columns;
   double *jw_q;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives by central differences of sixth order.
  *
- *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h              c = 3/4, -3/20, 1/60,   error h^6 f(7)/140
- *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
+ *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h             c = 3/4, -3/20, 1/60,   error h^6 f^(7)/140
+ *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2  c = 3/2, -3/20, 1/90,   error h^6 f^(8)/560
  *
  * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. For
  * steps relative to the scale of a coordinate, the best ones are near 2^-8 for f' and 2^-6 for f''.

@@ -2,8 +2,8 @@
 /* Derivatives by central differences. They replace derivatives for which the user gives no
  * function, and check those that user functions return.
  *
- * All derivatives are those of a function f(s) at s = 0, where f is a user function F along a line
- * in (t, q, v). The line is called a ray:
+ * All derivatives are those of a function f(s) at s = 0, where f is a function F along a line in
+ * (t, q, v). The line is called a ray:
  *
  *   f(s) = F(t + s dt, q + s dq, v + s dv)
  *

@@ -68,7 +68,8 @@ static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, b
   return status;
 }
 
-/* Compare the derivatives that a user function returns with differences. scale: of the length. */
+/* Compare the derivatives that a user function returns with differences. scale is that of the
+ * length. */
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                     double length, double rate, double scale);
 

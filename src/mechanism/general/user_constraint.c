@@ -8,8 +8,8 @@
  *
  *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
  *
- * The second form is more accurate and is used if J and nu are given. If J is not given, second
- * derivatives of Phi are found from those along single directions:
+ * The second form is more accurate. It is used if J is given, and nu is given or zero. If J is not
+ * given, second derivatives of Phi are found from those along single directions:
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *

@@ -173,7 +173,7 @@ static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_jo
   if (baum_i_spatial_is_given(def->axis_b)) {
     to_ground(&def->head, &b, def->axis_b, z);
   }
-  /* R x = x + n x x + n x (n x x) / (1 + c), n = z_a x z_b, c = z_a . z_b */
+  /* R y = y + n x y + n x (n x y) / (1 + c) with n = z_a x z_b and c = z_a . z_b */
   double c = baum_i_dot3(axes + 6, z);
   double n[3];
   double first[3];
@@ -273,7 +273,7 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
     BAUM_I_Z_GROUND, BAUM_I_APART                                   \
   }
 
-/* Axes are parallel. */
+/* z_a and z_b are parallel. */
 #define PARALLEL_ROWS       \
   {BAUM_I_X_A, BAUM_I_Z_B}, \
   {                         \

@@ -15,7 +15,7 @@
 
 /* ---- definitions ---- */
 
-/* The fields that every joint and spring begins with. */
+/* The first fields of every definition of a spatial joint or spring. */
 typedef struct baum_i_spatial_head {
   size_t struct_size;
   const char *name;

@@ -23,7 +23,7 @@ typedef struct baum_i_spatial_joint_type {
   baum_i_spatial_row directed[2];
 } baum_i_spatial_joint_type;
 
-/* The fields that joints with axes begin with. */
+/* The first fields of definitions of joints with axes. */
 typedef struct baum_i_spatial_axis_head {
   baum_i_spatial_head head;
   double axis[3];

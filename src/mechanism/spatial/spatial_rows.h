@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every row of a spatial joint is a product of two vectors,
  *
- *   Phi = x . y - offset,
+ *   Phi = x . y,
  *
  * where x is a joint axis on body_a or body_b or a ground axis; y is such an axis, too, or the
  * vector e from body_a's point to body_b's. Coordinates of joints and the squared length of a rod
@@ -15,7 +15,7 @@
  * This has the same form, with c = t (r_b' - r_a'), t = 0 and W_k x u_k instead of u_k, because in
  * further derivatives r' is constant in ground axes, and W in body axes. Hence, with l = lambda,
  *
- *   (x . y)_q      on r_b: t_x y + t_y x, on r_a the opposite, on W_k: u_xk x y + u_yk x x
+ *   (x . y)_q      r_b: t_x y + t_y x; r_a: -(t_x y + t_y x); W_k: cross(u_xk, y) + cross(u_yk, x)
  *   gamma          = -(x'' . y + 2 x' . y' + x . y'')
  *   (J w)_q        = (x_w . y + x . y_w)_q,     x_w the derivative along w
  *   (J^T l)_q      row i: l (J e_i)_q;          gamma_v = -(J v)_q - ((J e_i)_q v)_i
