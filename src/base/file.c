@@ -36,7 +36,8 @@ static bool is_replaceable(const struct stat *found)
 
 int baum_i_sync_file(FILE *file)
 {
-  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* not for devices, pipes */
+  /* Devices and pipes do not support fsync(). */
+  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
   return done ? 0 : errno;
 }
 

@@ -156,8 +156,8 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element, label));
 }
 
-/* Rotates x_a by the smallest rotation that takes z_a to z_b, and makes it x_b. Hence the angle is
- * 0 in the design configuration. */
+/* Sets x_b to x_a, rotated by the smallest rotation that takes z_a to z_b. Hence the angle is 0 in
+ * the design configuration. */
 static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {

@@ -44,7 +44,7 @@ baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanis
                                                   const char *unit, const double s[3]);
 
 /* Checks that the bodies differ, and that the points are given either by `point` or by point_a and
- * point_b. An element with a length cannot use `point`. */
+ * point_b. An element with a length cannot use `point`, because its length would be zero. */
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
