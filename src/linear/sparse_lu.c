@@ -14,8 +14,8 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* New pivots are chosen if the ratio has fallen to this fraction of its value when the pivots were
- * chosen. */
+/* New pivots are chosen if klu_rcond has fallen to this fraction of its value when the present
+ * pivots were chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {

@@ -131,8 +131,8 @@ static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
   return qr->place[qr->row_start[row]];
 }
 
-/* Finds the tree. Each row of A connects each of its columns with the next one. mark contains
- * shortcuts to the root of the tree so far. */
+/* Finds the tree. Each row of A connects each of its columns with the next one. mark[i] is a known
+ * ancestor of column i, a shortcut to its present root. */
 static void find_parents(const baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *last = qr->next_row; /* scratch: last column of each row so far */

@@ -111,10 +111,11 @@ typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
   const baum_i_def_field *fields; /* all fields in order; one without a name ends the table */
-  /* Some older versions ended with padding that a later field now uses. Lists where their last
-   * fields ended. 0 ends the list. NULL: there are no such versions. */
+  /* Some older versions of a struct ended with padding, which a later field now uses. This list has
+   * the offset of the end of the last field of each such version, and ends with 0. NULL: there are
+   * none. */
   const size_t *former;
-  int parameter_count; /* numbers of an element in the parameter array */
+  int parameter_count; /* how many numbers of an element are in the parameter array */
   /* Check what the table cannot express. Called after the checks of the table. Messages start with
    * the label, such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);

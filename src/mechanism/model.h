@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The types of a mechanism: elements (bodies, joints, forces), their types, the point in state
- * space at which they are evaluated, and the frozen structure. Functions of the whole mechanism are
- * in mechanism.h.
+/* Data structures of a mechanism: elements (bodies, joints, forces), element types, the point in
+ * state space at which elements are evaluated, and the frozen structure. Functions of the whole
+ * mechanism are in mechanism.h.
  *
  * An element type is a const struct of functions. The file of a type contains this struct and the
  * four public functions of the type (definition.h). Functions process groups: all elements of one
@@ -179,7 +179,7 @@ typedef struct baum_i_point {
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
 /* Create a point with the parameters and initial inputs of the mechanism. BAUM_OK or
- * BAUM_ERR_MEMORY. It must be released in both cases. */
+ * BAUM_ERR_MEMORY. The point must be released even after a failure. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed point is allowed */
 

@@ -45,8 +45,8 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* Smallest period of Phi in revolutions. Ratios of spatial angles may therefore have denominators
- * up to 1000, more than gears have teeth. */
+/* Smallest period of Phi [revolutions]. It allows ratios of spatial angles with denominators up to
+ * 1000, which is more than the number of teeth of a gear. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
 

@@ -174,8 +174,8 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* A rate >= 1 does not depend on `moves`. Then `moves` is needed only if J is given without nu,
-   * because it decides which form of gamma is used. */
+  /* If the rate is at least 1, `moves` does not change it below. Then `moves` is needed only if J
+   * is given without nu: gamma_at() uses it to select the form of gamma. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
