@@ -36,7 +36,7 @@ void baum_i_pin_gamma(const baum_i_planar_pair *pair, double *gamma)
   gamma[1] = pair->a.arm[1] * a - pair->b.arm[1] * b;
 }
 
-/* Set the columns angle_a to p_a a and angle_b to p_b b in two rows. */
+/* Set the column angle_a of two rows to the vector a p_a, and their column angle_b to b p_b. */
 static void set_angle_columns(const double p_a[2], double a, const double p_b[2], double b,
                               double *six)
 {
