@@ -10,14 +10,6 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Tell whether `size`, a caller's struct_size, can be the size of this struct (`present`) or of an
- * older version of it. It must be a multiple of sizeof(size_t), and at least the size of the common
- * first fields. */
-static inline bool baum_i_is_struct_size(size_t size, size_t present)
-{
-  return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
-}
-
 /* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY and sets its
  * message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,

@@ -353,9 +353,9 @@ struct baum_i_joint_type {
   int width;        /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction is not a
                      * force and a moment */
   bool scleronomic; /* Phi never depends on t */
-  bool is_pin;      /* its rows are exactly those of pin_rows.h */
-  /* Return the coordinate that a driver prescribes. A driver has one row: this coordinate minus a
-   * function of time. NULL: the type is not a driver. */
+  bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
+  /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
+   * joint. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
   /* Set s to the prescribed value, rate and acceleration at the time of the point. NULL for joints
    * that are not drivers. */
@@ -413,6 +413,14 @@ struct baum_i_joint_type {
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
+/* The length of a spring; of a torsion spring it is an angle, of a joint spring a coordinate. */
+typedef struct baum_i_stretch {
+  double length;
+  double rate;
+  double scale;      /* size of a relevant change of the length */
+  bool no_direction; /* the length is that of a line and zero: there is no force */
+} baum_i_stretch;
+
 struct baum_i_force_type {
   baum_i_definition definition;
   bool spatial; /* requires spatial frames */
@@ -420,7 +428,11 @@ struct baum_i_force_type {
                        double *parameters);
   /* Adds to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
-  bool (*depends_on_velocity)(const void *def); /* NULL: never */
+  bool (*depends_on_velocity)(const baum_i_force *force); /* NULL: never */
+  /* Springs (general/spring_law.h): where the fields that they share begin in a definition, and
+   * the present length of one of them. */
+  size_t spring_fields;
+  baum_i_stretch (*stretch)(const baum_i_force *force, const baum_i_point *point);
   /* Adds the potential of one force to *sum. NULL: it is 0. */
   baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
   /* Sets the blocks of one force, which are zeroed before. */

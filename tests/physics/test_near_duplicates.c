@@ -56,7 +56,7 @@ static baum_body_id add_body(baum_i_parts *parts, const double centre[2], double
   def.angle = angle;
   memcpy(def.velocity, v, sizeof def.velocity);
   def.angular_velocity = v[2];
-  return baum_i_parts_body(parts, &def, NULL, NULL);
+  return baum_i_parts_body(parts, &def);
 }
 
 /* `rate` is the angular velocity of the crank [rad/s]. */

@@ -12,10 +12,8 @@ enum { LOCKED_NV = 6 };
 
 static inline baum_body_id locked_pair_bar(baum_i_parts *parts, double x, double y, double rate)
 {
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.inertia = 0.1;
-  return baum_i_parts_body(parts, &def, (const double[3]){x, y, 0.0},
-                           (const double[3]){-rate * y, rate * x, rate});
+  const baum_i_body_state at = {{x, y, 0.0}, {-rate * y, rate * x, rate}};
+  return baum_i_parts_body_at(parts, NULL, 1.0, 0.1, at, BAUM_I_GIVE_ALL);
 }
 
 /* With an initial angular velocity `rate` above 6 rad/s the bars make full revolutions. `welded`

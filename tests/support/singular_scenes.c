@@ -149,7 +149,7 @@ static void near_parallelogram(singular_scene *scene, double off)
       def.velocity[0] = -sin(first);
       def.velocity[1] = cos(first);
     }
-    crank[k] = baum_i_parts_body(&parts, &def, NULL, NULL);
+    crank[k] = baum_i_parts_body(&parts, &def);
     baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {2.0 * k, 0.0}},
                      (baum_i_spot){crank[k], {-0.5, 0.0}});
   }
@@ -161,7 +161,7 @@ static void near_parallelogram(singular_scene *scene, double off)
   def.position[0] = 1.0 + (cos(first) + cos(second)) / 2.0;
   def.position[1] = (sin(first) + sin(second)) / 2.0;
   def.angle = atan2(y, x);
-  baum_body_id coupler = baum_i_parts_body(&parts, &def, NULL, NULL);
+  baum_body_id coupler = baum_i_parts_body(&parts, &def);
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[0], {0.5, 0.0}},
                    (baum_i_spot){coupler, {-COUPLER / 2.0, 0.0}});
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[1], {0.5, 0.0}},

@@ -20,7 +20,7 @@ static baum_body_id add_rod(baum_i_parts *parts, double x, double y, double angl
   def.position[1] = y;
   def.angle = angle;
   def.inertia = inertia;
-  return baum_i_parts_body(parts, &def, NULL, NULL);
+  return baum_i_parts_body(parts, &def);
 }
 
 static double pivot_of(const baum_mechanism *m)
@@ -94,7 +94,7 @@ static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
   slider.position[0] = end;
   baum_body_id crank = add_rod(&parts, cos(angle) / 2.0, sin(angle) / 2.0, angle, 1.0 / 12.0);
   baum_body_id rod = add_rod(&parts, (cos(angle) + end) / 2.0, sin(angle) / 2.0, turn, 4.0 / 12.0);
-  baum_body_id light = baum_i_parts_body(&parts, &slider, NULL, NULL);
+  baum_body_id light = baum_i_parts_body(&parts, &slider);
   baum_i_parts_gravity(&parts, 9.81);
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
                    (baum_i_spot){crank, {-0.5, 0.0}});

@@ -104,7 +104,11 @@ def mechanism_of(run: Run) -> Mechanism:
     return run.mechanism
 
 
-def draw(mechanism: Mechanism, q: ArrayLike | None) -> Drawing:
+def draw(mechanism: Mechanism, q: ArrayLike | str | None) -> Drawing:
+    if isinstance(q, str):
+        if q != "assembled":
+            raise ValueError(f'q is {q!r}, must be positions, "assembled" or None')
+        return Drawing(_print(mechanism, lib.baum_mechanism_svg_assembled))
     given = None if q is None else vector(q, mechanism.sizes.nq, "q")
     return Drawing(_print(mechanism, lib.baum_mechanism_svg, address(given)))
 
@@ -124,11 +128,15 @@ def _trace(mechanism: Mechanism, trace: TraceLike) -> Channel:
     return trace.pose if isinstance(trace, Body) else mechanism.channel(trace)
 
 
-def _marks(run: Run) -> list[tuple[float, str]]:
-    """Return times and texts of warnings, near-singular intervals and events, sorted by time."""
-    marks = [(warning.first, str(warning)) for warning in run.warnings]
-    marks += [(x.t, f"near a singular configuration, {x.branch}") for x in run.near_singular]
-    marks += [(event.t, f"event {event.event}") for event in run.events]
+def _marks(run: Run) -> list[tuple[float, str, int]]:
+    """Return times, texts and kinds of warnings, near-singular intervals and events, sorted by
+    time."""
+    kinds = _abi.baum_mark_kind
+    marks = [(warning.first, str(warning), kinds.BAUM_MARK_WARNING) for warning in run.warnings]
+    for x in run.near_singular:
+        text = f"near a singular configuration, {x.branch}"
+        marks.append((x.t, text, kinds.BAUM_MARK_SINGULAR))
+    marks += [(event.t, f"event {event.event}", kinds.BAUM_MARK_EVENT) for event in run.events]
     return sorted(marks, key=lambda mark: mark[0])
 
 
@@ -168,8 +176,9 @@ def of_arrays(
     if not (np.isfinite(times).all() and ((steps > 0).all() or (steps < 0).all())):
         raise ValueError("t: finite times are wanted that only rise or only fall")
     columns = [(label, vector(values, len(times), label)) for label, values in plots.items()]
-    texts = [(number(when, "time of a mark"), str(text)) for when, text in marks]
-    return _make(mechanism, times, [WHOLE["q"]], rows, title, traces, columns, texts)
+    kind = _abi.baum_mark_kind.BAUM_MARK_EVENT
+    events = [(number(when, "time of a mark"), str(text), kind) for when, text in marks]
+    return _make(mechanism, times, [WHOLE["q"]], rows, title, traces, columns, events)
 
 
 def _make(
@@ -180,11 +189,11 @@ def _make(
     title: str | None,
     traces: Sequence[TraceLike],
     plots: Sequence[tuple[str, Array]],
-    marks: Sequence[tuple[float, str]],
+    marks: Sequence[tuple[float, str, int]],
 ) -> Page:
     times = np.ascontiguousarray(t)
     values = np.array([column for _, column in plots]).T.copy()
-    mark_times = np.array([t for t, _ in marks])
+    mark_times = np.array([t for t, _, _ in marks])
     paths = [_trace(mechanism, trace) for trace in traces]
     struct = default(_abi.baum_page)
     struct.title = None if title is None else title.encode(errors="replace")
@@ -195,5 +204,6 @@ def _make(
     struct.plot_labels = _texts([label for label, _ in plots])
     struct.traces, struct.trace_count = _structs(paths), len(paths)
     struct.mark_times, struct.mark_count = address(mark_times), len(marks)
-    struct.mark_texts = _texts([text for _, text in marks])
+    struct.mark_texts = _texts([text for _, text, _ in marks])
+    struct.mark_kinds = (ctypes.c_int32 * len(marks))(*(kind for _, _, kind in marks))
     return Page(_print(mechanism, lib.baum_page_print, ctypes.byref(struct)))
