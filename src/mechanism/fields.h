@@ -128,7 +128,7 @@ typedef struct baum_i_definition {
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
-/* Set the first members of a definition of baum_NAME_def. */
+/* The first members of the baum_i_definition of baum_NAME_def. */
 #define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
   .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
 
@@ -185,11 +185,14 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
   return baum_i_check_number(label, field, unit, BAUM_I_RULE_POSITIVE, value);
 }
 
-/* Check that the points of an element are given in one way: `point`, or point_a and point_b. */
+/* Check that the points of an element are given in exactly one way: `point`, or point_a and
+ * point_b. The arguments tell which are given. Unless point_allowed, the message does not offer
+ * `point`. */
 baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
                                       bool point_allowed);
 
-/* Check that a required function or array is given: `def->mass != NULL` for the field "mass()". */
+/* Check that a required function or array is given. For the field "mass()", `given` is `def->mass
+ * != NULL`. */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);
 
 #endif

@@ -55,9 +55,10 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* Return `joint 2 "B"`, numbered from 1, or `ground`. */
+/* Return a label such as `joint 2 "B"` (numbered from 1), or `ground`. */
 baum_i_text baum_i_label(const baum_i_element *element);
-/* The label of a joint, or of the joint that owns a row; "no joint" for a negative number. */
+/* Return the label of a joint, or of the joint that owns a row; "no joint" if the number is
+ * negative. */
 baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint);
 baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row);
 

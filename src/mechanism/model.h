@@ -354,8 +354,8 @@ struct baum_i_joint_type {
                      * force and a moment */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
-  /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
-   * joint. */
+  /* Return the coordinate that a driver prescribes. A driver has one row: this coordinate minus a
+   * function of time. NULL: the type is not a driver. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
   /* Set s to the prescribed value, rate and acceleration at the time of the point. NULL for joints
    * that are not drivers. */
@@ -413,12 +413,13 @@ struct baum_i_joint_type {
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
-/* The length of a spring; of a torsion spring it is an angle, of a joint spring a coordinate. */
+/* The present length of a spring. For a torsion spring it is an angle, for a joint spring a
+ * coordinate of a joint. */
 typedef struct baum_i_stretch {
   double length;
   double rate;
   double scale;      /* size of a relevant change of the length */
-  bool no_direction; /* the length is that of a line and zero: there is no force */
+  bool no_direction; /* the spring is a line of length zero, so there is no force */
 } baum_i_stretch;
 
 struct baum_i_force_type {
@@ -429,8 +430,8 @@ struct baum_i_force_type {
   /* Adds to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   bool (*depends_on_velocity)(const baum_i_force *force); /* NULL: never */
-  /* Springs (general/spring_law.h): where the fields that they share begin in a definition, and
-   * the present length of one of them. */
+  /* Springs (general/spring_law.h): the offset of the first field of baum_i_spring_def in the
+   * definition, and a function that returns the present length of a spring. */
   size_t spring_fields;
   baum_i_stretch (*stretch)(const baum_i_force *force, const baum_i_point *point);
   /* Adds the potential of one force to *sum. NULL: it is 0. */

@@ -14,7 +14,7 @@
 /* Parameters of a linear spring, in this order. */
 enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBERS };
 
-/* The fields that all definitions of springs have, one after the other. */
+/* The fields that all definitions of springs contain, in this order. */
 typedef struct baum_i_spring_def {
   double stiffness;
   double damping;
@@ -27,7 +27,7 @@ typedef struct baum_i_spring_def {
 #define BAUM_I_SPRING_OFFSET(DEF, field) (offsetof(DEF, field) - offsetof(DEF, stiffness))
 #define BAUM_I_HAS_SPRING_FIELD(DEF, field) \
   (BAUM_I_SPRING_OFFSET(DEF, field) == offsetof(baum_i_spring_def, field))
-/* Checks that a public definition has these fields in this order. */
+/* Check at compile time that a public definition has these fields in this order. */
 #define BAUM_I_CHECK_SPRING_DEF(DEF)                                                           \
   _Static_assert(BAUM_I_HAS_SPRING_FIELD(DEF, damping) && BAUM_I_HAS_SPRING_FIELD(DEF, law) && \
                    BAUM_I_HAS_SPRING_FIELD(DEF, user) &&                                       \
@@ -72,7 +72,8 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* Return the law of a spring. The numbers are its last parameters. */
+/* Return the law of a spring. `numbers` points to the last BAUM_I_SPRING_NUMBERS of its
+ * parameters. */
 static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                                                      const baum_i_spring_def *def,
                                                      const double *numbers)
@@ -84,7 +85,8 @@ static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                              .depends_on_rate = def->depends_on_velocity};
 }
 
-/* Set the numbers; `design` is the length in the design configuration. */
+/* Set `numbers` from the definition. `design` is the length in the design configuration, which is
+ * the default of l_0. */
 void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers);
 
 /* ---- members of the types of springs ---- */
@@ -94,12 +96,13 @@ void baum_i_spring_lower(const baum_i_force *force, double design, double *numbe
   .potential = baum_i_spring_potential, .power = baum_i_spring_power
 
 bool baum_i_spring_depends(const baum_i_force *force);
-/* Adds V. */
+/* Adds V to *sum, except for a user's law. */
 baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *point, double *sum);
-/* Adds the power of the tension, except the part that changes V. A user's law has no V. */
+/* Adds the power of the tension, except the part that changes V. For a user's law, all of it is
+ * added. */
 baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
                                 double sum[BAUM_I_POWERS]);
-/* Compares the derivatives that a user's law gives with differences. */
+/* Compares the derivatives that a user's law returns with differences. */
 baum_status baum_i_spring_check(const void *force, baum_i_point *point);
 
 #endif

@@ -77,7 +77,8 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
                                  baum_i_point *point);
 
-/* Return `joint 2 "circle": jacobian()[0][1]`. `entry` is an index into the output. */
+/* Return a text such as `joint 2 "circle": jacobian()[0][1]`. `entry` is an index into the
+ * output. */
 baum_i_text baum_i_user_entry(const baum_i_user_function *function, int entry);
 
 #endif

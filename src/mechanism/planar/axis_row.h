@@ -27,7 +27,7 @@
 
 /* ---- an axis in definitions ---- */
 
-/* The fields that definitions with an axis begin with. */
+/* The first fields of definitions with an axis. */
 typedef struct baum_i_planar_axis_head {
   baum_i_planar_head head;
   double axis[2];
@@ -36,8 +36,8 @@ typedef struct baum_i_planar_axis_head {
 #define BAUM_I_PLANAR_AXIS_FIELDS(DEF) \
   BAUM_I_PLANAR_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "", 1.0, 0.0)
 
-/* Find the unit axis in the axes of body_a. If `point` is given (not NaN), both point and axis of
- * the definition are in ground axes. */
+/* Set `along` to the unit axis of a joint, in the axes of body_a. If `point` is given (not NaN),
+ * both point and axis of the definition are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
 /* ---- the row; inline, so that the compiler evaluates common terms once ---- */

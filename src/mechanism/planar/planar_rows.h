@@ -165,7 +165,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* Define NAME_evaluate() and NAME_linearize() of a type by its kernels. */
+/* Define the functions NAME_evaluate() and NAME_linearize() of a type from its kernels. */
 #define BAUM_I_PLANAR_EVALUATE(NAME, ROWS, PHI, JACOBIAN, GAMMA)                           \
   static baum_status NAME##_evaluate(const baum_i_joint_group *group, baum_i_point *point, \
                                      const baum_i_rows *out)                               \
