@@ -6,7 +6,7 @@
  * Missing functions are replaced by differences (difference.c). Phi'' = J a - gamma, and a = 0
  * along the straight line q + s v, t + s, so
  *
- *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
+ *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0.
  *
  * The second form is more accurate. It is used if J is given, and nu is given or zero. If J is not
  * given, second derivatives of Phi are found from those along single directions:
