@@ -28,7 +28,7 @@ static baum_status fail(const char *path, const char *what, int reason)
 }
 
 /* Tells whether a file may be replaced. Replacing would destroy devices, pipes and links, and would
- * change the owner of a file or detach its other names. */
+ * change the owner of a file or separate it from its other hard links. */
 static bool is_replaceable(const struct stat *found)
 {
   return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
@@ -36,7 +36,8 @@ static bool is_replaceable(const struct stat *found)
 
 int baum_i_sync_file(FILE *file)
 {
-  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* devices, pipes */
+  /* Devices and pipes do not support fsync(). */
+  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
   return done ? 0 : errno;
 }
 
@@ -100,7 +101,8 @@ static baum_status replace_file(const char *path, const struct stat *old, const 
   if (!file) {
     return fail(path, "written", errno);
   }
-  int reason = old && fchmod(fileno(file), mode) != 0 ? errno : 0; /* open() obeys the umask */
+  int reason = old && fchmod(fileno(file), mode) != 0 ? errno : 0; /* open() has applied the
+                                                                    * umask */
   int written = write_bytes(file, bytes, size);
   reason = reason ? reason : written;
   baum_status status = reason ? fail(path, "written", reason) : BAUM_OK;

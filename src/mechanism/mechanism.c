@@ -13,10 +13,11 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* ---- life ---- */
+/* ---- create, share, destroy ---- */
 
-/* Compute a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
- * probability of 2^-32. A counter is not used, because it would be global state. */
+/* Compute a tag from address and time (hash function "mix 13" of D. Stafford). Two mechanisms have
+ * the same tag with a probability of 2^-32. A counter is not used, because it would be global
+ * state. */
 static uint32_t make_tag(const void *address)
 {
   struct timespec now = {0};
@@ -167,7 +168,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   return status;
 }
 
-/* ---- the whole ---- */
+/* ---- settings and sizes ---- */
 
 baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
 {
