@@ -5,6 +5,8 @@
 #ifndef BAUM_I_DRAW_DRAWING_H
 #define BAUM_I_DRAW_DRAWING_H
 
+#include <baum/draw.h>
+
 #include "base/buffer.h"
 #include "base/rotation.h"
 #include "mechanism/model.h"
@@ -130,6 +132,54 @@ void baum_i_draw_body(baum_i_drawing *drawing, int body);
 
 /* Draw a joint (number k) or a force (number joint_count + k). */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
+
+/* ---- svg.c ---- */
+
+#define BAUM_I_EMPTY_BOX        \
+  (baum_i_box)                  \
+  {                             \
+    {INFINITY, INFINITY, 0.0},  \
+    {                           \
+      -INFINITY, -INFINITY, 0.0 \
+    }                           \
+  }
+
+typedef struct baum_i_picture {
+  const baum_i_drawing *drawing;
+  const baum_i_spatial_frame *frames; /* (body_count + 1) */
+  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
+  double scale;                       /* [px/m] */
+  double left, top;                   /* [m] */
+  double size[2];                     /* [px] */
+  baum_i_buffer *out;
+} baum_i_picture;
+
+/* Sets the view, which needs nothing but the drawing. */
+void baum_i_picture_set_view(baum_i_picture *p);
+/* Extends a box [m] by the shapes at the frames of the picture. */
+void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
+/* Sets the scale, so that the picture shows the box, and writes the beginning of the SVG text.
+ * below: [px] room for texts at the bottom. */
+void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below);
+/* BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_picture_put_shapes(const baum_i_picture *p);
+/* Transforms a point of a body to the axes right, up and towards the eye [m]. */
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
+                            double out[3]);
+/* Writes a point in these axes after the command of a path. */
+void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
+/* Returns the colour of a body's edge. */
+const char *baum_i_picture_colour(int body);
+
+/* ---- page.c ---- */
+
+/* Check a page. Sets the number of columns in its rows. */
+baum_status baum_i_page_check(const baum_mechanism *m, const baum_page *page, const char *call,
+                              int *width);
+/* Return the first column of q in the rows of a checked page. */
+int baum_i_page_positions(const baum_mechanism *m, const baum_page *page);
+/* Whether a channel is a joint reaction, which is shown as an arrow. */
+bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c);
 
 /* ---- wheels.c ---- */
 

@@ -89,8 +89,8 @@ static baum_status check_given(const baum_page *page, const char *call)
                     page->mark_times, page->mark_texts);
 }
 
-static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,
-                         int *width)
+baum_status baum_i_page_check(const baum_mechanism *m, const baum_page *page, const char *call,
+                              int *width)
 {
   BAUM_I_TRY(baum_i_check_frozen(m, call));
   if (!page) {
@@ -128,8 +128,7 @@ static void add_column(table *t, const double *values, int64_t stride, bool angl
   t->columns[t->column_count++] = (column){values, stride, angle, plotted};
 }
 
-/* Whether a channel is a joint reaction, which is not shown among the plots. */
-static bool is_reaction(const baum_mechanism *m, const baum_channel *c)
+bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
 {
   return c->quantity == BAUM_JOINT_REACTION &&
          m->joints[baum_i_joint_index(m, c->joint)]->type->width > 0;
@@ -155,7 +154,7 @@ static void put_reactions(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
     int width = 0;
     const baum_channel c = baum_i_channel(page->channels, k);
     (void)baum_i_check_channels(t->mechanism, &c, 1, &width);
-    if (is_reaction(t->mechanism, &c)) {
+    if (baum_i_page_is_reaction(t->mechanism, &c)) {
       int joint = baum_i_joint_index(t->mechanism, c.joint);
       const baum_i_place *at = &drawing->places[joint];
       baum_i_putf(out, "%s\n{\"joint\":\"", gap);
@@ -172,17 +171,16 @@ static void put_reactions(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
   }
 }
 
-/* Finds the first column of q in a row of samples. */
-static int find_positions(const table *t)
+int baum_i_page_positions(const baum_mechanism *m, const baum_page *page)
 {
   int place = 0;
-  for (int k = 0; k < t->page->channel_count; k++) {
+  for (int k = 0; k < page->channel_count; k++) {
     int width = 0;
-    const baum_channel c = baum_i_channel(t->page->channels, k);
+    const baum_channel c = baum_i_channel(page->channels, k);
     if (c.quantity == BAUM_Q) {
       break;
     }
-    (void)baum_i_check_channels(t->mechanism, &c, 1, &width);
+    (void)baum_i_check_channels(m, &c, 1, &width);
     place += width;
   }
   return place;
@@ -399,9 +397,10 @@ static baum_status make(const baum_mechanism *mechanism, const baum_page *page, 
                         baum_i_buffer *out)
 {
   table t = {.mechanism = mechanism, .page = page};
-  BAUM_I_TRY(check(mechanism, page, call, &t.width));
+  BAUM_I_TRY(baum_i_page_check(mechanism, page, call, &t.width));
   baum_i_drawing drawing;
-  const baum_i_samples motion = {page->rows + find_positions(&t), page->count, t.width};
+  const baum_i_samples motion = {page->rows + baum_i_page_positions(mechanism, page), page->count,
+                                 t.width};
   baum_status status = baum_i_drawing_create(mechanism, &motion, &drawing);
   if (status == BAUM_OK) {
     status = put_page(&t, &drawing, out);

@@ -46,14 +46,7 @@ static const char *const COLOUR[COLOURS][2] = {
   {"#a9c9ec", "#2563a8"}, {"#f5c396", "#b4560f"}, {"#a5dcc0", "#0c7a50"}, {"#dcb4e8", "#8d22a3"},
   {"#ead48a", "#86640a"}, {"#a3dbe5", "#0e7188"}, {"#f3b3be", "#b91c43"}, {"#c8ced6", "#4b5563"}};
 
-typedef struct picture {
-  const baum_i_drawing *drawing;
-  const baum_i_spatial_frame *frames; /* (body_count + 1) */
-  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
-  double scale;                       /* [px/m] */
-  double left, top;                   /* [m] */
-  baum_i_buffer *out;
-} picture;
+typedef baum_i_picture picture;
 
 /* ---- projection ---- */
 
@@ -66,7 +59,7 @@ static void project(const picture *p, int body, const double point[3], double ou
   baum_i_turn(p->view, at, out);
 }
 
-static void set_view(picture *p)
+void baum_i_picture_set_view(baum_i_picture *p)
 {
   static const double plane[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   static const double TURN = -0.9, TILT = 0.45; /* [rad] view about the vertical, and down */
@@ -156,7 +149,7 @@ static void put_number(const picture *p, double x)
   baum_i_putf(p->out, "%.1f", x);
 }
 
-static void put_point(const picture *p, const char *word, const double at[3])
+void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3])
 {
   baum_i_put(p->out, word);
   put_number(p, (at[0] - p->left) * p->scale);
@@ -189,7 +182,7 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
 {
   baum_i_put(p->out, "<path d=\"");
   for (int k = 0; k < count; k++) {
-    put_point(p, k ? "L" : "M", at[k]);
+    baum_i_picture_put_point(p, k ? "L" : "M", at[k]);
   }
   baum_i_put(p->out, closed ? "Z\"" : "\"");
 }
@@ -393,35 +386,38 @@ static int compare(const void *a, const void *b)
   return x->depth != y->depth ? (x->depth > y->depth) - (x->depth < y->depth) : x->shape - y->shape;
 }
 
-static void fit(picture *p)
+void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box)
 {
-  baum_i_box box = {{INFINITY, INFINITY, 0.0}, {-INFINITY, -INFINITY, 0.0}};
   for (int k = 0; k < p->drawing->shape_count; k++) {
-    include_shape(p, &p->drawing->shapes[k], &box);
+    include_shape(p, &p->drawing->shapes[k], box);
   }
-  if (p->drawing->shape_count == 0) {
+}
+
+void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below)
+{
+  baum_i_box box = *seen;
+  if (!(box.high[0] >= box.low[0] && box.high[1] >= box.low[1])) {
     include((const double[3]){0.0, 0.0, 0.0}, 1.0, &box);
   }
   double width = box.high[0] - box.low[0], height = box.high[1] - box.low[1];
   p->scale = fmin((WIDTH - 2.0 * MARGIN) / width, (HEIGHT - 2.0 * MARGIN) / height);
   p->left = box.low[0] - MARGIN / p->scale;
   p->top = box.high[1] + MARGIN / p->scale;
-  double size[2] = {width * p->scale + 2.0 * MARGIN, height * p->scale + 2.0 * MARGIN};
+  p->size[0] = width * p->scale + 2.0 * MARGIN;
+  p->size[1] = height * p->scale + 2.0 * MARGIN + below;
   baum_i_putf(p->out,
               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
               "viewBox=\"0 0 %.0f %.0f\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-              size[0], size[1], size[0], size[1]);
+              p->size[0], p->size[1], p->size[0], p->size[1]);
 }
 
-static baum_status put_picture(picture *p)
+baum_status baum_i_picture_put_shapes(const baum_i_picture *p)
 {
   const int count = p->drawing->shape_count;
   order *orders = baum_i_alloc((size_t)count, sizeof *orders);
   if (!orders) {
     return baum_i_fail_memory();
   }
-  set_view(p);
-  fit(p);
   for (int k = 0; k < count; k++) {
     const baum_i_shape *shape = &p->drawing->shapes[k];
     double depth = shape->style > BAUM_I_JOINT ? (double)INFINITY : mean_depth(p, shape);
@@ -431,8 +427,28 @@ static baum_status put_picture(picture *p)
   for (int k = 0; k < count; k++) {
     put_shape(p, &p->drawing->shapes[orders[k].shape]);
   }
-  baum_i_put(p->out, "</svg>\n");
   baum_i_free(orders);
+  return BAUM_OK;
+}
+
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
+{
+  project(p, body, point, out);
+}
+
+const char *baum_i_picture_colour(int body)
+{
+  return COLOUR[(body + COLOURS - 1) % COLOURS][1];
+}
+
+static baum_status put_picture(picture *p)
+{
+  baum_i_box box = BAUM_I_EMPTY_BOX;
+  baum_i_picture_set_view(p);
+  baum_i_picture_include(p, &box);
+  baum_i_picture_begin(p, &box, 0.0);
+  BAUM_I_TRY(baum_i_picture_put_shapes(p));
+  baum_i_put(p->out, "</svg>\n");
   return p->out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
