@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from . import _abi, _calls, _html, _records, design, design_space, drawings
+from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings
 from ._lib import lib, text
+from ._motion import TraceLike
 from ._values import number, numbers, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .drawings import Drawing, Page, TraceLike
+from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
 from .simulation import Simulation, takes_options
@@ -452,7 +453,8 @@ class Mechanism(Adding, AddingInSpace):
 
     def draw(self, q: ArrayLike | None = None) -> Drawing:
         """A picture of the design configuration, or of positions q (nq) [m], [rad], which need a
-        frozen mechanism. Notebooks show it; save("x.svg") writes it. A red line joins the two
+        frozen mechanism. Notebooks show it; save("x.svg") writes it, and so do
+        "x.pdf" and "x.png" with Matplotlib. A red line joins the two
         points of a joint that is open.
 
         Bodies draw themselves from the points of their joints, or as large as their inertia.
@@ -478,7 +480,8 @@ class Mechanism(Adding, AddingInSpace):
         neighbours with the same unit share a plot. marks: times [s] and texts on the time axis.
         Constraint violations of q are shown as they are.
         """
-        made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
+        motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
+        made = drawings.page(motion)
         if path is not None:
             made.save(path)
         return made
