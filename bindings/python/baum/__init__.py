@@ -59,6 +59,7 @@ from .integrators import (
     stability_outline,
     stability_statement,
 )
+from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
@@ -130,6 +131,7 @@ __all__ = [
     "StudyEntry",
     "StudyMethod",
     "StudyReference",
+    "View",
     "ViolationWarning",
     "Warning",
     "Workspace",
