@@ -205,7 +205,7 @@ class Views(unittest.TestCase):
 
     # ---- buttons
 
-    def test_pause_holds_a_loop_and_a_step_takes_one_call(self):
+    def test_pause_holds_a_loop_of_calls(self):
         view, count = self.view(), [0]
 
         def loop():

@@ -135,7 +135,7 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         if self.headers.get("Host") not in hosts or self.headers.get("Origin", "") not in origins:
             self.send_error(403)
             return None
-        token, slash, asked = self.path[1:].partition("/")
+        token, slash, asked = self.path[1:].partition("?")[0].partition("/")
         if not slash or not hmac.compare_digest(token.encode(), self._server.token.encode()):
             self.send_error(404)
             return None

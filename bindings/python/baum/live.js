@@ -4,7 +4,7 @@
 'use strict';
 {
 const MOST = 2400; // frames; then every other one is omitted
-let following = true, paused = false, touched = false, scale = view.scale;
+let following = true, paused = false, touched = false, scale = view.scale, room = '';
 
 table.forEach((column, c) => { table[c] = Array.from(column); });
 times = table[0];
@@ -27,11 +27,15 @@ function append(row) {
   [first, last] = [times[0], times[k]];
   span = last - first || 1;
 }
-// The view follows what leaves it, until the user moves or zooms.
+// The view is fitted again when a shape leaves it or the window changes, until the user moves or zooms.
+const isOutside = ([x, y]) => x < 0 || x > wide || y < 0 || y > high;
 function follow() {
   touched = touched || view.scale !== scale || view.shift.some(x => x !== 0);
-  const outside = framesAt(at(last)).some(({r}) => { const [x, y] = project(r); return x < 0 || x > wide || y < 0 || y > high; });
-  if (!touched && outside) { fit(); scale = view.scale; }
+  const frames = framesAt(at(last)), before = room;
+  room = `${wide} ${high}`;
+  const left = shape => (['line', 'area'].includes(shape.form) ? shape.points : shape.points.slice(0, 1))
+    .some(point => isOutside(project(moved(frames[shape.body], point))));
+  if (!touched && (room !== before || shapes.some(left))) { fit(); scale = view.scale; }
 }
 
 const bar = find('play').parentNode;

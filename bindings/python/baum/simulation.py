@@ -579,11 +579,11 @@ class Simulation(_calls.Closing):
         traces: paths to draw, as in Run.page(). paused: the run waits until you start it in the
         page. browser: False opens nothing; visit View.url.
 
-        The page has buttons that pause, step and resume the run. While it is paused, the call that
-        advances it waits; in a loop of calls, they wait after each. Within one long call, a step is
-        one of the integrator. Ctrl-C and cancel() end the waiting. The run goes on when its pages
-        are closed. A view ends with close(), at the end of a `with` block, or with the simulation.
-        The server answers only programs of this computer that know the secret in its address.
+        The page has buttons that pause the run, take one step of the integrator, and resume the
+        run. While the run is paused, the call that advances it waits; Ctrl-C and cancel() end the
+        waiting. The run goes on when its pages are closed. A view ends with close(), at the end of
+        a `with` block, or with the simulation. The server answers only programs of this computer
+        that know the secret in its address.
         """
         return open_view(
             self, self._live, self._owner, title, traces, truth(paused, "paused"), browser
