@@ -6,6 +6,7 @@ import contextlib
 import gc
 import http.client
 import json
+import signal
 import socket
 import threading
 import time
@@ -271,6 +272,17 @@ class Views(unittest.TestCase):
         view.close()
         thread.join(PATIENCE)
         self.assertEqual(self.s.time, 0.01)
+
+    def test_ctrl_c_ends_the_waiting(self):
+        self.view(paused=True)
+        for work in (lambda: self.s.advance_to(1), lambda: self.s.step(3)):
+            timer = threading.Timer(0.3, signal.pthread_kill, [threading.get_ident(), signal.SIGINT])
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+            timer.join()
+        self.s._live.resume()
+        self.assertEqual(self.s.advance_to(0.1), baum.Status.OK)
 
     def until_still(self, read):
         """Wait until a value no longer changes, and return it."""

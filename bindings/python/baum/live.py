@@ -68,33 +68,33 @@ class Live:
     def call(self, address: int, t: float) -> bool:
         """Whether the user cancels the run, at a step within a call of the library."""
         if not self.servers:
-            self._set_interval(address)
+            self.set_interval(address)
             return self.function is not None and bool(self.function(t))
-        self.follow(address)
         now = time.perf_counter()
+        if now >= self._due or self.paused:
+            self._follow(address)
         if self.function is None or now < self._function_due:
             return False
         self._function_due = now + self._interval
         return bool(self.function(t))
 
-    def begin(self, address: int) -> None:
-        """Prepare for a call that advances the run."""
-        self.cancelled = False
+    def begin(self) -> None:
+        """Start a new interval of the user's progress function."""
         self._function_due = time.perf_counter() + self._interval
-        self._set_interval(address)
 
-    def follow(self, address: int) -> None:
-        """Show the present state if the last frame is old enough, and wait while a page has paused
-        the run."""
-        now = time.perf_counter()
-        if now < self._due and not self.paused:
-            return
-        self._due = now + FRAME
+    def returned(self, owner: Handle) -> None:
+        """Follow the run at the end of a call. Loops of short calls come here very often."""
+        if time.perf_counter() >= self._due or self.paused:
+            self._follow(owner.address)
+
+    def _follow(self, address: int) -> None:
+        """Show the present state, and wait while a page has paused the run."""
+        self._due = time.perf_counter() + FRAME
         self.show(address)
-        self._set_interval(address)
+        self.set_interval(address)
         if self.paused:
             self._hold()
-            self._set_interval(address)
+            self.set_interval(address)
 
     def show(self, address: int) -> None:
         """Make the present state the newest frame."""
@@ -116,7 +116,7 @@ class Live:
             if self.pages == 0 and left is not None and time.monotonic() > left + AWAY:
                 self.paused = False
 
-    def _set_interval(self, address: int) -> None:
+    def set_interval(self, address: int) -> None:
         """Have the library call at every step while paused, otherwise for every frame."""
         wanted = self._interval
         if self.servers:
@@ -212,6 +212,7 @@ def open_view(
     if paused:
         live.pause()
     weakref.finalize(simulation, server.end).atexit = False
+    owner.glance(live.set_interval)
     server.thread.start()
     if browser and not drawings.is_notebook():
         webbrowser.open(server.url)

@@ -534,8 +534,9 @@ class Simulation(_calls.Closing):
         line = None if out is None or end is None else RunLine(out, self.time, end)
         live = self._live
         live.function = line or (wanted if callable(wanted) else None)
-        if live.servers:
-            live.begin(self._owner.address)
+        live.cancelled = False
+        if live.servers and live.function is not None:
+            live.begin()
         status: Status
         try:
             if at_once:
@@ -554,7 +555,7 @@ class Simulation(_calls.Closing):
         if status != Status.OK:
             self._warn()
         if live.servers:
-            live.follow(self._owner.address)
+            live.returned(self._owner)
         return status
 
     def _call(self, function: Any, *arguments: Any) -> Any:
