@@ -78,9 +78,10 @@ class Live:
         self._function_due = now + self._interval
         return bool(self.function(t))
 
-    def begin(self) -> None:
-        """Start a new interval of the user's progress function."""
+    def begin(self, address: int) -> None:
+        """Prepare for a call, if the run is paused or has a progress function."""
         self._function_due = time.perf_counter() + self._interval
+        self.set_interval(address)
 
     def returned(self, owner: Handle) -> None:
         """Follow the run at the end of a call. Loops of short calls come here very often."""

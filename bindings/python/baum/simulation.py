@@ -535,8 +535,8 @@ class Simulation(_calls.Closing):
         live = self._live
         live.function = line or (wanted if callable(wanted) else None)
         live.cancelled = False
-        if live.servers and live.function is not None:
-            live.begin()
+        if live.servers and (live.paused or live.function is not None):
+            live.begin(self._owner.address)
         status: Status
         try:
             if at_once:
