@@ -7,7 +7,9 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-static const double SHARE = 0.02; /* of a unit in the largest extent of the mechanism */
+/* The largest unit as a share of the largest extent of the mechanism, and of the mean distance of
+ * joints from the centres of mass of their bodies, which limits it if there are many bodies. */
+static const double SHARE = 0.02, LINK_SHARE = 0.125;
 
 const char *baum_i_style_name(baum_i_style style)
 {
@@ -19,7 +21,8 @@ const char *baum_i_style_name(baum_i_style style)
 
 const char *baum_i_form_name(baum_i_form form)
 {
-  static const char *const names[] = {"line", "area", "disc", "ball", "box", "between", "arrow"};
+  static const char *const names[] = {"line",     "area", "disc",    "ball", "box",
+                                      "cylinder", "mesh", "between", "arrow"};
   return names[form];
 }
 
@@ -94,6 +97,23 @@ static double largest_edge(const baum_i_box *box)
   return edge;
 }
 
+/* Mean distance of joints from the centres of mass of their bodies, without those below `least`.
+ * Infinity if there are no others. */
+static double mean_distance(const baum_i_drawing *drawing, double least)
+{
+  double sum = 0.0;
+  int count = 0;
+  for (int k = 0; k < 2 * drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k / 2];
+    const double *point = place->point[k % 2];
+    double distance =
+      place->element && place->body[k % 2] > 0 ? sqrt(baum_i_dot3(point, point)) : 0.0;
+    sum += distance > least ? distance : 0.0;
+    count += distance > least;
+  }
+  return count > 0 ? sum / count : (double)INFINITY;
+}
+
 static double find_unit(const baum_i_drawing *drawing)
 {
   const double origin[3] = {0.0, 0.0, 0.0};
@@ -114,7 +134,10 @@ static double find_unit(const baum_i_drawing *drawing)
     include(drawing, 0, origin, &box);
     extent = largest_edge(&box);
   }
-  return SHARE * (extent > 0.0 ? extent : 1.0);
+  if (extent <= 0.0) {
+    return SHARE;
+  }
+  return fmin(SHARE * extent, LINK_SHARE * mean_distance(drawing, 1e-6 * extent));
 }
 
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
@@ -132,7 +155,7 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   }
   BAUM_I_TRY(baum_i_find_places(out));
   out->unit = find_unit(out);
-  for (int k = 1; k <= m->body_count; k++) {
+  for (int k = 0; k <= m->body_count; k++) {
     baum_i_draw_body(out, k);
   }
   for (int k = 0; k < out->place_count; k++) {
@@ -163,6 +186,26 @@ static void put_bodies(const baum_mechanism *m, baum_i_buffer *out)
   }
 }
 
+static void put_points(const baum_i_drawing *drawing, const baum_i_shape *shape, baum_i_buffer *out)
+{
+  baum_i_put(out, ",\"points\":[");
+  for (int i = 0; i < shape->count; i++) {
+    const double *x = drawing->points[shape->first + i];
+    baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+  }
+  baum_i_put(out, "]");
+}
+
+static void put_triangles(const baum_i_shape *shape, baum_i_buffer *out)
+{
+  for (int k = 0; k < shape->triangle_count; k++) {
+    const int32_t *corner = shape->triangles + 3 * (size_t)k;
+    baum_i_putf(out, "%s%d,%d,%d", k ? "," : ",\"triangles\":[", (int)corner[0], (int)corner[1],
+                (int)corner[2]);
+  }
+  baum_i_put(out, shape->triangle_count > 0 ? "]" : "");
+}
+
 void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
 {
   baum_i_putf(out, "{\"version\":1,\"spatial\":%s,\"unit\":%.6g,\"gravity\":[%.6g,%.6g,%.6g]",
@@ -178,12 +221,13 @@ void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
                 shape->body, shape->other);
     baum_i_put(out, "\"element\":\"");
     baum_i_put_user_text(out, shape->element->name, BAUM_I_JSON);
-    baum_i_putf(out, "\",\"radius\":%.5g,\"points\":[", shape->radius);
-    for (int i = 0; i < shape->count; i++) {
-      const double *x = drawing->points[shape->first + i];
-      baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+    baum_i_putf(out, "\",\"radius\":%.5g", shape->radius);
+    if (shape->color) {
+      baum_i_putf(out, ",\"color\":\"%s\"", shape->color);
     }
-    baum_i_put(out, "]}");
+    put_points(drawing, shape, out);
+    put_triangles(shape, out);
+    baum_i_put(out, "}");
   }
   baum_i_put(out, "]}");
 }

@@ -12,17 +12,20 @@
 #include "mechanism/model.h"
 
 typedef enum baum_i_form {
-  BAUM_I_LINE,    /* through all points */
-  BAUM_I_AREA,    /* closed, through all points */
-  BAUM_I_DISC,    /* centre; normal */
-  BAUM_I_BALL,    /* centre */
-  BAUM_I_BOX,     /* centre; half of the edges, along the axes of the body */
-  BAUM_I_BETWEEN, /* from a point on `body` to one on `other` */
-  BAUM_I_ARROW    /* from a point on `body` along a vector in the axes of `other` */
+  BAUM_I_LINE,     /* through all points */
+  BAUM_I_AREA,     /* closed, through all points */
+  BAUM_I_DISC,     /* centre; normal */
+  BAUM_I_BALL,     /* centre */
+  BAUM_I_BOX,      /* centre; half of the edges, along the axes of the body */
+  BAUM_I_CYLINDER, /* centres of both ends */
+  BAUM_I_MESH,     /* vertices */
+  BAUM_I_BETWEEN,  /* from a point on `body` to one on `other` */
+  BAUM_I_ARROW     /* from a point on `body` along a vector in the axes of `other` */
 } baum_i_form;
 
 /* STYLE(name). Pictures of the plane draw them in this order. */
 #define BAUM_I_STYLES(STYLE) \
+  STYLE(BASE, base)          \
   STYLE(GUIDE, guide)        \
   STYLE(GROUND, ground)      \
   STYLE(WHEEL, wheel)        \
@@ -54,9 +57,24 @@ typedef struct baum_i_shape {
   const baum_i_element *element; /* joint, force or body that it shows */
   int body;                      /* the points are in its axes; 0: ground */
   int other;                     /* see the forms */
-  double radius;                 /* [m] of a disc or ball; half the width of lines and edges */
+  double radius;                 /* [m] of a disc, ball or cylinder; half the width of lines */
   int first, count;              /* its points, set by baum_i_draw() */
+  const char *color;             /* "#rrggbb"; NULL: as its style */
+  const int32_t *triangles;      /* (triangle_count x 3) corners of a mesh, among its points */
+  int triangle_count;
 } baum_i_shape;
+
+static inline baum_i_shape baum_i_shape_of(baum_i_style style, baum_i_form form,
+                                           const baum_i_element *element, int body, int other,
+                                           double radius)
+{
+  return (baum_i_shape){.style = style,
+                        .form = form,
+                        .element = element,
+                        .body = body,
+                        .other = other,
+                        .radius = radius};
+}
 
 /* The place of a joint or force between two bodies: its points and axes, in the axes of each
  * body. */
@@ -125,51 +143,14 @@ void baum_i_draw_turn(const baum_i_drawing *drawing, int from, int to, const dou
 void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const double point[3],
                       double out[3]);
 
-/* ---- outlines.c, symbols.c ---- */
+/* ---- outlines.c, user_outlines.c, symbols.c ---- */
 
-/* Draw the body of this index. */
+/* Draw the body of this index: by the outlines of the user, or else by its joints. */
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
+void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 
 /* Draw a joint (number k) or a force (number joint_count + k). */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
-
-/* ---- svg.c ---- */
-
-#define BAUM_I_EMPTY_BOX        \
-  (baum_i_box)                  \
-  {                             \
-    {INFINITY, INFINITY, 0.0},  \
-    {                           \
-      -INFINITY, -INFINITY, 0.0 \
-    }                           \
-  }
-
-typedef struct baum_i_picture {
-  const baum_i_drawing *drawing;
-  const baum_i_spatial_frame *frames; /* (body_count + 1) */
-  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
-  double scale;                       /* [px/m] */
-  double left, top;                   /* [m] */
-  double size[2];                     /* [px] */
-  baum_i_buffer *out;
-} baum_i_picture;
-
-/* Sets the view, which needs nothing but the drawing. */
-void baum_i_picture_set_view(baum_i_picture *p);
-/* Extends a box [m] by the shapes at the frames of the picture. */
-void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
-/* Sets the scale, so that the picture shows the box, and writes the beginning of the SVG text.
- * below: [px] room for texts at the bottom. */
-void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below);
-/* BAUM_OK or BAUM_ERR_MEMORY. */
-baum_status baum_i_picture_put_shapes(const baum_i_picture *p);
-/* Transforms a point of a body to the axes right, up and towards the eye [m]. */
-void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
-                            double out[3]);
-/* Writes a point in these axes after the command of a path. */
-void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
-/* Returns the colour of a body's edge. */
-const char *baum_i_picture_colour(int body);
 
 /* ---- page.c ---- */
 

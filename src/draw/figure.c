@@ -8,7 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "draw/drawing.h"
+#include "draw/svg.h"
 #include "mechanism/identify.h"
 #include "simulate/run.h"
 

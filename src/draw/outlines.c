@@ -27,7 +27,7 @@ typedef struct outline {
 static void draw(const outline *o, baum_i_style style, baum_i_form form, double radius, int count,
                  const double (*points)[3])
 {
-  baum_i_shape shape = {style, form, o->element, o->body, o->body, radius, 0, 0};
+  const baum_i_shape shape = baum_i_shape_of(style, form, o->element, o->body, o->body, radius);
   baum_i_draw(o->drawing, shape, count, points);
 }
 
@@ -232,7 +232,11 @@ void baum_i_draw_body(baum_i_drawing *drawing, int body)
   const baum_i_body *drawn = drawing->mechanism->bodies[body];
   baum_i_frame_kind kind = baum_i_frame_of(drawn);
   outline o = {drawing, body, &drawn->element, 0, NULL};
-  if (kind == BAUM_I_FRAME_NONE) {
+  if (drawn->outline_count > 0) {
+    baum_i_draw_outlines(drawing, body);
+    return;
+  }
+  if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
     return;
   }
   if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE) {

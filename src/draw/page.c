@@ -43,9 +43,7 @@ typedef struct table {
 void baum_page_init(baum_page *page, size_t caller_size)
 {
   const baum_page defaults = {.struct_size = sizeof defaults};
-  if (baum_i_takes_sized(page, caller_size)) {
-    baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
 }
 
 /* ---- checks ---- */

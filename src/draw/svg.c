@@ -9,24 +9,23 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
-#include "draw/drawing.h"
+#include "draw/picture.h"
+#include "draw/svg.h"
 #include "mechanism/identify.h"
 
-enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22, CIRCLE = 24 };
+enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22 };
 static const double MARGIN = 12.0;
 
-typedef struct look {
-  const char *fill;
-  const char *stroke;
-  double width; /* [px] */
-  const char *dash;
-} look;
+typedef baum_i_picture picture;
+typedef baum_i_look look;
 
+/* Bodies have a fill and stroke of COLOUR instead. */
 static const look LOOKS[BAUM_I_STYLE_COUNT] = {
+  [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
   [BAUM_I_GROUND] = {"none", "#78828c", 1.3, NULL},
-  [BAUM_I_WHEEL] = {NULL, NULL, 1.3, NULL},
-  [BAUM_I_BODY] = {NULL, NULL, 1.3, NULL}, /* see COLOUR */
+  [BAUM_I_WHEEL] = {"", "", 1.3, NULL},
+  [BAUM_I_BODY] = {"", "", 1.3, NULL},
   [BAUM_I_MARK] = {"none", "#59636e", 1.2, NULL},
   [BAUM_I_PITCH] = {"none", "#59636e", 1.2, "8 3 2 3"},
   [BAUM_I_SLOT] = {"#f4f6f8", "#59636e", 1.3, NULL},
@@ -46,8 +45,6 @@ static const char *const COLOUR[COLOURS][2] = {
   {"#a9c9ec", "#2563a8"}, {"#f5c396", "#b4560f"}, {"#a5dcc0", "#0c7a50"}, {"#dcb4e8", "#8d22a3"},
   {"#ead48a", "#86640a"}, {"#a3dbe5", "#0e7188"}, {"#f3b3be", "#b91c43"}, {"#c8ced6", "#4b5563"}};
 
-typedef baum_i_picture picture;
-
 /* ---- projection ---- */
 
 /* Transforms a point of a body to the axes right, up and towards the eye [m]. */
@@ -57,6 +54,11 @@ static void project(const picture *p, int body, const double point[3], double ou
   baum_i_turn(p->frames[body].axes, point, at);
   baum_i_add_scaled3(1.0, p->frames[body].r, at);
   baum_i_turn(p->view, at, out);
+}
+
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
+{
+  project(p, body, point, out);
 }
 
 void baum_i_picture_set_view(baum_i_picture *p)
@@ -106,11 +108,17 @@ static void project_end(const picture *p, const baum_i_shape *shape, double out[
   baum_i_add_scaled3(8.0 * p->drawing->unit / length, seen_vector, out);
 }
 
+/* Whether all points of a shape are places, not directions or lengths. */
+static bool has_places(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||
+         shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
+}
+
 static double mean_depth(const picture *p, const baum_i_shape *shape)
 {
-  bool pair = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
   double sum = 0.0, at[3];
-  int count = pair ? shape->count : 1;
+  int count = has_places(shape) ? shape->count : 1;
   for (int k = 0; k < count; k++) {
     project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
@@ -124,21 +132,33 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
+static void include_box(const picture *p, const baum_i_shape *shape, baum_i_box *box)
+{
+  const double *centre = point_of(p, shape, 0), *half = point_of(p, shape, 1);
+  for (int k = 0; k < 8; k++) {
+    double point[3], at[3];
+    for (int i = 0; i < 3; i++) {
+      point[i] = centre[i] + (k >> i & 1 ? half[i] : -half[i]);
+    }
+    project(p, shape->body, point, at);
+    include(at, 0.0, box);
+  }
+}
+
 static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_box *box)
 {
-  bool many = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
-  double at[3], radius = shape->radius;
+  double at[3];
   if (shape->form == BAUM_I_BOX) {
-    const double *half = point_of(p, shape, 1);
-    radius = sqrt(baum_i_dot3(half, half));
+    include_box(p, shape, box);
+    return;
   }
-  for (int k = 0; k < (many ? shape->count : 1); k++) {
+  for (int k = 0; k < (has_places(shape) ? shape->count : 1); k++) {
     project(p, shape->body, point_of(p, shape, k), at);
-    include(at, radius, box);
+    include(at, shape->radius, box);
   }
   if (shape->form == BAUM_I_BETWEEN || shape->form == BAUM_I_ARROW) {
     project_end(p, shape, at);
-    include(at, radius, box);
+    include(at, shape->radius, box);
   }
 }
 
@@ -157,13 +177,16 @@ void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const d
   put_number(p, (p->top - at[1]) * p->scale);
 }
 
-static look look_of(const baum_i_shape *shape)
+look baum_i_picture_look(const baum_i_shape *shape)
 {
   look found = LOOKS[shape->style];
-  if (!found.fill) {
+  if (shape->color) {
+    memcpy(found.fill, shape->color, sizeof found.fill);
+    baum_i_shade(found.fill, 0.55, found.stroke);
+  } else if (!*found.fill) {
     const char *const *colour = COLOUR[(shape->body + COLOURS - 1) % COLOURS];
-    found.fill = colour[0];
-    found.stroke = colour[1];
+    memcpy(found.fill, colour[0], sizeof found.fill);
+    memcpy(found.stroke, colour[1], sizeof found.stroke);
   }
   return found;
 }
@@ -192,7 +215,7 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
 static void put_line(const picture *p, const baum_i_shape *shape, int count, const double (*at)[3],
                      bool closed)
 {
-  look l = look_of(shape);
+  const look l = baum_i_picture_look(shape);
   double wide = 2.0 * shape->radius * p->scale;
   put_path(p, count, at, closed);
   if (wide <= 2.0 * l.width || strcmp(l.fill, "none") == 0) {
@@ -204,9 +227,15 @@ static void put_line(const picture *p, const baum_i_shape *shape, int count, con
   put_attributes(p, closed ? l.fill : "none", l.fill, wide - 2.0 * l.width, NULL);
 }
 
+void baum_i_picture_put_area(const picture *p, const look *l, int count, const double (*at)[3])
+{
+  put_path(p, count, at, true);
+  put_attributes(p, l->fill, l->stroke, l->width, l->dash);
+}
+
 static void put_circle(const picture *p, const baum_i_shape *shape, const double at[3])
 {
-  look l = look_of(shape);
+  const look l = baum_i_picture_look(shape);
   baum_i_put(p->out, "<circle cx=\"");
   put_number(p, (at[0] - p->left) * p->scale);
   baum_i_put(p->out, "\" cy=\"");
@@ -235,30 +264,28 @@ static void put_face(const picture *p, const baum_i_shape *shape, int axis, doub
     point[(axis + 2) % 3] += (k < 2 ? -1.0 : 1.0) * half[(axis + 2) % 3];
     project(p, shape->body, point, corners[k]);
   }
-  baum_i_shape face = *shape;
-  face.radius = 0.0;
-  put_line(p, &face, 4, (const double(*)[3])corners, true);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, 4, (const double(*)[3])corners);
 }
 
 static void put_disc(const picture *p, const baum_i_shape *shape)
 {
-  double at[CIRCLE][3], x[3], y[3];
+  double at[BAUM_I_CIRCLE][3], x[3], y[3];
   if (!p->drawing->spatial) {
     project(p, shape->body, point_of(p, shape, 0), at[0]);
     put_circle(p, shape, at[0]);
     return;
   }
   baum_i_complete_axes(point_of(p, shape, 1), x, y);
-  for (int k = 0; k < CIRCLE; k++) {
-    double angle = BAUM_I_REVOLUTION * k / CIRCLE, point[3];
+  for (int k = 0; k < BAUM_I_CIRCLE; k++) {
+    double angle = BAUM_I_REVOLUTION * k / BAUM_I_CIRCLE, point[3];
     memcpy(point, point_of(p, shape, 0), sizeof point);
     baum_i_add_scaled3(shape->radius * cos(angle), x, point);
     baum_i_add_scaled3(shape->radius * sin(angle), y, point);
     project(p, shape->body, point, at[k]);
   }
-  baum_i_shape flat = *shape;
-  flat.radius = 0.0;
-  put_line(p, &flat, CIRCLE, (const double(*)[3])at, true);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
 }
 
 /* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
@@ -349,16 +376,15 @@ static void put_points(const picture *p, const baum_i_shape *shape)
   baum_i_free(at);
 }
 
-static void put_shape(const picture *p, const baum_i_shape *shape)
+static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 {
   double at[3];
   project(p, shape->body, point_of(p, shape, 0), at);
-  baum_i_put(p->out, "<g><title>");
-  baum_i_put_user_text(p->out, shape->element->name, BAUM_I_XML);
-  baum_i_put(p->out, "</title>");
   switch (shape->form) {
   case BAUM_I_BALL: put_circle(p, shape, at); break;
   case BAUM_I_DISC: put_disc(p, shape); break;
+  case BAUM_I_CYLINDER: baum_i_picture_put_cylinder(p, shape); break;
+  case BAUM_I_MESH: baum_i_picture_put_triangle(p, shape, part); break;
   case BAUM_I_BETWEEN: put_between(p, shape); break;
   case BAUM_I_ARROW: put_arrow(p, shape); break;
   case BAUM_I_BOX:
@@ -370,20 +396,65 @@ static void put_shape(const picture *p, const baum_i_shape *shape)
   case BAUM_I_AREA:
   default: put_points(p, shape);
   }
-  baum_i_put(p->out, "</g>\n");
 }
 
 /* ---- the picture ---- */
 
+/* A shape, or a triangle of a mesh. In the plane, layers are shapes. In space, outlines of ground
+ * are behind all others, because the depth of a floor says little; symbols of forces are in
+ * front. */
 typedef struct order {
+  int layer;
   double depth;
   int shape;
+  int part;
 } order;
 
 static int compare(const void *a, const void *b)
 {
   const order *x = a, *y = b;
-  return x->depth != y->depth ? (x->depth > y->depth) - (x->depth < y->depth) : x->shape - y->shape;
+  if (x->layer != y->layer) {
+    return x->layer - y->layer;
+  }
+  if (x->depth != y->depth) {
+    return x->depth > y->depth ? 1 : -1;
+  }
+  return x->shape != y->shape ? x->shape - y->shape : x->part - y->part;
+}
+
+static int parts_of(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_MESH ? shape->triangle_count : 1;
+}
+
+static int layer_of(const picture *p, int k)
+{
+  const baum_i_style style = p->drawing->shapes[k].style;
+  const int in_space = style == BAUM_I_BASE ? 0 : style > BAUM_I_JOINT ? 2 + k : 1;
+  return p->drawing->spatial ? in_space : k;
+}
+
+/* Lists all parts in the order of drawing; returns their number, or -1 when out of memory. */
+static int sort_parts(const picture *p, order **out)
+{
+  int count = 0, room = 0;
+  for (int k = 0; k < p->drawing->shape_count; k++) {
+    room += parts_of(&p->drawing->shapes[k]);
+  }
+  order *orders = *out = baum_i_alloc((size_t)room, sizeof *orders);
+  if (!orders) {
+    return -1;
+  }
+  for (int k = 0; k < p->drawing->shape_count; k++) {
+    const baum_i_shape *shape = &p->drawing->shapes[k];
+    for (int part = 0; part < parts_of(shape); part++) {
+      double depth =
+        shape->form == BAUM_I_MESH ? baum_i_picture_depth(p, shape, part) : mean_depth(p, shape);
+      orders[count++] = (order){layer_of(p, k), depth, k, part};
+    }
+  }
+  qsort(orders, (size_t)count, sizeof *orders, compare);
+  return count;
 }
 
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box)
@@ -407,33 +478,30 @@ void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double belo
   p->size[1] = height * p->scale + 2.0 * MARGIN + below;
   baum_i_putf(p->out,
               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-              "viewBox=\"0 0 %.0f %.0f\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
+              "viewBox=\"0 0 %.0f %.0f\" stroke-width=\".7\" stroke-linecap=\"round\" "
+              "stroke-linejoin=\"round\">\n",
               p->size[0], p->size[1], p->size[0], p->size[1]);
 }
 
 baum_status baum_i_picture_put_shapes(const baum_i_picture *p)
 {
-  const int count = p->drawing->shape_count;
-  order *orders = baum_i_alloc((size_t)count, sizeof *orders);
-  if (!orders) {
+  order *orders;
+  const int count = sort_parts(p, &orders);
+  if (count < 0) {
     return baum_i_fail_memory();
   }
   for (int k = 0; k < count; k++) {
-    const baum_i_shape *shape = &p->drawing->shapes[k];
-    double depth = shape->style > BAUM_I_JOINT ? (double)INFINITY : mean_depth(p, shape);
-    orders[k] = (order){p->drawing->spatial ? depth : 0.0, k};
+    const baum_i_shape *shape = &p->drawing->shapes[orders[k].shape];
+    if (k == 0 || orders[k].shape != orders[k - 1].shape) {
+      baum_i_put(p->out, k ? "</g>\n<g><title>" : "<g><title>");
+      baum_i_put_user_text(p->out, shape->element->name, BAUM_I_XML);
+      baum_i_put(p->out, "</title>");
+    }
+    put_shape(p, shape, orders[k].part);
   }
-  qsort(orders, (size_t)count, sizeof *orders, compare);
-  for (int k = 0; k < count; k++) {
-    put_shape(p, &p->drawing->shapes[orders[k].shape]);
-  }
+  baum_i_put(p->out, count ? "</g>\n" : "");
   baum_i_free(orders);
   return BAUM_OK;
-}
-
-void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
-{
-  project(p, body, point, out);
 }
 
 const char *baum_i_picture_colour(int body)
@@ -489,8 +557,8 @@ static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_
   return status;
 }
 
-static baum_status make(const baum_mechanism *mechanism, const double *q, const char *call,
-                        baum_i_buffer *out)
+baum_status baum_i_put_svg(const baum_mechanism *mechanism, const double *q, const char *call,
+                           baum_i_buffer *out)
 {
   BAUM_I_TRY(check(mechanism, q, call));
   baum_i_drawing drawing;
@@ -506,7 +574,7 @@ baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q,
                                size_t capacity, size_t *size)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_text(&out, "baum_mechanism_svg", text, capacity, size);
   }
@@ -518,7 +586,7 @@ baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const doub
                                      const char *path)
 {
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_write_svg", &out);
+  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_write_svg", &out);
   if (status == BAUM_OK) {
     status = baum_i_give_file(&out, "baum_mechanism_write_svg", path);
   }

@@ -27,8 +27,9 @@ typedef struct symbol {
 static void draw(const symbol *s, baum_i_style style, baum_i_form form, int body, double radius,
                  int count, const double (*points)[3])
 {
-  baum_i_shape shape = {style, form, s->element, body, body, radius * s->drawing->unit, 0, 0};
-  baum_i_draw(s->drawing, shape, count, points);
+  const double size = radius * s->drawing->unit;
+  baum_i_draw(s->drawing, baum_i_shape_of(style, form, s->element, body, body, size), count,
+              points);
 }
 
 static void draw_between(const symbol *s, baum_i_style style, const baum_i_place *from, int side,
@@ -37,9 +38,8 @@ static void draw_between(const symbol *s, baum_i_style style, const baum_i_place
   const double *a = from->point[side];
   const double *b = to->point[1];
   const double points[2][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
-  baum_i_shape shape = {
-    style, BAUM_I_BETWEEN, s->element, from->body[side], to->body[1], radius * s->drawing->unit, 0,
-    0};
+  const baum_i_shape shape = baum_i_shape_of(style, BAUM_I_BETWEEN, s->element, from->body[side],
+                                             to->body[1], radius * s->drawing->unit);
   baum_i_draw(s->drawing, shape, 2, points);
 }
 
@@ -428,7 +428,8 @@ static void draw_vector(const symbol *s, baum_i_style style, baum_body_id id, bo
 {
   const int body = baum_i_body_index(s->drawing->mechanism, id);
   const double points[2][3] = {{point[0], point[1], point[2]}, {vector[0], vector[1], vector[2]}};
-  baum_i_shape shape = {style, BAUM_I_ARROW, s->element, body, follows ? body : 0, 0.0, 0, 0};
+  const baum_i_shape shape =
+    baum_i_shape_of(style, BAUM_I_ARROW, s->element, body, follows ? body : 0, 0.0);
   if (baum_i_dot3(vector, vector) > 0.0) {
     baum_i_draw(s->drawing, shape, 2, points);
   }

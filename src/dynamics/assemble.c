@@ -162,15 +162,14 @@ static baum_status fail_inconsistent(const assembly *s, const double *rows, cons
   char text[BAUM_I_MESSAGE_SIZE] = "";
   size_t used = 0;
   int last = -1;
-  for (int i = 0; i < m->nc && used + BAUM_I_LABEL_SIZE + 64 < sizeof text; i++) {
+  for (int i = 0; i < m->nc && used + 192 < sizeof text; i++) {
     int joint = baum_i_row_joint(m, i);
     if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
       continue;
     }
-    char label[BAUM_I_LABEL_SIZE];
     used +=
       (size_t)baum_i_print(text + used, sizeof text - used, "%s%s (%.3g %s)", used ? ", " : "",
-                           baum_i_joint_label(m, joint, label), rows[i], unit);
+                           baum_i_joint_label(m, joint).text, rows[i], unit);
     last = joint;
   }
   return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s", s->t,
@@ -278,11 +277,10 @@ static baum_status check_sides(const assembly *s)
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_joint *joint = m->joints[k];
     if (joint->type->is_reversed && joint->type->is_reversed(joint, &s->w->point)) {
-      char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
                          "t = %.9g s: assembly leads to opposite axes in %s; give a design "
                          "configuration in which they point the same way",
-                         s->t, baum_i_joint_label(m, k, label));
+                         s->t, baum_i_joint_label(m, k).text);
     }
   }
   return BAUM_OK;

@@ -287,7 +287,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
   bool is_careful = kkt->present_rung >= RUNG_CAREFUL || kkt->present_rung == kkt->top_rung;
-  return is_careful && baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size);
+  return is_careful &&
+         baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size, present_rcond(kkt));
 }
 
 /* Tells whether a matrix without full rank was solved by least squares. */

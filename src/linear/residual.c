@@ -12,7 +12,9 @@
  * relative size eps^2, which remain after one refinement, are always compared in this way, and rows
  * of relative size eps only by baum_i_residual_is_noise(). A residual below eps^2 of the largest
  * row always passes, because rows that differ from zero only by rounding, such as those of a guide
- * along an axis of the ground, cannot be solved more accurately. */
+ * along an axis of the ground, cannot be solved more accurately. In baum_i_residual_is_noise() it
+ * may be eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest row,
+ * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). */
 #include "linear/residual.h"
 
 #include <float.h>
@@ -123,9 +125,9 @@ static double largest_scaled(int n, const double *scale, const double *x)
 }
 
 /* Tests the residual. Rows of scaled size up to `negligible` times the largest are compared with
- * the largest. */
+ * the largest. A residual of at most `least` times the largest row always passes. */
 static bool is_rounding(int n, const double *scale, const double *residual, const double *size,
-                        double negligible)
+                        double negligible, double least)
 {
   double largest = -1.0; /* computed on first use */
   for (int i = 0; i < n; i++) {
@@ -136,7 +138,7 @@ static bool is_rounding(int n, const double *scale, const double *residual, cons
       largest = largest_scaled(n, scale, size);
     }
     bool is_negligible = scale[i] * size[i] <= negligible * largest;
-    double most = is_negligible ? rounding : nothing;
+    double most = is_negligible ? rounding : least;
     if (!(scale[i] * fabs(residual[i]) <= most * largest)) {
       return false;
     }
@@ -147,13 +149,13 @@ static bool is_rounding(int n, const double *scale, const double *residual, cons
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size)
 {
-  return is_rounding(n, scale, residual, size, noise_of_noise);
+  return is_rounding(n, scale, residual, size, noise_of_noise, nothing);
 }
 
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
-                              const double *size)
+                              const double *size, double rcond)
 {
-  return is_rounding(n, scale, residual, size, n * noise);
+  return is_rounding(n, scale, residual, size, n * noise, fmin(nothing / rcond, rounding));
 }
 
 bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,

@@ -15,9 +15,9 @@ bool baum_i_residual_is_rounding(int n, const double *scale, const double *resid
                                  const double *size);
 
 /* The same, but a row whose scaled size is at rounding level of the largest row is compared with
- * the largest row. */
+ * the largest row. rcond: reciprocal condition number of the scaled matrix. */
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
-                              const double *size);
+                              const double *size, double rcond);
 
 /* Tells whether each scaled |residual_i| is at most `tolerance` times the largest scaled |b_i|. */
 bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,

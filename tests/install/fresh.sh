@@ -1,17 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: fresh.sh ROOT CLONE [STAGE...]
-# As root: makes a bare Debian 12 in ROOT and runs the two commands of the README there, on the clone CLONE of the
-# project, with the STAGEs of tests/run.sh. Uses the mirror, proxy and certificates that apt and pip use here. Removes
-# ROOT at the end; after a failure it stays, without mounts.
+# usage: fresh.sh RELEASE ROOT CLONE COMMAND...
+# As root: makes a bare Debian RELEASE (bookworm, trixie) in ROOT and runs the COMMANDs there, in the clone CLONE of the
+# project. Uses the mirror, proxy and certificates that apt and pip use here. Removes ROOT at the end; after a failure
+# it stays, without mounts.
 set -eu
-root=$1
-clone=$2
-shift 2
-release=bookworm
+release=$1
+root=$2
+clone=$3
+shift 3
 
-mirror=$(apt-get indextargets --format '$(REPO_URI)' "Release: $release" | head -n 1)
-[ -n "$mirror" ] || { echo "apt has no source for Debian $release here: add one to /etc/apt"; exit 1; }
+mirror=$(apt-get indextargets --format '$(REPO_URI)' "Release: bookworm" | head -n 1)
+[ -n "$mirror" ] || { echo "apt has no source for Debian bookworm here: add one to /etc/apt"; exit 1; }
 
 # Mounts and processes are in separate namespaces and end with these.
 apart="unshare --mount --pid --fork --kill-child"
@@ -44,9 +44,9 @@ inside() {
   $apart --mount-proc="$root/proc" chroot "$root" env -i --chdir=/root/baum "$@"
 }
 
-inside sh examples/run.sh
-examples=$(date +%s)
-echo "examples/run.sh after $((examples - made)) s"
-inside sh tests/run.sh "$@"
-echo "tests/run.sh after $(($(date +%s) - examples)) s"
+for command in "$@"; do
+  begun=$(date +%s)
+  inside sh -c "$command"
+  echo "$command: ok after $(($(date +%s) - begun)) s"
+done
 rm -rf "$root"

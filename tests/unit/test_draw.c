@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawings and pages: every kind of element draws itself, the shape of a body follows from its
+/* Drawings and pages: every kind of element has its drawing, the shape of a body follows from its
  * joints, and names that a user gives cannot inject markup. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -137,7 +137,7 @@ static void add_slider(baum_mechanism *m, baum_body_id body)
   must(baum_mechanism_add_planar_translational(m, &def, NULL));
 }
 
-/* A crank with two pins, a rod with three, a block on a guide, and a wheel. */
+/* A crank with two pins, a rod with three pins, a block on a guide, and a wheel. */
 static baum_mechanism *make_crank(void)
 {
   baum_mechanism *m;
@@ -169,6 +169,24 @@ static void bodies_look_as_their_joints_make_them(void **state)
   assert_int_equal(shapes_of(&drawing, "O", BAUM_I_GROUND, BAUM_I_LINE), 2); /* a foot, hatches */
   assert_int_equal(shapes_of(&drawing, "A", BAUM_I_GROUND, BAUM_I_LINE), 0);
   assert_int_equal(shapes_of(&drawing, "guide", BAUM_I_GROUND, BAUM_I_LINE), 1);
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
+static void links_of_a_long_chain_are_longer_than_wide(void **state)
+{
+  (void)state;
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id before = BAUM_GROUND;
+  for (int k = 0; k < 50; k++) {
+    baum_body_id body = add_body(m, NULL, k + 0.5, 0.0);
+    add_pin(m, NULL, before, body, k, 0.0);
+    before = body;
+  }
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  ASSERT_NEAR(drawing.unit, 0.125 * 0.5, 1e-14, 0.0);
   baum_i_drawing_release(&drawing);
   baum_mechanism_destroy(m);
 }
@@ -241,7 +259,7 @@ static void names_stay_texts(void **state)
   const baum_channel channel = baum_channel_of(BAUM_Q);
   const char *label = HOSTILE;
   baum_page page = baum_page_default();
-  page.title = "</script></title>\n\t\x01\xff"; /* control characters, no UTF-8 */
+  page.title = "</script></title>\n\t\x01\xff"; /* control characters, invalid UTF-8 */
   page.times = page.plots = page.mark_times = &time;
   page.count = page.channel_count = page.plot_count = page.mark_count = 1;
   page.channels = &channel;
@@ -417,7 +435,7 @@ static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
   }
   assert_in_range(count, 300, 600);
   assert_non_null(strstr(text, "[-3.5,7.25]"));
-  assert_non_null(strstr(text, "[0,4999]")); /* begin and end */
+  assert_non_null(strstr(text, "[0,4999]")); /* range of times */
   baum_mechanism_destroy(m);
 }
 
@@ -427,6 +445,7 @@ int main(void)
     cmocka_unit_test(every_element_with_a_place_is_drawn),
     cmocka_unit_test(all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles),
     cmocka_unit_test(bodies_look_as_their_joints_make_them),
+    cmocka_unit_test(links_of_a_long_chain_are_longer_than_wide),
     cmocka_unit_test(inner_points_are_not_part_of_an_outline),
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
     cmocka_unit_test(names_stay_texts),

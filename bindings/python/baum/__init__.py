@@ -61,6 +61,7 @@ from .integrators import (
 )
 from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
+from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
@@ -94,10 +95,13 @@ __all__ = [
     "AccuracyWarning",
     "Amplification",
     "Body",
+    "Box",
     "BranchWarning",
     "Channel",
+    "Circle",
     "ContradictionWarning",
     "Counters",
+    "Cylinder",
     "DoubtWarning",
     "EnergyAccount",
     "EnergyAccountWarning",
@@ -113,9 +117,12 @@ __all__ = [
     "Joint",
     "LooseVelocitiesWarning",
     "Mechanism",
+    "Mesh",
     "Mobility",
     "NearSingular",
     "NoisyDerivativesWarning",
+    "Outline",
+    "Polygon",
     "Recommendation",
     "RedundantRowsWarning",
     "ReferenceSamples",
@@ -126,6 +133,7 @@ __all__ = [
     "SingularStartWarning",
     "SingularityCrossedWarning",
     "Sizes",
+    "Sphere",
     "Status",
     "Study",
     "StudyEntry",

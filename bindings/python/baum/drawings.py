@@ -7,6 +7,7 @@ import html
 import os
 import sys
 import tempfile
+import warnings
 import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -69,11 +70,13 @@ class Page:
         Path(path).write_text(self._page, encoding="utf-8")
 
     def open(self) -> None:
-        """Open the page in the browser, from a temporary file that is not deleted."""
+        """Open the page in the browser, from a temporary file that is not deleted. Warns if there
+        is no browser."""
         handle, path = tempfile.mkstemp(prefix="baum-", suffix=".html")
         os.close(handle)
         self.save(path)
-        webbrowser.open(Path(path).as_uri())
+        if not webbrowser.open(Path(path).as_uri()):
+            warnings.warn(f"no browser was found; the page is {path}", stacklevel=3)
 
 
 def is_notebook() -> bool:

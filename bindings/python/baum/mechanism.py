@@ -147,9 +147,11 @@ class Mechanism(Adding, AddingInSpace):
         return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
     def _repr_html_(self) -> str:
-        """A table of the elements for notebooks."""
+        """A drawing and a table of the elements for notebooks."""
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
-        return _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        drawing = str(self.draw())
+        return drawing + table if "<title>" in drawing else table  # nothing has a place
 
     def _count(self, family: str) -> int:
         return sum(
@@ -329,12 +331,12 @@ class Mechanism(Adding, AddingInSpace):
         With another position, angle or orientation of a body, the copy is the same mechanism in
         another design configuration: joints and forces keep their points and axes in body axes, and
         they keep the lengths, angles and offsets that they took from the design configuration.
-        Definitions in the copy contain these numbers. Assembly closes the joints, which may move
-        the changed body too: give position and angle that fit, or held=True. A joint or force whose
-        `point`, `point_a` or `point_b` is also changed is placed in the new design configuration.
-        Angles of spatial joints are 0 in the new design configuration. ValueError if this would
-        change an angle that a driver, a coupling or a spring uses, or the relative orientation of a
-        spatial weld or prismatic joint.
+        In the copy's definitions all of these are given as numbers. Assembly closes the joints,
+        which may move the changed body too: give position and angle that fit, or held=True. A joint
+        or force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
+        configuration. Angles of spatial joints are 0 in the new design configuration. ValueError if
+        this would change an angle that a driver, a coupling or a spring uses, or the relative
+        orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy

@@ -79,19 +79,20 @@ def draw(svg: str, figure: Figure) -> None:
     place = inches.translate(*room / 2).scale(1 / INCH) + figure.dpi_scale_trans
     figure.clear()
     for element in root.iter():
-        artist = _artist(element, zoom)
+        artist = _artist(element, {**root.attrib, **element.attrib}, zoom)
         if artist is not None:
             artist.set_transform(place)
             figure.add_artist(artist)
 
 
-def _artist(element: xml.Element, zoom: float) -> Any:
-    """A patch or text of Matplotlib; None for an element without a picture."""
+def _artist(element: xml.Element, given: dict[str, str], zoom: float) -> Any:
+    """A patch or text of Matplotlib; None for an element without a picture. given: its attributes
+    and those that it inherits."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
     from matplotlib.text import Text
 
-    tag, given = _tag(element), element.attrib
+    tag = _tag(element)
     if tag in ("svg", "g", "title"):
         return None
     if tag == "text":
