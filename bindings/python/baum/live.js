@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a page of src/draw/page.html follow a run in progress: live.py adds this script to the page.
+// Lets a page of src/draw/page.html follow a run in progress: _server.py adds this script to the page.
 // The server sends frames; the page appends them to its table, so that the time bar grows.
 'use strict';
 {
