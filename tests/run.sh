@@ -174,6 +174,8 @@ stage_browser() {
     "$venv/bin/python" tests/browser/check_motion.py build/browser
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_live.py build/browser
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$venv/bin/python" tests/browser/check_shapes.py build/browser
 }
 
 # An input that fails stays in build/fuzz as crash-*: correct the error and add it to tests/fuzz/corpus.

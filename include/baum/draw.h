@@ -108,7 +108,9 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 /* ---- one configuration ----------------------------------------------------------------------- */
 
 /** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
- *  view from above. A red line joins the two points of a joint that is open.
+ *  view from above. Red lines show where a joint is open: between points that should coincide, from
+ *  a point to the line, plane or curve on which it should be, and between axes that should be
+ *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -127,7 +129,26 @@ BAUM_API baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const d
 BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
                                               const char *path);
 
+/** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
+ *  configuration at which assembly gave up: red lines show the joints that contradict each other.
+ *  @param      mechanism  need not be frozen
+ *  @param[out] text       (capacity) as in baum_mechanism_svg()
+ *  @param      capacity   [byte]
+ *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
+ *  @return  BAUM_OK, also if the constraints contradict each other; BAUM_ERR_ARGUMENT,
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY, and what
+ *           baum_mechanism_freeze() returns if the mechanism is not frozen */
+BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanism, char *text,
+                                                  size_t capacity, size_t *size);
+
 /* ---- a run ----------------------------------------------------------------------------------- */
+
+/** What a mark on the time axis stands for; each kind has a colour and a shape. */
+typedef enum baum_mark_kind {
+  BAUM_MARK_WARNING = 0,
+  BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
+  BAUM_MARK_EVENT = 2
+} baum_mark_kind;
 
 /** What a page shows: samples of a run as baum_simulation_sample() records them. All pointers
  *  belong to the caller and are read only during the call. */
@@ -154,7 +175,9 @@ typedef struct baum_page {
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
   const char *const *mark_texts; /**< (mark_count) Default: NULL. */
-  int32_t mark_count;            /**< [-] >= 0. Default: 0. */
+  /** (mark_count) of type baum_mark_kind. Default: NULL, all BAUM_MARK_WARNING. */
+  const int32_t *mark_kinds;
+  int32_t mark_count; /**< [-] >= 0. Default: 0. */
 } baum_page;
 
 /** Set every field to its default.

@@ -2,6 +2,7 @@
 /* The list of shapes of a mechanism. */
 #include "draw/drawing.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -21,12 +22,12 @@ const char *baum_i_style_name(baum_i_style style)
 
 const char *baum_i_form_name(baum_i_form form)
 {
-  static const char *const names[] = {"line",     "area", "disc",    "ball", "box",
-                                      "cylinder", "mesh", "between", "arrow"};
+  static const char *const names[] = {"line",  "area",     "disc",     "ball",
+                                      "box",   "cylinder", "mesh",     "between",
+                                      "arrow", "to line",  "to plane", "to sphere"};
   return names[form];
 }
 
-/* Keeps the shapes in the order of their styles. */
 void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const double (*points)[3])
 {
   const int wanted = drawing->point_count + count;
@@ -43,11 +44,20 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shape.count = count;
   memcpy(grown + shape.first, points, (size_t)count * sizeof *points);
   drawing->point_count = wanted;
-  int k = drawing->shape_count++;
-  for (; k > 0 && shapes[k - 1].style > shape.style; k--) {
-    shapes[k] = shapes[k - 1];
+  shapes[drawing->shape_count++] = shape;
+}
+
+/* Shapes of one style keep the order in which they were added, which is that of their points. */
+static int compare(const void *a, const void *b)
+{
+  const baum_i_shape *x = a, *y = b;
+  if (x->style != y->style) {
+    return x->style < y->style ? -1 : 1;
   }
-  shapes[k] = shape;
+  if (x->style == BAUM_I_WHEEL && x->radius != y->radius) {
+    return x->radius > y->radius ? -1 : 1;
+  }
+  return x->first - y->first;
 }
 
 /* ---- the whole ---- */
@@ -147,20 +157,25 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   out->place_count = m->joint_count + m->force_count;
   out->design = baum_i_alloc((size_t)m->body_count + 1, sizeof *out->design);
   out->places = baum_i_alloc((size_t)out->place_count, sizeof *out->places);
-  if (!out->design || !out->places) {
+  out->ends = baum_i_alloc(2 * (size_t)out->place_count, sizeof *out->ends);
+  out->first_end = baum_i_alloc((size_t)m->body_count + 2, sizeof *out->first_end);
+  out->gears = baum_i_alloc((size_t)m->joint_count, sizeof *out->gears);
+  if (!out->design || !out->places || !out->ends || !out->first_end || !out->gears) {
     return baum_i_fail_memory();
   }
   for (int k = 0; k <= m->body_count; k++) {
     out->design[k] = baum_i_spatial_design_frame(m, k);
   }
-  BAUM_I_TRY(baum_i_find_places(out));
+  baum_i_find_places(out);
   out->unit = find_unit(out);
   for (int k = 0; k <= m->body_count; k++) {
     baum_i_draw_body(out, k);
   }
   for (int k = 0; k < out->place_count; k++) {
     baum_i_draw_symbol(out, k);
+    baum_i_draw_gaps(out, &out->places[k]);
   }
+  qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
@@ -168,6 +183,9 @@ void baum_i_drawing_release(baum_i_drawing *drawing)
 {
   baum_i_free(drawing->design);
   baum_i_free(drawing->places);
+  baum_i_free(drawing->ends);
+  baum_i_free(drawing->first_end);
+  baum_i_free(drawing->gears);
   baum_i_free(drawing->shapes);
   baum_i_free(drawing->points);
 }

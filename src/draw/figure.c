@@ -316,14 +316,13 @@ static baum_status put_figure(figure *f, int64_t sample)
 }
 
 static baum_status check_sample(const baum_mechanism *m, const baum_page *page, int64_t sample,
-                                const char *call, int *width)
+                                const char *call, int width)
 {
-  BAUM_I_TRY(baum_i_page_check(m, page, call, width));
   if (sample < 0 || sample >= page->count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: sample is %lld, must be 0 to %lld", call,
                        (long long)sample, (long long)page->count - 1);
   }
-  const double *q = page->rows + sample * *width + baum_i_page_positions(m, page);
+  const double *q = page->rows + sample * width + baum_i_page_positions(m, page);
   for (int k = 0; k < m->nq; k++) {
     if (!isfinite(q[k])) {
       return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: q[%d] is %g, must be finite", call, k, q[k]);
@@ -357,9 +356,11 @@ baum_status baum_page_svg(const baum_mechanism *mechanism, const baum_page *page
 {
   const char *call = "baum_page_svg";
   int width;
-  BAUM_I_TRY(check_sample(mechanism, page, sample, call, &width));
+  baum_page checked;
+  BAUM_I_TRY(baum_i_page_check(mechanism, page, call, &checked, &width));
+  BAUM_I_TRY(check_sample(mechanism, &checked, sample, call, width));
   baum_i_buffer out = {0};
-  baum_status status = make(mechanism, page, sample, width, &out);
+  baum_status status = make(mechanism, &checked, sample, width, &out);
   if (status == BAUM_OK) {
     status = baum_i_give_text(&out, call, text, capacity, size);
   }

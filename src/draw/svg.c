@@ -5,13 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <baum/draw.h>
-
 #include "base/alloc.h"
-#include "base/file.h"
-#include "draw/picture.h"
 #include "draw/svg.h"
-#include "mechanism/identify.h"
 
 enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22 };
 static const double MARGIN = 12.0;
@@ -33,7 +28,7 @@ static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_DAMPER] = {"none", "#78828c", 1.7, NULL},
   [BAUM_I_ROD] = {"#d5dae0", "#59636e", 1.2, NULL},
   [BAUM_I_JOINT] = {"#f4f6f8", "#3f4750", 1.3, NULL},
-  [BAUM_I_COUPLING] = {"none", "#78828c", 1.3, "2 4"},
+  [BAUM_I_COUPLING] = {"none", "#78828c", 1.6, "5 4"},
   [BAUM_I_DRIVER] = {"none", "#0f9d6b", 2.0, NULL},
   [BAUM_I_LOAD] = {"none", "#d9480f", 2.0, NULL},
   [BAUM_I_MOMENT] = {"none", "#8b5cf6", 2.0, NULL},
@@ -51,8 +46,7 @@ static const char *const COLOUR[COLOURS][2] = {
 static void project(const picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
-  baum_i_turn(p->frames[body].axes, point, at);
-  baum_i_add_scaled3(1.0, p->frames[body].r, at);
+  baum_i_to_ground(&p->frames[body], point, at);
   baum_i_turn(p->view, at, out);
 }
 
@@ -75,8 +69,14 @@ void baum_i_picture_set_view(baum_i_picture *p)
   for (int i = 0; i < 3 && size > 0.0; i++) {
     up[i] = -g[i] / size;
   }
-  /* x and y are horizontal. If up is an axis of the ground, they are the next two axes. */
-  baum_i_complete_axes(up, x, y);
+  /* x and y are horizontal, as in page.html. */
+  const double other[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0.0};
+  baum_i_cross(up, other, y);
+  double length = sqrt(baum_i_dot3(y, y));
+  for (int i = 0; i < 3; i++) {
+    y[i] /= length;
+  }
+  baum_i_cross(y, up, x);
   for (int i = 0; i < 3; i++) {
     double right = cos(TURN) * x[i] + sin(TURN) * y[i];
     double front = sin(TURN) * x[i] - cos(TURN) * y[i];
@@ -93,19 +93,20 @@ static const double *point_of(const picture *p, const baum_i_shape *shape, int k
   return p->drawing->points[shape->first + k];
 }
 
-/* Projects the second end of a line between bodies or of an arrow. */
-static void project_end(const picture *p, const baum_i_shape *shape, double out[3])
+/* Projects the ends of a shape that connects bodies. Returns the length [m]. */
+static double project_ends(const picture *p, const baum_i_shape *shape, double out[2][3])
 {
-  if (shape->form == BAUM_I_BETWEEN) {
-    project(p, shape->other, point_of(p, shape, 1), out);
-    return;
-  }
-  double vector[3], seen_vector[3]; /* the arrow is 8 units long */
-  baum_i_turn(p->frames[shape->other].axes, point_of(p, shape, 1), vector);
-  baum_i_turn(p->view, vector, seen_vector);
-  project(p, shape->body, point_of(p, shape, 0), out);
-  double length = sqrt(baum_i_dot3(vector, vector));
-  baum_i_add_scaled3(8.0 * p->drawing->unit / length, seen_vector, out);
+  double at[2][3];
+  baum_i_find_ends(p->drawing, p->frames, shape, at[0], at[1]);
+  baum_i_turn(p->view, at[0], out[0]);
+  baum_i_turn(p->view, at[1], out[1]);
+  baum_i_add_scaled3(-1.0, at[0], at[1]);
+  return sqrt(baum_i_dot3(at[1], at[1]));
+}
+
+static bool connects(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
 /* Whether all points of a shape are places, not directions or lengths. */
@@ -115,21 +116,32 @@ static bool has_places(const baum_i_shape *shape)
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-static double mean_depth(const picture *p, const baum_i_shape *shape)
+/* Bars count as far away as their farther end, so that the joints at both ends cover them. Other
+ * shapes count as their mean. */
+static double depth_of(const picture *p, const baum_i_shape *shape)
 {
-  double sum = 0.0, at[3];
+  bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
+  double sum = 0.0, least = INFINITY, at[3];
   int count = has_places(shape) ? shape->count : 1;
   for (int k = 0; k < count; k++) {
     project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
+    least = fmin(least, at[2]);
   }
-  return sum / count + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
+  return (bar ? least : sum / count) + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
 }
 
 static void include(const double at[3], double radius, baum_i_box *box)
 {
   baum_i_box_include(box, at[0] - radius, at[1] - radius, 0.0);
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
+}
+
+/* A gap is only shown if it is long enough to be seen. */
+static bool is_shown(const picture *p, const baum_i_shape *shape)
+{
+  double ends[2][3];
+  return shape->style != BAUM_I_GAP || project_ends(p, shape, ends) > 0.2 * p->drawing->unit;
 }
 
 static void include_box(const picture *p, const baum_i_shape *shape, baum_i_box *box)
@@ -152,12 +164,15 @@ static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_bo
     include_box(p, shape, box);
     return;
   }
+  if (connects(shape)) {
+    double ends[2][3];
+    (void)project_ends(p, shape, ends);
+    include(ends[0], shape->radius, box);
+    include(ends[1], shape->radius, box);
+    return;
+  }
   for (int k = 0; k < (has_places(shape) ? shape->count : 1); k++) {
     project(p, shape->body, point_of(p, shape, k), at);
-    include(at, shape->radius, box);
-  }
-  if (shape->form == BAUM_I_BETWEEN || shape->form == BAUM_I_ARROW) {
-    project_end(p, shape, at);
     include(at, shape->radius, box);
   }
 }
@@ -289,16 +304,19 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
 }
 
 /* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
- * radii. */
+ * radii. A third point of the shape moves all except the ends to the left. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
   double at[COIL][3];
   const double d[2] = {ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]};
-  const double across = shape->radius / hypot(d[0], d[1]);
+  const double length = hypot(d[0], d[1]);
+  const double shift = shape->count > 2 ? point_of(p, shape, 2)[1] : 0.0;
   for (int k = 0; k < count; k++) {
-    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * xy[k][1] * d[1];
-    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * xy[k][1] * d[0];
+    bool inner = xy[k][0] > 0.0 && xy[k][0] < 1.0;
+    double across = (shape->radius * xy[k][1] + (inner ? shift : 0.0)) / length;
+    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * d[1];
+    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * d[0];
   }
   baum_i_shape thin = *shape;
   thin.radius = 0.0;
@@ -319,25 +337,24 @@ static void put_coil(const picture *p, const baum_i_shape *shape, const double (
 
 static void put_damper(const picture *p, const baum_i_shape *shape, const double (*ends)[3])
 {
-  static const double rod[2][2] = {{0.0, 0.0}, {0.3, 0.0}};
+  static const double rod[3][2] = {{0.0, 0.0}, {0.15, 0.0}, {0.3, 0.0}};
   static const double cylinder[4][2] = {{0.7, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {0.7, 1.0}};
-  static const double piston[4][2] = {{1.0, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
-  put_along(p, shape, ends, 2, rod);
+  static const double piston[5][2] = {{1.0, 0.0}, {0.85, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
+  put_along(p, shape, ends, 3, rod);
   put_along(p, shape, ends, 4, cylinder);
-  put_along(p, shape, ends, 4, piston);
+  put_along(p, shape, ends, 5, piston);
 }
 
 static void put_between(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
-  project(p, shape->body, point_of(p, shape, 0), ends[0]);
-  project_end(p, shape, ends[1]);
-  double length = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
-  if (length > 0.0 && shape->style == BAUM_I_SPRING) {
+  (void)project_ends(p, shape, ends);
+  double seen = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+  if (seen > 0.0 && shape->style == BAUM_I_SPRING) {
     put_coil(p, shape, (const double(*)[3])ends);
-  } else if (length > 0.0 && shape->style == BAUM_I_DAMPER) {
+  } else if (seen > 0.0 && shape->style == BAUM_I_DAMPER) {
     put_damper(p, shape, (const double(*)[3])ends);
-  } else if (shape->style != BAUM_I_GAP || length > 0.2 * p->drawing->unit) {
+  } else {
     put_line(p, shape, 2, (const double(*)[3])ends, false);
   }
 }
@@ -346,13 +363,13 @@ static void put_between(const picture *p, const baum_i_shape *shape)
 static void put_arrow(const picture *p, const baum_i_shape *shape)
 {
   static const double tip[4][2] = {{0.0, 0.0}, {1.2, 0.5}, {0.0, 0.0}, {1.2, -0.5}};
-  double from[3], to[3], at[9][3];
-  project(p, shape->body, point_of(p, shape, 0), from);
-  project_end(p, shape, to);
+  double ends[2][3], at[9][3];
+  (void)project_ends(p, shape, ends);
+  const double *from = ends[0], *to = ends[1];
   const double d[2] = {to[0] - from[0], to[1] - from[1]};
   const double size = p->drawing->unit / fmax(hypot(d[0], d[1]), p->drawing->unit);
   const int count = shape->style == BAUM_I_MOMENT ? 9 : 5;
-  memcpy(at[0], from, sizeof from);
+  memcpy(at[0], from, sizeof at[0]);
   for (int k = 1; k < count; k++) {
     double back = size * (tip[(k - 1) % 4][0] + (k > 4 ? 0.8 : 0.0));
     double side = size * tip[(k - 1) % 4][1];
@@ -360,6 +377,15 @@ static void put_arrow(const picture *p, const baum_i_shape *shape)
     at[k][1] = to[1] - back * d[1] - side * d[0];
   }
   put_line(p, shape, count, (const double(*)[3])at, false);
+}
+
+static void put_connection(const picture *p, const baum_i_shape *shape)
+{
+  if (shape->form == BAUM_I_ARROW) {
+    put_arrow(p, shape);
+  } else {
+    put_between(p, shape);
+  }
 }
 
 static void put_points(const picture *p, const baum_i_shape *shape)
@@ -380,21 +406,22 @@ static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 {
   double at[3];
   project(p, shape->body, point_of(p, shape, 0), at);
-  switch (shape->form) {
-  case BAUM_I_BALL: put_circle(p, shape, at); break;
-  case BAUM_I_DISC: put_disc(p, shape); break;
-  case BAUM_I_CYLINDER: baum_i_picture_put_cylinder(p, shape); break;
-  case BAUM_I_MESH: baum_i_picture_put_triangle(p, shape, part); break;
-  case BAUM_I_BETWEEN: put_between(p, shape); break;
-  case BAUM_I_ARROW: put_arrow(p, shape); break;
-  case BAUM_I_BOX:
+  if (connects(shape)) {
+    put_connection(p, shape);
+  } else if (shape->form == BAUM_I_BALL) {
+    put_circle(p, shape, at);
+  } else if (shape->form == BAUM_I_DISC) {
+    put_disc(p, shape);
+  } else if (shape->form == BAUM_I_CYLINDER) {
+    baum_i_picture_put_cylinder(p, shape);
+  } else if (shape->form == BAUM_I_MESH) {
+    baum_i_picture_put_triangle(p, shape, part);
+  } else if (shape->form == BAUM_I_BOX) {
     for (int face = 0; face < 6; face++) {
       put_face(p, shape, face / 2, face % 2 ? 1.0 : -1.0);
     }
-    break;
-  case BAUM_I_LINE:
-  case BAUM_I_AREA:
-  default: put_points(p, shape);
+  } else {
+    put_points(p, shape);
   }
 }
 
@@ -447,9 +474,10 @@ static int sort_parts(const picture *p, order **out)
   }
   for (int k = 0; k < p->drawing->shape_count; k++) {
     const baum_i_shape *shape = &p->drawing->shapes[k];
-    for (int part = 0; part < parts_of(shape); part++) {
+    const int parts = is_shown(p, shape) ? parts_of(shape) : 0;
+    for (int part = 0; part < parts; part++) {
       double depth =
-        shape->form == BAUM_I_MESH ? baum_i_picture_depth(p, shape, part) : mean_depth(p, shape);
+        shape->form == BAUM_I_MESH ? baum_i_picture_depth(p, shape, part) : depth_of(p, shape);
       orders[count++] = (order){layer_of(p, k), depth, k, part};
     }
   }
@@ -460,7 +488,9 @@ static int sort_parts(const picture *p, order **out)
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box)
 {
   for (int k = 0; k < p->drawing->shape_count; k++) {
-    include_shape(p, &p->drawing->shapes[k], box);
+    if (is_shown(p, &p->drawing->shapes[k])) {
+      include_shape(p, &p->drawing->shapes[k], box);
+    }
   }
 }
 
@@ -509,87 +539,15 @@ const char *baum_i_picture_colour(int body)
   return COLOUR[(body + COLOURS - 1) % COLOURS][1];
 }
 
-static baum_status put_picture(picture *p)
+baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
+                               baum_i_buffer *out)
 {
+  picture p = {.drawing = drawing, .frames = frames, .out = out};
   baum_i_box box = BAUM_I_EMPTY_BOX;
-  baum_i_picture_set_view(p);
-  baum_i_picture_include(p, &box);
-  baum_i_picture_begin(p, &box, 0.0);
-  BAUM_I_TRY(baum_i_picture_put_shapes(p));
-  baum_i_put(p->out, "</svg>\n");
-  return p->out->failed ? baum_i_fail_memory() : BAUM_OK;
-}
-
-static baum_status check(const baum_mechanism *mechanism, const double *q, const char *call)
-{
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: mechanism is NULL", call);
-  }
-  if (!q) {
-    return BAUM_OK;
-  }
-  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
-  for (int k = 0; k < mechanism->nq; k++) {
-    if (!isfinite(q[k])) {
-      return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: q[%d] is %g, must be finite", call, k, q[k]);
-    }
-  }
-  return BAUM_OK;
-}
-
-static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_i_buffer *out)
-{
-  const baum_mechanism *m = drawing->mechanism;
-  picture p = {.drawing = drawing, .frames = drawing->design, .out = out};
-  baum_i_spatial_frame *frames = NULL;
-  if (q) {
-    frames = baum_i_alloc((size_t)m->body_count + 1, sizeof *frames);
-    if (!frames) {
-      return baum_i_fail_memory();
-    }
-    for (int k = 0; k <= m->body_count; k++) {
-      frames[k] = baum_i_drawing_frame(m->bodies[k], q);
-    }
-    p.frames = frames;
-  }
-  baum_status status = put_picture(&p);
-  baum_i_free(frames);
-  return status;
-}
-
-baum_status baum_i_put_svg(const baum_mechanism *mechanism, const double *q, const char *call,
-                           baum_i_buffer *out)
-{
-  BAUM_I_TRY(check(mechanism, q, call));
-  baum_i_drawing drawing;
-  baum_status status = baum_i_drawing_create(mechanism, &(baum_i_samples){NULL, 0, 0}, &drawing);
-  if (status == BAUM_OK) {
-    status = draw_at(&drawing, q, out);
-  }
-  baum_i_drawing_release(&drawing);
-  return status;
-}
-
-baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q, char *text,
-                               size_t capacity, size_t *size)
-{
-  baum_i_buffer out = {0};
-  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_svg", &out);
-  if (status == BAUM_OK) {
-    status = baum_i_give_text(&out, "baum_mechanism_svg", text, capacity, size);
-  }
-  baum_i_buffer_clear(&out);
-  return status;
-}
-
-baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
-                                     const char *path)
-{
-  baum_i_buffer out = {0};
-  baum_status status = baum_i_put_svg(mechanism, q, "baum_mechanism_write_svg", &out);
-  if (status == BAUM_OK) {
-    status = baum_i_give_file(&out, "baum_mechanism_write_svg", path);
-  }
-  baum_i_buffer_clear(&out);
-  return status;
+  baum_i_picture_set_view(&p);
+  baum_i_picture_include(&p, &box);
+  baum_i_picture_begin(&p, &box, 0.0);
+  BAUM_I_TRY(baum_i_picture_put_shapes(&p));
+  baum_i_put(out, "</svg>\n");
+  return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }

@@ -305,6 +305,9 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 /* Assemble positions until Phi = left (nc). */
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left);
+/* Assemble positions. On BAUM_ERR_INCONSISTENT q is where assembly gave up. */
+baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
+                                    const bool *held);
 
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 

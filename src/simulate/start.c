@@ -67,7 +67,8 @@ static baum_status fail_far(baum_simulation *run, const double *design, const ba
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the design configuration "
-    "violates %s most; give a design configuration closer to the assembled one",
+    "violates %s most, see baum_mechanism_svg(); give a design configuration closer to the "
+    "assembled one",
     run->trial.t, baum_i_label(&body->element).text, moved, unit_of(body, coordinate),
     limit * scale, unit_of(body, coordinate), joint.text);
 }

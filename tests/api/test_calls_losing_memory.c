@@ -324,6 +324,11 @@ CALL(baum_mechanism_svg)
   return baum_mechanism_svg(s->parts.mechanism, s->q, NULL, 0, NULL);
 }
 
+CALL(baum_mechanism_svg_assembled)
+{
+  return baum_mechanism_svg_assembled(s->parts.mechanism, NULL, 0, NULL);
+}
+
 CALL(baum_mechanism_write_svg)
 {
   return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
@@ -416,6 +421,7 @@ static const call CALLS[] = {
   ROW(baum_study_write, STUDIED),
   ROW(baum_mechanism_set_outlines, OPEN),
   ROW(baum_mechanism_svg, FROZEN),
+  ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
   ROW(baum_page_print, FROZEN),
   ROW(baum_page_svg, FROZEN),

@@ -173,6 +173,7 @@ int main(void)
   show_catalog("slider_crank", 400, 0.1);
   show_catalog("andrews_bodies", 400, 0.03);
   show_many(1000, 2000);
+  show_many(10000, 10);
   show_mesh(100); /* 20 000 triangles */
   return 0;
 }

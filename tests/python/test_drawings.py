@@ -108,7 +108,9 @@ class Pages(unittest.TestCase):
             run.page(path)
             with open(path, encoding="utf-8") as file:
                 marks = data_of(file.read())["marks"]
-        self.assertTrue(any("singular" in mark["text"] for mark in marks))
+        self.assertEqual({mark["kind"] for mark in marks}, {"warning", "singular"})
+        for mark in marks:
+            self.assertEqual(mark["kind"] == "singular", mark["text"].startswith("near a singular configuration"))
 
     def test_notebooks_show_it_in_a_frame(self):
         with mock.patch("baum.drawings.is_notebook", return_value=True):
@@ -144,7 +146,7 @@ class Motions(unittest.TestCase):
         self.assertEqual((data["title"], data["frames"], len(data["traces"])), ("T", 11, 1))
         self.assertEqual([plot["label"] for plot in data["plots"]], ["x [m]"])
         self.assertEqual(data["ranges"][data["plots"][0]["column"]], [0, 3])
-        self.assertEqual(data["marks"], [{"t": 0.5, "text": "half"}])
+        self.assertEqual(data["marks"], [{"t": 0.5, "kind": "event", "text": "half"}])
 
     def test_wrong_arrays_are_refused(self):
         for t, q in ((self.t[1:], self.q), (self.t, self.q[:, 1:]), (0 * self.t, self.q)):

@@ -126,8 +126,8 @@ class Figures(unittest.TestCase):
         pins = [m.revolute(f"p{k}", m.ground, wheel, point=(k, 0)) for k, wheel in enumerate(wheels)]
         m.coupling("gear", *pins, ratio=-1)
         drawing = m.draw()
-        self.assertIn('stroke-dasharray="2 4"', str(drawing))
-        self.assertEqual(paths_of(saved(drawing, "x.pdf"))[2], [b"1.5 3"])  # [pt]
+        self.assertIn('stroke-dasharray="5 4"', str(drawing))
+        self.assertEqual(paths_of(saved(drawing, "x.pdf"))[2], [b"3.75 3"])  # [pt]
 
     @unittest.skipUnless(matplotlib, "Matplotlib is missing")
     def test_outlines_of_all_forms_are_in_the_pdf(self):

@@ -477,6 +477,12 @@ class baum_outline(Structure):
     ]
 
 
+class baum_mark_kind(enum.IntEnum):
+    BAUM_MARK_WARNING = 0
+    BAUM_MARK_SINGULAR = 1
+    BAUM_MARK_EVENT = 2
+
+
 class baum_page(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -494,6 +500,7 @@ class baum_page(Structure):
         ("trace_count", c_int32),
         ("mark_times", c_void_p),
         ("mark_texts", POINTER(c_char_p)),
+        ("mark_kinds", POINTER(c_int32)),
         ("mark_count", c_int32),
     ]
 
@@ -1321,6 +1328,7 @@ PROTOTYPES = {
     ]),
     "baum_mechanism_svg": (c_int, [c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_mechanism_write_svg": (c_int, [c_void_p, c_void_p, c_char_p]),
+    "baum_mechanism_svg_assembled": (c_int, [c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_page_init": (None, [POINTER(baum_page), c_size_t]),
     "baum_page_write": (c_int, [c_void_p, POINTER(baum_page), c_char_p]),
     "baum_page_print": (c_int, [

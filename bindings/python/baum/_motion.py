@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 TraceLike = Union[ChannelLike, Body]
 Forces = Union[bool, Sequence[ChannelLike], None]
 Curve = tuple[str, Array]  # label, column (n)
-Mark = tuple[float, str]  # time, text
+Mark = tuple[float, str, int]  # time, text, kind
 ROOM = 1 << 18  # [byte] first size of the buffer, enough for most pages
 
 
@@ -43,7 +43,7 @@ class Motion(NamedTuple):
     def print(self, function: Any, *arguments: Any) -> str:
         """The text that a function of the library makes of a page."""
         values = np.array([column for _, column in self.plots]).T.copy()
-        mark_times = np.array([t for t, _ in self.marks])
+        mark_times = np.array([t for t, _, _ in self.marks])
         struct = default(_abi.baum_page)
         struct.title = None if self.title is None else self.title.encode(errors="replace")
         struct.times, struct.count = address(self.t), len(self.t)
@@ -53,7 +53,8 @@ class Motion(NamedTuple):
         struct.plot_labels = _texts([label for label, _ in self.plots])
         struct.traces, struct.trace_count = _structs(self.traces), len(self.traces)
         struct.mark_times, struct.mark_count = address(mark_times), len(self.marks)
-        struct.mark_texts = _texts([text for _, text in self.marks])
+        struct.mark_texts = _texts([text for _, text, _ in self.marks])
+        struct.mark_kinds = (ctypes.c_int32 * len(self.marks))(*(kind for _, _, kind in self.marks))
         return print_text(function, self.mechanism, ctypes.byref(struct), *arguments)
 
 
@@ -103,10 +104,14 @@ def _chosen(mechanism: Mechanism, recorded: Iterable[Channel], forces: Forces) -
 
 
 def _marks(run: Run) -> list[Mark]:
-    """Return times and texts of warnings, near-singular intervals and events, sorted by time."""
-    marks = [(warning.first, str(warning)) for warning in run.warnings]
-    marks += [(x.t, f"near a singular configuration, {x.branch}") for x in run.near_singular]
-    marks += [(event.t, f"event {event.event}") for event in run.events]
+    """Return times, texts and kinds of warnings, near-singular intervals and events, sorted by
+    time."""
+    kinds = _abi.baum_mark_kind
+    marks = [(warning.first, str(warning), kinds.BAUM_MARK_WARNING) for warning in run.warnings]
+    for x in run.near_singular:
+        text = f"near a singular configuration, {x.branch}"
+        marks.append((x.t, text, kinds.BAUM_MARK_SINGULAR))
+    marks += [(event.t, f"event {event.event}", kinds.BAUM_MARK_EVENT) for event in run.events]
     return sorted(marks, key=lambda mark: mark[0])
 
 
@@ -148,9 +153,10 @@ def of_arrays(
     if not (np.isfinite(times).all() and ((steps > 0).all() or (steps < 0).all())):
         raise ValueError("t: finite times are wanted that only rise or only fall")
     curves = [(label, vector(values, len(times), label)) for label, values in plots.items()]
-    texts = [(number(when, "time of a mark"), str(text)) for when, text in marks]
+    kind = _abi.baum_mark_kind.BAUM_MARK_EVENT
+    events = [(number(when, "time of a mark"), str(text), kind) for when, text in marks]
     paths = [_trace(mechanism, trace) for trace in traces]
-    return Motion(mechanism, times, [WHOLE["q"]], rows, paths, title, curves, texts)
+    return Motion(mechanism, times, [WHOLE["q"]], rows, paths, title, curves, events)
 
 
 # ---- between samples -----------------------------------------------------------------------------

@@ -85,7 +85,11 @@ def is_notebook() -> bool:
     return shell is not None and hasattr(shell, "kernel")
 
 
-def draw(mechanism: Mechanism, q: ArrayLike | None) -> Drawing:
+def draw(mechanism: Mechanism, q: ArrayLike | str | None) -> Drawing:
+    if isinstance(q, str):
+        if q != "assembled":
+            raise ValueError(f'q is {q!r}, must be positions, "assembled" or None')
+        return Drawing(_motion.print_text(lib.baum_mechanism_svg_assembled, mechanism))
     given = None if q is None else vector(q, mechanism.sizes.nq, "q")
     return Drawing(_motion.print_text(lib.baum_mechanism_svg, mechanism, address(given)))
 

@@ -8,7 +8,7 @@ import inspect
 import os
 import types
 import weakref
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -453,13 +453,14 @@ class Mechanism(Adding, AddingInSpace):
             raise KeyError(f"no channel {value!r}; {name!r} has {', '.join(_channels(element))}")
         return channel
 
-    def draw(self, q: ArrayLike | None = None) -> Drawing:
-        """A picture of the design configuration, or of positions q (nq) [m], [rad], which need a
-        frozen mechanism. Notebooks show it; save("x.svg") writes it, and so do
-        "x.pdf" and "x.png" with Matplotlib. A red line joins the two
-        points of a joint that is open.
+    def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
+        """A picture of the design configuration, of the "assembled" configuration, or of positions
+        q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
+        it, and so do "x.pdf" and "x.png" with Matplotlib.
 
-        Bodies draw themselves from the points of their joints, or as large as their inertia.
+        Red lines show where a joint is open: between points that should coincide, from a point to
+        the line, plane or curve on which it should be, and between axes that should be parallel. If
+        the mechanism cannot be assembled, "assembled" shows where assembly gave up.
         """
         return drawings.draw(self, q)
 
@@ -479,8 +480,8 @@ class Mechanism(Adding, AddingInSpace):
 
         t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
         traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
-        neighbours with the same unit share a plot. marks: times [s] and texts on the time axis.
-        Constraint violations of q are shown as they are.
+        neighbours with the same unit share a plot. marks: times [s] and texts of events on the time
+        axis. Constraint violations of q are shown as they are.
         """
         motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
         made = drawings.page(motion)
