@@ -214,6 +214,19 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
 BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum_page *page,
                                      char *text, size_t capacity, size_t *size);
 
+/** Draw one sample of a page as an SVG picture, with the paths of the traces up to this sample, and
+ *  with reactions as arrows. The view holds the whole motion, so that pictures of several samples
+ *  have the same scale. Plots, marks and the title are not shown.
+ *  @param      mechanism  frozen
+ *  @param[in]  page       the motion
+ *  @param      sample     [-] >= 0, < count of the page
+ *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param      capacity   [byte]
+ *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
+ *  @return  as baum_page_print(), and BAUM_ERR_NOT_FINITE for positions that are not finite */
+BAUM_API baum_status baum_page_svg(const baum_mechanism *mechanism, const baum_page *page,
+                                   int64_t sample, char *text, size_t capacity, size_t *size);
+
 #ifdef __cplusplus
 }
 #endif

@@ -287,6 +287,14 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
+/** Change the option progress_interval. The progress function may call this, too, for example to be
+ *  called after every step from now on.
+ *  @param simulation  the run
+ *  @param interval    [s] of wall time, >= 0, finite
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
+                                                           double interval);
+
 /** Replace time and state; multistep methods restart. If the state violates the constraints no more
  *  than the run already does, it is taken as it is; otherwise the option `start` decides what
  *  happens.

@@ -20,6 +20,18 @@ void baum_simulation_cancel(baum_simulation *simulation)
   }
 }
 
+baum_status baum_simulation_set_progress_interval(baum_simulation *simulation, double interval)
+{
+  const char *call = "baum_simulation_set_progress_interval";
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  if (!(interval >= 0.0 && isfinite(interval))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: interval is %g s, must be finite and >= 0", call,
+                       interval);
+  }
+  simulation->options.progress_interval = interval;
+  return BAUM_OK;
+}
+
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
 {
   if (!run) {

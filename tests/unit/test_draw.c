@@ -438,6 +438,93 @@ static void names_stay_texts(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* ---- samples of a motion ---- */
+
+/* Three samples of the crank, which turns by half a revolution, with the reaction of its pin. */
+static baum_page page_of_crank(const baum_mechanism *m, double rows[3][15])
+{
+  static const double times[3] = {0.0, 1.0, 2.0};
+  static baum_channel channels[2], trace;
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 15; i++) {
+      rows[k][i] = 0.0;
+    }
+    rows[k][2] = 0.5 * k * BAUM_I_REVOLUTION / 2.0;
+    rows[k][0] = cos(rows[k][2]);
+    rows[k][1] = sin(rows[k][2]);
+    rows[k][12] = k == 1 ? 730.0 : 0.0;
+    rows[k][14] = k == 2 ? -3.0 : 0.0;
+  }
+  channels[0] = baum_channel_of(BAUM_Q);
+  channels[1] = baum_channel_of(BAUM_JOINT_REACTION);
+  channels[1].joint = baum_mechanism_joint_at(m, 0);
+  trace = baum_channel_of(BAUM_BODY_POSE);
+  trace.body = baum_mechanism_body_at(m, 0);
+  baum_page page = baum_page_default();
+  page.times = times;
+  page.count = 3;
+  page.channels = channels;
+  page.channel_count = 2;
+  page.rows = rows[0];
+  page.traces = &trace;
+  page.trace_count = 1;
+  return page;
+}
+
+static int count_of(const char *text, const char *part)
+{
+  int count = 0;
+  for (const char *at = text; (at = strstr(at, part)) != NULL; at += strlen(part)) {
+    count++;
+  }
+  return count;
+}
+
+static void a_sample_shows_paths_and_reactions_in_the_view_of_the_motion(void **state)
+{
+  (void)state;
+  static char text[3][BYTES];
+  double rows[3][15];
+  baum_mechanism *m = make_crank();
+  must(baum_mechanism_freeze(m));
+  baum_page page = page_of_crank(m, rows);
+  for (int k = 0; k < 3; k++) {
+    must(baum_page_svg(m, &page, k, text[k], BYTES, NULL));
+    assert_non_null(strstr(text[k], ">500 N</text>")); /* of 730 N */
+    assert_int_equal(count_of(text[k], "<title>path of "), 1);
+    assert_int_equal(count_of(text[k], "<title>reaction of "), 1);
+    assert_int_equal(strncmp(text[k], text[0], strcspn(text[0], "\n")), 0); /* size and view */
+    assert_int_equal(count_of(text[k], "#be123c"), k == 1 ? 2 : 1);         /* force, scale */
+    assert_int_equal(count_of(text[k], "#8b5cf6"), k == 2 ? 2 : 0);         /* arc, its tip */
+    const char *path = strstr(strstr(text[k], "<title>path of "), "<path d=\"M");
+    int lines = 0;
+    for (path += strlen("<path d=\"M"); *path != '"'; path++) {
+      lines += *path == 'L';
+    }
+    assert_int_equal(lines, k);
+  }
+  baum_mechanism_destroy(m);
+}
+
+static void wrong_samples_are_refused(void **state)
+{
+  (void)state;
+  char text[8];
+  double rows[3][15];
+  baum_mechanism *m = make_crank();
+  ASSERT_SAYS(baum_page_svg(m, NULL, 0, text, 8, NULL), BAUM_ERR_STATE, "baum_page_svg");
+  must(baum_mechanism_freeze(m));
+  baum_page page = page_of_crank(m, rows);
+  ASSERT_SAYS(baum_page_svg(m, &page, 3, text, 8, NULL), BAUM_ERR_ARGUMENT,
+              "sample is 3, must be 0 to 2");
+  ASSERT_SAYS(baum_page_svg(m, &page, -1, text, 8, NULL), BAUM_ERR_ARGUMENT, "sample is -1");
+  rows[1][4] = (double)NAN;
+  ASSERT_SAYS(baum_page_svg(m, &page, 1, text, 8, NULL), BAUM_ERR_NOT_FINITE, "q[4] is");
+  must(baum_page_svg(m, &page, 2, text, 8, NULL));
+  assert_string_equal(text, "<svg xm");
+  baum_mechanism_destroy(m);
+}
+
 static void wrong_calls_are_refused(void **state)
 {
   (void)state;
@@ -559,6 +646,8 @@ int main(void)
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
     cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up),
     cmocka_unit_test(names_stay_texts),
+    cmocka_unit_test(a_sample_shows_paths_and_reactions_in_the_view_of_the_motion),
+    cmocka_unit_test(wrong_samples_are_refused),
     cmocka_unit_test(wrong_calls_are_refused),
     cmocka_unit_test(the_page_of_an_older_program_lacks_its_last_fields),
     cmocka_unit_test(a_long_run_keeps_600_frames_and_its_extremes),

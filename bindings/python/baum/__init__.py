@@ -60,6 +60,7 @@ from .integrators import (
     stability_outline,
     stability_statement,
 )
+from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
@@ -139,6 +140,7 @@ __all__ = [
     "StudyEntry",
     "StudyMethod",
     "StudyReference",
+    "View",
     "ViolationWarning",
     "Warning",
     "Workspace",

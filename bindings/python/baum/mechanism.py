@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, S
 
 import numpy as np
 
-from . import _abi, _calls, _html, _records, design, design_space, drawings
+from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings
 from ._lib import lib, text
+from ._motion import TraceLike
 from ._values import number, numbers, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .drawings import Drawing, Page, TraceLike
+from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
 from .simulation import Simulation, takes_options
@@ -455,7 +456,7 @@ class Mechanism(Adding, AddingInSpace):
     def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
         """A picture of the design configuration, of the "assembled" configuration, or of positions
         q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
-        it.
+        it, and so do "x.pdf" and "x.png" with Matplotlib.
 
         Red lines show where the constraints of a joint are violated: between points that should
         coincide, from a point to the line, plane or curve on which it should be, and between axes
@@ -483,7 +484,8 @@ class Mechanism(Adding, AddingInSpace):
         consecutive curves with the same unit share a plot. marks: times [s] and texts of events on
         the time axis. Constraint violations of q are shown as they are.
         """
-        made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
+        motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
+        made = drawings.page(motion)
         if path is not None:
             made.save(path)
         return made
