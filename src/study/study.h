@@ -13,7 +13,6 @@
 #include <baum/study.h>
 
 #include "base/message.h"
-#include "study/threads.h"
 
 enum {
   BAUM_I_NAME_SIZE = 160,
@@ -196,8 +195,6 @@ typedef struct baum_i_outcome {
   double cpu;                  /* [s] */
   char message[BAUM_I_NOTE_SIZE];
 } baum_i_outcome;
-
-double baum_i_wall_seconds(void);
 
 /* A run to be made: its options, start and samples. */
 typedef struct baum_i_task {
