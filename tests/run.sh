@@ -4,7 +4,7 @@
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   these run only if named
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh wheels   these run only if named
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 # BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -211,6 +211,12 @@ stage_fresh() {
   git clone --quiet . build/fresh-clone
   # shellcheck disable=SC2086
   as_root sh tests/install/fresh.sh "$PWD/build/fresh" "$PWD/build/fresh-clone" ${BAUM_FRESH:-}
+}
+
+# Builds the Python packages of all systems and runs them where that is possible on Linux.
+stage_wheels() {
+  need_packages debootstrap qemu-user-static wine64 nodejs binutils python3-venv
+  as_root sh tests/install/wheels.sh "$PWD"
 }
 
 stage_analyzer() {

@@ -195,24 +195,9 @@ long baum_i_process_number(void)
 #else
 
 #ifdef __wasi__
-
-static uid_t geteuid(void)
-{
-  return 0;
-}
-
-static int fchmod(int descriptor, mode_t mode)
-{
-  (void)descriptor;
-  (void)mode;
-  return 0;
-}
-
-static long getpid(void)
-{
-  return 0;
-}
-
+#define getpid()                 0
+#define geteuid()                0
+#define fchmod(descriptor, mode) ((void)(descriptor), (void)(mode), 0)
 #endif
 
 baum_i_path_kind baum_i_path_read(const char *path, unsigned *permissions)
