@@ -33,6 +33,7 @@ unpack() {
   size=$(stat -c %s "$2")
   [ "$size" -le 1500000 ] || fail "$2 has $size bytes"
   find "$test" -name lesser.txt | grep -q . || fail "$2 lacks the text of the LGPL"
+  ! grep -rF "$project" "$test" || fail "$2 contains the path of the build"
 }
 
 # compile TARGET SUFFIX LINK...: examples/first.c and portable.c.
@@ -46,8 +47,15 @@ compile() {
   done
 }
 
-# compare TARGET: the largest differences to Linux x86-64, of CVODE and IDA apart.
+# compare TARGET: the largest differences to Linux x86-64, of CVODE and IDA apart. Wide vectors change the last digits
+# there, unless the library does not find them.
 compare() {
+  case $1 in
+    *aarch64 | wasm*)
+      ! grep -q avx2 /proc/cpuinfo || ! cmp -s "$work/linux-x86_64/test/portable.txt" "$test/portable.txt" ||
+        fail "linux-x86_64 does not use AVX2"
+      ;;
+  esac
   awk -v target="$1" '
     NR == FNR { known[$1] = $2; next }
     $1 in known && $1 !~ /^#/ {
@@ -147,8 +155,12 @@ test_aarch64() {
   cp -R tests/python "$arm/root/tests"
   for name in run joints events laws space study workspace; do
     echo "test_$name"
-    chroot "$arm" /usr/bin/env -i PYTHONPATH=/root/site HOME=/root /usr/bin/qemu-aarch64-static /usr/bin/python3.11 \
-      -m unittest discover -s /root/tests -p "test_$name.py" 2>&1 | tail -n 3
+    env -i PYTHONPATH=/root/site HOME=/root "$(command -v chroot)" "$arm" /usr/bin/qemu-aarch64-static \
+      /usr/bin/python3.11 -m unittest discover -s /root/tests -p "test_$name.py" >"$test/$name.txt" 2>&1 || {
+      cat "$test/$name.txt"
+      fail "linux-aarch64: test_$name failed"
+    }
+    tail -n 3 "$test/$name.txt"
   done
   rm -rf "$arm"
 }
@@ -179,6 +191,6 @@ for target in $targets; do
     linux-aarch64) test_aarch64 ;;
     windows-x86_64) test_windows ;;
     wasm32-wasi) test_wasm ;;
-    *) unpack "$target" "$(package "${target%-*}*_${target#*-}")" ;;
+    macos-*) unpack "$target" "$(package "macosx*_${target#*-}")" ;;
   esac
 done

@@ -142,7 +142,9 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_AR": folder / "ar",
         "CMAKE_RANLIB": folder / "ranlib",
         "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON",
-        "CMAKE_C_FLAGS": "-g0",
+        "CMAKE_BUILD_WITH_INSTALL_NAME_DIR": "ON",
+        "CMAKE_INSTALL_NAME_DIR": "@loader_path",
+        "CMAKE_C_FLAGS": "-g0 -DBAUM_I_CPUID",  # see src/base/hot.c
         "CMAKE_SHARED_LINKER_FLAGS": "-s",
         "CMAKE_C_STANDARD_LIBRARIES": "",  # of Windows; none is used
         "CMAKE_BUILD_TYPE": "Release",
