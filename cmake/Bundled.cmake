@@ -2,7 +2,7 @@
 # Compiles the parts of SuiteSparse 5 and SUNDIALS 6 that baum uses from their sources, which become
 # part of the library: BAUM_BUNDLED is the folder that contains SuiteSparse-* and sundials-*. Sets
 #   BAUM_BUNDLED_OBJECTS    what the libraries contain
-#   BAUM_BUNDLED_LICENSES   license texts
+#   BAUM_BUNDLED_LICENSES   folder with license texts
 file(GLOB suitesparse ${BAUM_BUNDLED}/SuiteSparse-5.*)
 file(GLOB sundials ${BAUM_BUNDLED}/sundials-6.*)
 if(NOT suitesparse OR NOT sundials)
@@ -57,6 +57,8 @@ set(BAUM_BUNDLED_OBJECTS $<TARGET_OBJECTS:baum_bundled>)
 
 # The text of the LGPL is in KLU's folder.
 set(BAUM_BUNDLED_LICENSES ${CMAKE_CURRENT_BINARY_DIR}/licenses)
+set(BAUM_RUNTIME_LICENSES "" CACHE STRING "License texts of what the compiler adds to the libraries")
+file(COPY ${BAUM_RUNTIME_LICENSES} DESTINATION ${BAUM_BUNDLED_LICENSES}/runtime)
 file(COPY ${sundials}/LICENSE ${sundials}/NOTICE DESTINATION ${BAUM_BUNDLED_LICENSES}/SUNDIALS)
 foreach(part AMD BTF COLAMD KLU)
   file(COPY ${suitesparse}/${part}/Doc/License.txt DESTINATION ${BAUM_BUNDLED_LICENSES}/${part})

@@ -134,8 +134,12 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     for name, words in {"cc": f"cc -target {target.zig}", "ar": "ar", "ranlib": "ranlib"}.items():
         (folder / name).write_text(f'#!/bin/sh\nexec "{zig}" {words} "$@"\n')
         (folder / name).chmod(0o755)
+    licenses = [zig.with_name("LICENSE")]
+    if target.system == "Windows":
+        licenses.append(zig.with_name("lib") / "libc" / "mingw" / "COPYING")
     return {
         "BAUM_BUNDLED": sources,
+        "BAUM_RUNTIME_LICENSES": ";".join(map(str, licenses)),
         "CMAKE_SYSTEM_NAME": target.system,
         "CMAKE_SYSTEM_PROCESSOR": target.processor,
         "CMAKE_C_COMPILER": folder / "cc",
