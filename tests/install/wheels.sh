@@ -124,7 +124,10 @@ print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__}: import baum 
 END
   echo "==== $1"
   inside "$bare" /root sh -ec '
-    ! command -v cc && ! ls /usr/lib/*/libsundials* /usr/lib/*/libklu* 2>/dev/null
+    if command -v cc || ls /usr/lib/*/libsundials* /usr/lib/*/libklu* 2>/dev/null; then
+      echo "this root is not bare"
+      exit 1
+    fi
     python3 -m venv venv
     venv/bin/pip install --quiet numpy baum-*.whl
     venv/bin/python time.py && venv/bin/python time.py
@@ -167,13 +170,31 @@ test_aarch64() {
 
 test_windows() {
   unpack windows-x86_64 "$(package win_amd64)"
-  objdump -p "$test/baum/libbaum.dll" | sed -n 's/.*DLL Name: //p' | tr '\n' ' '
+  if objdump -p "$test/baum/libbaum.dll" | sed -n 's/.*DLL Name: //p' | grep -vE '^(KERNEL32|api-ms-win-crt-.*)\.dll$'; then
+    fail "libbaum.dll needs these"
+  fi
   compile windows-x86_64 .exe "$work/windows-x86_64/cmake/libbaum.dll.a" \
     "$work/windows-x86_64/cmake/libbaum_catalog.dll.a"
   cp "$test"/baum/*.dll "$test"
   export WINEPREFIX="$work/wine" WINEDEBUG=-all
   wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
   run windows-x86_64 "cd $test && $wine @.exe out | tr -d '\\r'"
+  test_windows_layout
+}
+
+# The structs of the Python package have the layout of Windows: test_abi.py with a compiler whose programs Wine runs.
+test_windows_layout() {
+  cat >"$test/cc" <<END
+#!/bin/sh
+for output; do :; done
+"$compiler" "\$@" -o "\$output.exe"
+printf '#!/bin/sh\nexec %s "\$0.exe"\n' "$wine" >"\$output"
+chmod +x "\$output"
+END
+  chmod +x "$test/cc"
+  "$work/venv/bin/python" -m pip install --quiet numpy
+  CC=$test/cc BAUM_LIBRARY=$work/linux-x86_64/test/baum/libbaum.so PYTHONPATH=bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$work/venv/bin/python" -m unittest discover -s tests/python -p test_abi.py
 }
 
 test_wasm() {
