@@ -4,11 +4,15 @@ include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/baum)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(DIRECTORY include/baum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 # Two sets, because only the static libraries need the backends where they are used.
 foreach(library baum baum_static)
   string(REPLACE baum baum_catalog catalog ${library})
-  install(TARGETS ${library} ${catalog} EXPORT ${library}-targets)
+  install(
+    TARGETS ${library} ${catalog}
+    EXPORT ${library}-targets
+    LIBRARY COMPONENT runtime NAMELINK_COMPONENT development)
   install(
     EXPORT ${library}-targets
     NAMESPACE baum::

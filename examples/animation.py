@@ -1,59 +1,59 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes HTML pages into build/ that show mechanisms in motion, in any browser and without a
-network: a slider-crank, Andrews' squeezing mechanism, and a spatial four-bar."""
+"""Writes pages that show mechanisms of the catalogue in motion, in any browser and without a
+network, and drawings of their initial configurations."""
 
 import sys
+import warnings
 from pathlib import Path
+from typing import NamedTuple
 
 import baum
 import numpy as np
 from baum import catalog
-from rssr import OMEGA, mechanism
 from support.report import Report
 
-FOLDER = Path(__file__).resolve().parents[1] / "build"
-LARGEST = 250e3  # [byte] of a page
+
+class Scene(NamedTuple):
+    title: str
+    traces: list[str]  # poses of bodies
+    plots: list[str]
 
 
-def slider_crank(path: Path) -> baum.Run:
-    m = catalog.build("slider_crank")
-    bodies = [element for element in m if element.family == "body"]
-    joints = [element for element in m if element.family == "joint"]
-    record = [*(joint.reaction for joint in joints), bodies[-1].velocity, "energy"]
-    run = m.simulate(np.linspace(0, 0.1, 401), "rk8", rtol=1e-8, record=record)
-    run.page(path, title="Slider-crank", traces=[bodies[1]])
-    return run
+SCENES = {
+    "slider_crank": Scene("Slider-crank", ["rod.pose"], ["guide.coordinate", "energy"]),
+    "andrews_bodies": Scene(
+        "Andrews' squeezing mechanism", ["K3.pose", "K6.pose"], ["O.coordinate"]
+    ),
+    "rssr": Scene("Spatial four-bar", ["coupler.pose"], ["motor.effort"]),
+    "bricard": Scene("Bricard's mechanism", ["body3.pose"], ["energy"]),
+    "flyball": Scene("Flyball governor", ["right arm.pose"], ["guide.coordinate"]),
+    "robot_arm": Scene("Robot arm", ["body6.pose"], [f"joint{k}.effort" for k in range(2, 14, 2)]),
+}
+LARGEST = 300e3  # [byte] of a page
 
 
-def andrews(path: Path) -> baum.Run:
-    m = catalog.build("andrews_bodies")
-    bodies = [element for element in m if element.family == "body"]
-    joints = [element for element in m if element.family == "joint"]
-    record = [joint.reaction for joint in joints]
-    run = m.simulate(np.linspace(0, 0.03, 301), "rk8", rtol=1e-8, record=record)
-    run.page(path, title="Andrews' squeezing mechanism", traces=bodies[2:4])
-    return run
-
-
-def four_bar(path: Path) -> baum.Run:
-    m = mechanism(with_coupler=True)
-    times = np.linspace(0, 2 * np.pi / OMEGA, 201)
-    record = ["pivot.coordinate", "motor.effort", "ball_a.reaction", "ball_b.reaction"]
-    run = m.simulate(times, "rk8", rtol=1e-8, record=record)
-    run.page(path, title="Spatial four-bar", traces=["coupler.pose"])
-    return run
+def simulate(name: str, plots: list[str]) -> baum.Run:
+    """A run over the time span of the catalogue, with the reactions of all joints."""
+    m = catalog.build(name)
+    reactions = [element.reaction for element in m if isinstance(element, baum.Joint)]
+    times = np.linspace(0, catalog.entry(name).end_time, 401)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", baum.Warning)  # the page shows them
+        return m.simulate(times, "rk8", rtol=1e-8, record=[*reactions, *plots])
 
 
 def main() -> int:
-    report = Report("animation")
-    FOLDER.mkdir(exist_ok=True)
-    for write in (slider_crank, andrews, four_bar):
-        path = FOLDER / f"{write.__name__}.html"
-        run = write(path)
+    report = Report("animation", folder="write pages and drawings into this folder")
+    folder = Path(report.options.folder or ".")
+    for name, scene in SCENES.items():
+        run = simulate(name, scene.plots)
         assert run.mechanism is not None
-        run.mechanism.draw().save(path.with_suffix(".svg"))
-        print(f"{path}: {len(run.t)} samples")
-        report.expect(f"{write.__name__}: size of the page [byte]", path.stat().st_size, LARGEST)
+        page = folder / f"{name}.html"
+        run.page(page, title=scene.title, traces=scene.traces)
+        run.mechanism.draw(run.q[0]).save(page.with_suffix(".svg"))
+        error = catalog.compare((run.t[-1:], run.q[-1], run.v[-1]), name)
+        report.expect(f"{name}: error at the end", error.q, 1e-5)
+        report.expect(f"{name}: size of the page [byte]", page.stat().st_size, LARGEST)
     return report.end()
 
 

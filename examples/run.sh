@@ -4,12 +4,12 @@
 #
 # Installs missing packages, builds the release library and runs the named examples (default: all).
 # Writes into out/ what each prints (.txt), its tables (.json, and .dat for gnuplot), their figures
-# (.png), and the pages of studies (.html).
+# (.png), drawings (.svg), and the pages of studies and of mechanisms in motion (.html).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank animation}
+names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank animation eight_gains jansen_leg suspension mistakes}
 out=$PWD/out
 
 # shellcheck disable=SC2086
@@ -49,6 +49,7 @@ for program in examples/*.py; do
   case " $names " in *" $name "*) ;; *) continue ;; esac
   set -- --json "$out/${name}_py.json"
   ! grep -q 'options\.page' "$program" || set -- "$@" --page "$out/${name}_py.html"
+  ! grep -q 'options\.folder' "$program" || set -- "$@" --folder "$out"
   run "${name}_py" env BAUM_LIBRARY="$PWD/build/release/libbaum.so" \
     PYTHONPATH="$PWD/bindings/python" PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=agg \
     "$venv/bin/python" "$program" "$@"

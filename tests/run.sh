@@ -4,7 +4,7 @@
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh wheels   these run only if named
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels   if named
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 # BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh wheels"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -172,6 +172,8 @@ stage_browser() {
     "$venv/bin/python" tests/browser/check_page.py build/browser
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_motion.py build/browser
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$venv/bin/python" tests/browser/check_shapes.py build/browser
 }
 
 # An input that fails stays in build/fuzz as crash-*: correct the error and add it to tests/fuzz/corpus.
@@ -204,13 +206,45 @@ stage_random() {
   build/random/tests/bench_sweeps all
 }
 
-# Runs the two commands of the README on a bare Debian 12; for releases and large changes.
-stage_fresh() {
+# fresh_run RELEASE COMMAND...: run commands on a bare Debian, in a clone of the project.
+fresh_run() {
   need_packages debootstrap git
   rm -rf build/fresh-clone
   git clone --quiet . build/fresh-clone
-  # shellcheck disable=SC2086
-  as_root sh tests/install/fresh.sh "$PWD/build/fresh" "$PWD/build/fresh-clone" ${BAUM_FRESH:-}
+  [ ! -d build/packages ] || mv build/packages build/fresh-clone
+  release=$1
+  shift
+  as_root sh tests/install/fresh.sh "$release" "$PWD/build/fresh-$release" "$PWD/build/fresh-clone" "$@"
+}
+
+# Runs the two commands of the README on a bare Debian 12; for releases and large changes.
+stage_fresh() {
+  fresh_run bookworm "sh examples/run.sh" "sh tests/run.sh ${BAUM_FRESH:-}"
+}
+
+# The stages that depend on compilers and on SUNDIALS 7, on Debian 13, and its packages of baum.
+stage_trixie() {
+  fresh_run trixie "sh tests/run.sh build test minimal install python debs" \
+    "sh tests/install/packages.sh build/debian"
+}
+
+# The Debian packages in build/debian.
+stage_debs() {
+  need_packages lintian dpkg-dev
+  quietly cmake --preset debian
+  quietly cmake --build build/debian
+  rm -f build/debian/*.deb
+  quietly cpack --config build/debian/CPackConfig.cmake -B build/debian
+  lintian --allow-root --fail-on error build/debian/*.deb
+}
+
+# Installs the packages on a bare Debian 12, uses and removes them there.
+stage_packages() {
+  stage_debs
+  rm -rf build/packages
+  mkdir build/packages
+  cp build/debian/*.deb build/packages
+  fresh_run bookworm "sh tests/install/packages.sh packages"
 }
 
 # Builds the Python packages of all systems and runs them where that is possible on Linux.

@@ -11,8 +11,8 @@
  *  in structs are constant and must not be freed.
  *
  *  A reference is either stored samples or formulas (`exact`). Samples hold for the default
- *  parameters only. Formulas hold for all parameters, and for all times at which rounding errors
- *  leave the stated number of digits. The library refuses comparisons with a reference that does
+ *  parameters only. Formulas hold for all parameters and times; a value of which rounding errors
+ *  spoil the stated digits is refused. The library refuses comparisons with a reference that does
  *  not hold for the parameters or the time.
  *
  *  Threads: every function may be called from any thread. A mechanism from baum_catalog_build()

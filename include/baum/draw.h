@@ -11,9 +11,9 @@
  *
  *  The shapes follow from the elements: links are bars between their joints, sliders are blocks,
  *  wheels are discs, other bodies have the size that corresponds to their inertia, and joints and
- *  forces are symbols.
+ *  forces are symbols. Outlines replace the shape of a body.
  *
- *  Files replace older ones as described for baum_study_write(). These functions do not change the
+ *  Files replace older ones as described for baum_study_write(). Drawing does not change the
  *  mechanism.
  */
 #ifndef BAUM_DRAW_H
@@ -29,10 +29,88 @@
 extern "C" {
 #endif
 
+/* ---- outlines -------------------------------------------------------------------------------- */
+
+/** Forms of outlines. */
+typedef enum baum_outline_form {
+  BAUM_OUTLINE_POLYGON = 0,  /**< Plane, with the corners `points`; may be concave. */
+  BAUM_OUTLINE_CIRCLE = 1,   /**< Parallel to the x-y plane. */
+  BAUM_OUTLINE_BOX = 2,      /**< Its edges are parallel to the axes of the body. */
+  BAUM_OUTLINE_CYLINDER = 3, /**< Circular, from `start` to `end`. */
+  BAUM_OUTLINE_SPHERE = 4,   /**< About `center`. */
+  BAUM_OUTLINE_MESH = 5      /**< Triangles. Both of their sides are visible. */
+} baum_outline_form;
+
+#define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Most triangles of a mesh. */
+
+/** A shape in the axes of a body. Only the fields of its form are used. */
+typedef struct baum_outline {
+  size_t struct_size;     /**< Set by the default. Do not write. */
+  baum_outline_form form; /**< Default: BAUM_OUTLINE_POLYGON. */
+  /** (point_count x 3) [m] x, y, z of the corners of a polygon, all with the same z, or of the
+   *  vertices of a mesh. Default: NULL, must be set. */
+  const double *points;
+  int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
+  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0.
+   *  Default: NULL, must be set. */
+  const int32_t *triangles;
+  int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
+  double center[3];       /**< [m] of a circle, box or sphere. Default: (0, 0, 0). */
+  /** [m] >= 0, edges of a box; one of them may be 0. Default: (0, 0, 0), must be set. */
+  double size[3];
+  double start[3];   /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
+  double end[3];     /**< [m] centre of the other end, not `start`. Default: (0, 0, 0). */
+  double radius;     /**< [m] > 0, of a circle, cylinder or sphere. Default: 0, must be set. */
+  const char *color; /**< "#rrggbb". Default: NULL, a color for each body. */
+} baum_outline;
+
+/** Set every field to its default.
+ *  @param[out] outline      NULL is ignored
+ *  @param      caller_size  sizeof *outline; no byte beyond it is written */
+BAUM_API void baum_outline_init(baum_outline *outline, size_t caller_size);
+
+/** Make an outline with every field at its default. @return the outline */
+static inline baum_outline baum_outline_default(void)
+{
+  baum_outline outline;
+  baum_outline_init(&outline, sizeof outline);
+  return outline;
+}
+
+/** Set how a body is drawn: by these outlines, in place of the shapes that follow from its joints.
+ *  Every form is allowed on every body, also on ground, before and after freezing. Outlines have no
+ *  other effect. Copies of the mechanism have the same outlines. No other thread may draw or copy
+ *  the mechanism during the call.
+ *  @param     mechanism  unchanged on failure
+ *  @param     body       not user coordinates, which have no place
+ *  @param[in] outlines   (count) replace earlier ones. Copied. NULL if count is 0.
+ *  @param     count      [-] >= 0; 0: the body draws itself
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY */
+BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum_body_id body,
+                                                 const baum_outline *outlines, int32_t count);
+
+/** Count the outlines of a body.
+ *  @param mechanism  may be NULL
+ *  @param body       one of the mechanism
+ *  @return [-] their number; 0 if there is no such body */
+BAUM_API int32_t baum_mechanism_outline_count(const baum_mechanism *mechanism, baum_body_id body);
+
+/** Read an outline. Its pointers stay valid until the outlines of the body are set again.
+ *  @param      mechanism    read only
+ *  @param      body         one of the mechanism
+ *  @param      k            [-] 0 <= k < baum_mechanism_outline_count()
+ *  @param[out] out          receives the outline
+ *  @param      caller_size  sizeof *out
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
+BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism, baum_body_id body,
+                                                int32_t k, baum_outline *out, size_t caller_size);
+
 /* ---- one configuration ----------------------------------------------------------------------- */
 
 /** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
- *  view from above. A red line joins the two points of a joint that is open.
+ *  view from above. Red lines show where a joint is open: between points that should coincide, from
+ *  a point to the line, plane or curve on which it should be, and between axes that should be
+ *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -51,7 +129,26 @@ BAUM_API baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const d
 BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
                                               const char *path);
 
+/** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
+ *  configuration at which assembly gave up: red lines show the joints that contradict each other.
+ *  @param      mechanism  need not be frozen
+ *  @param[out] text       (capacity) as in baum_mechanism_svg()
+ *  @param      capacity   [byte]
+ *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
+ *  @return  BAUM_OK, also if the constraints contradict each other; BAUM_ERR_ARGUMENT,
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY, and what
+ *           baum_mechanism_freeze() returns if the mechanism is not frozen */
+BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanism, char *text,
+                                                  size_t capacity, size_t *size);
+
 /* ---- a run ----------------------------------------------------------------------------------- */
+
+/** What a mark on the time axis stands for; each kind has a colour and a shape. */
+typedef enum baum_mark_kind {
+  BAUM_MARK_WARNING = 0,
+  BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
+  BAUM_MARK_EVENT = 2
+} baum_mark_kind;
 
 /** What a page shows: samples of a run as baum_simulation_sample() records them. All pointers
  *  belong to the caller and are read only during the call. */
@@ -78,7 +175,9 @@ typedef struct baum_page {
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
   const char *const *mark_texts; /**< (mark_count) Default: NULL. */
-  int32_t mark_count;            /**< [-] >= 0. Default: 0. */
+  /** (mark_count) of type baum_mark_kind. Default: NULL, all BAUM_MARK_WARNING. */
+  const int32_t *mark_kinds;
+  int32_t mark_count; /**< [-] >= 0. Default: 0. */
 } baum_page;
 
 /** Set every field to its default.

@@ -26,7 +26,8 @@ typedef enum baum_report_form {
   BAUM_REPORT_CSV = 1,
   /** Everything; "units" has the unit of every key. Keys are stable. */
   BAUM_REPORT_JSON = 2,
-  /** One HTML page with charts and a sortable table; it loads no other files. */
+  /** One HTML page with charts, a sortable table and a picture of the mechanism, for which its
+   *  functions are called; it loads no other files. */
   BAUM_REPORT_PAGE = 3
 } baum_report_form;
 

@@ -31,9 +31,34 @@ baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const ch
   return BAUM_OK;
 }
 
+baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
+                                     const char *start)
+{
+  bool fits = size >= 2 * sizeof size && size <= present && size % sizeof size == 0;
+  return fits
+           ? BAUM_OK
+           : baum_i_fail(
+               BAUM_ERR_STRUCT,
+               "%s: struct_size%s is %zu, must be %zu, or that of an older version; start from %s",
+               call, of, size, present, start);
+}
+
+baum_status baum_i_take_sized(void *to, size_t size, const void *from, const char *call,
+                              const char *of, const char *start)
+{
+  size_t given = 0;
+  memcpy(&given, from, sizeof given);
+  BAUM_I_TRY(baum_i_check_struct_size(given, size, call, of, start));
+  memcpy(to, from, given);
+  memcpy(to, &size, sizeof size);
+  return BAUM_OK;
+}
+
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size)
 {
   size_t bytes = caller_size < size ? caller_size : size;
-  memcpy(out, whole, bytes);
-  memcpy(out, &bytes, sizeof bytes);
+  if (baum_i_takes_sized(out, caller_size)) {
+    memcpy(out, whole, bytes);
+    memcpy(out, &bytes, sizeof bytes);
+  }
 }

@@ -20,7 +20,19 @@ baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *
  * stored. */
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call);
 
-/* Copy as many bytes of a whole struct as fit into the caller's struct, and set its struct_size. */
+/* Check that the struct_size of a caller's struct is that of this version or of an older one: a
+ * whole number of words that contains at least two fields. In the message, `of` names the struct
+ * (" of the options", or ""), and `start` gives the call to start from. */
+baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
+                                     const char *start);
+
+/* Check a caller's struct and copy it to `to`, which contains defaults. Fields that an older
+ * version lacks keep them. */
+baum_status baum_i_take_sized(void *to, size_t size, const void *from, const char *call,
+                              const char *of, const char *start);
+
+/* Copy as many bytes of a whole struct as fit into the caller's struct, and set its struct_size.
+ * Does nothing if the caller's struct cannot hold struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

@@ -14,6 +14,16 @@ int baum_i_print(char *text, size_t size, const char *format, ...)
   return length;
 }
 
+baum_i_text baum_i_text_of(const char *format, ...)
+{
+  baum_i_text out;
+  va_list arguments;
+  va_start(arguments, format);
+  (void)baum_i_format(out.text, sizeof out.text, format, arguments);
+  va_end(arguments);
+  return out;
+}
+
 void baum_i_append(char *text, size_t size, const char *format, ...)
 {
   size_t used = strlen(text);

@@ -8,6 +8,15 @@
 /* Like snprintf(), but in the "C" locale. */
 int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
+/* A short text, such as a name in a message, that functions return by value. If it were larger, the
+ * compiler would no longer inline functions that fail with such a text into steps. */
+typedef struct baum_i_text {
+  char text[208];
+} baum_i_text;
+
+/* Format a short text, and cut what does not fit. */
+baum_i_text baum_i_text_of(const char *format, ...) BAUM_I_PRINTF(1, 2);
+
 /* Refuse names that break messages: empty names and names with control characters. NULL is allowed
  * and stands for the default name. */
 baum_status baum_i_check_name(const char *family, int number, const char *name);

@@ -184,15 +184,14 @@ static void build(baum_i_parts *parts, const double *p)
   angles.mass = mass;
   angles.force = force;
   angles.potential = potential;
-  baum_body_id body = baum_i_parts_coordinates(parts, &angles);
+  baum_body_id body = {0};
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_coordinates(parts->mechanism, &angles, &body));
   baum_user_constraint_def loops = baum_user_constraint_def_default();
   loops.name = "loops";
-  loops.bodies = &body;
-  loops.body_count = 1;
   loops.row_count = 6;
   loops.phi = phi;
   loops.jacobian = jacobian;
-  baum_i_parts_constraint(parts, &loops);
+  baum_i_parts_constraint(parts, body, loops);
 }
 
 static const baum_i_catalog_parameter PARAMETERS[1] = {

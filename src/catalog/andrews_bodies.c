@@ -55,15 +55,14 @@ static baum_i_mover find_pivot(const double *angles, const double *rates, int k)
   return at;
 }
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   (void)p;
   double angle = turned(q, body);
   double rate = turned(v, body);
   baum_i_mover at = find_pivot(q, v, body);
   baum_i_mover_go(&at, angle, rate, CENTRE[body][0], CENTRE[body][1]);
-  baum_i_mover_state(&at, angle, rate, body_q, body_v);
+  return baum_i_mover_state(&at, angle, rate);
 }
 
 static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7])
@@ -73,14 +72,8 @@ static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7]
   double angles[ANDREWS_ANGLES];
   baum_i_andrews_pose(p[BETA], angles);
   for (int k = 0; k < 7; k++) {
-    double q[3];
-    double v[3];
-    baum_planar_body_def def = baum_planar_body_def_default();
-    def.name = names[k];
-    def.mass = ANDREWS_MASS[k];
-    def.inertia = ANDREWS_INERTIA[k];
-    state(p, angles, rest, k, q, v);
-    ids[k] = baum_i_parts_body(parts, &def, q, v);
+    ids[k] = baum_i_parts_body_at(parts, names[k], ANDREWS_MASS[k], ANDREWS_INERTIA[k],
+                                  state(p, angles, rest, k), BAUM_I_GIVE_ALL);
   }
 }
 
@@ -121,12 +114,12 @@ static void add_forces(baum_i_parts *parts, const double *p, const baum_body_id 
   }
   spring.stiffness = p[STIFFNESS];
   spring.free_length = p[FREE_LENGTH];
-  baum_i_parts_spring(parts, &spring);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_spring(parts->mechanism, &spring, NULL));
   baum_planar_load_def motor = baum_planar_load_def_default();
   motor.name = "motor";
   motor.body = k[0];
   motor.torque = p[MOMENT];
-  baum_i_parts_load(parts, &motor);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_load(parts->mechanism, &motor, NULL));
 }
 
 static void build(baum_i_parts *parts, const double *p)
@@ -145,9 +138,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [FREE_LENGTH] = {"free_length", "m", "of the spring", BAUM_I_POSITIVE},
 };
 
-#define BODIES                                                                                     \
-  .parameter_count = COUNT, .parameters = PARAMETERS, .build = build, .units = "mmr", .bodies = 7, \
-  .state = state
+#define BODIES BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 7)
 
 const baum_i_catalog_mechanism baum_i_andrews_bodies = {
   BODIES,

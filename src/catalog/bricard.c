@@ -35,10 +35,9 @@ static const int AXIS[RODS + 1] = {1, 2, 0, 1, 2, 0};
 /* Computes the axes of a rod, with their origin at its first joint. */
 static baum_i_axes axes_of(const double *p, const double *q, const double *v, int rod)
 {
-  static const double zero[3] = {0.0, 0.0, 0.0};
   double b = asin(-sin(q[0]) / (1.0 + sin(q[0])));
   double rate = -cos(q[0]) * (1.0 + sin(b)) / (cos(b) * (1.0 + sin(q[0]))) * v[0];
-  baum_i_axes at = baum_i_axes_at(zero, zero);
+  baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
   for (int k = 0; k <= rod; k++) {
     if (k > 0) {
       const double *e = EDGE[k - 1];
@@ -49,42 +48,36 @@ static baum_i_axes axes_of(const double *p, const double *q, const double *v, in
   return at;
 }
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   double half = p[LENGTH] / 2;
   baum_i_axes at = axes_of(p, q, v, body);
   baum_i_axes_go(&at, half * EDGE[body][0], half * EDGE[body][1], half * EDGE[body][2]);
-  baum_i_axes_state(&at, body_q, body_v);
+  return baum_i_axes_state(&at);
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
   double across = p[MASS] * p[LENGTH] * p[LENGTH] / 12;
   baum_body_id last = BAUM_GROUND;
-  if (parts->status == BAUM_OK) {
-    parts->status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -p[GRAVITY], 0.0);
-  }
+  baum_i_parts_gravity(parts, p[GRAVITY]);
   for (int k = 0; k <= RODS; k++) {
     baum_i_axes at = axes_of(p, &p[ANGLE], &p[SPEED], k < RODS ? k : RODS - 1);
     baum_body_id next = BAUM_GROUND;
     const double unit[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
-    const double zero[3] = {0.0, 0.0, 0.0};
     baum_i_axes pin = at;
     if (k < RODS) {
-      double q[7];
-      double v[6];
       double inertia[3];
       for (int i = 0; i < 3; i++) {
         inertia[i] = across * (EDGE[k][i] == 0.0 ? 1.0 : p[AXIAL]);
       }
-      state(p, &p[ANGLE], &p[SPEED], k, q, v);
-      next = baum_i_parts_spatial_body(parts, NULL, p[MASS], inertia, q, v);
+      next =
+        baum_i_parts_spatial_body(parts, NULL, p[MASS], inertia, state(p, &p[ANGLE], &p[SPEED], k));
     } else {
       baum_i_axes_go(&pin, p[LENGTH] * EDGE[k - 1][0], p[LENGTH] * EDGE[k - 1][1],
                      p[LENGTH] * EDGE[k - 1][2]);
     }
-    baum_i_axes tip = baum_i_axes_at(zero, zero);
+    baum_i_axes tip = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
     memcpy(tip.p, pin.p, sizeof tip.p);
     baum_i_axes_go(&tip, unit[0], unit[1], unit[2]);
     baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, pin.r, tip.r});
@@ -100,13 +93,8 @@ const baum_i_catalog_mechanism baum_i_bricard = {
                 "double precision to 9; the library raises the inertia 0 of the rods about "
                 "themselves to 1e-10 of that across",
   .note = "one redundant row",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", RODS),
   .defaults = (const double[COUNT]){1.0, 1.0, 0.0, 9.81, 0.0, 0.0},
   .end = 5.0,
-  .build = build,
-  .units = "mmmqqqq",
-  .bodies = RODS,
-  .state = state,
   BAUM_I_CATALOG_SERIES(BRICARD, 10, 10),
 };

@@ -108,16 +108,15 @@ static void build(baum_i_parts *parts, const double *p)
   axis.mass = mass;
   axis.constant_mass = true;
   axis.force = force;
-  baum_body_id body = baum_i_parts_coordinates(parts, &axis);
+  baum_body_id body = {0};
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_coordinates(parts->mechanism, &axis, &body));
   baum_user_constraint_def rows = baum_user_constraint_def_default();
   rows.name = "axis and bump";
-  rows.bodies = &body;
-  rows.body_count = 1;
   rows.row_count = 2;
   rows.phi = phi;
   rows.jacobian = jacobian;
   rows.nu = nu;
-  baum_i_parts_constraint(parts, &rows);
+  baum_i_parts_constraint(parts, body, rows);
 }
 
 const baum_i_catalog_mechanism baum_i_car_axis = {

@@ -10,8 +10,7 @@
 
 enum {
   BAUM_I_CATALOG_PARAMETERS = 14, /* largest number of parameters of a mechanism */
-  BAUM_I_CATALOG_COLUMNS = 9,     /* largest number of columns of a sample */
-  BAUM_I_CATALOG_WIDTH = 7        /* largest number of coordinates of a body */
+  BAUM_I_CATALOG_COLUMNS = 9      /* largest number of columns of a sample */
 };
 
 typedef enum baum_i_catalog_range {
@@ -58,11 +57,20 @@ typedef struct baum_i_catalog_mechanism {
   const double *v; /* (samples x columns) */
   double (*solution)(const double *p, double t, double *q,
                      double *v); /* returns an error bound of q and v */
-  /* Computes positions and velocities of one body from the columns; NULL: the columns are the
-   * coordinates of all bodies. */
-  void (*state)(const double *p, const double *q, const double *v, int body, double *body_q,
-                double *body_v);
+  /* Computes the state of one body from the columns; NULL: the columns are the coordinates of all
+   * bodies. */
+  baum_i_body_state (*state)(const double *p, const double *q, const double *v, int body);
 } baum_i_catalog_mechanism;
+
+/* Sets the fields of a mechanism with a constant number of bodies. */
+#define BAUM_I_CATALOG_MODEL(PARAMETERS, BUILD, STATE, UNITS, BODIES)                  \
+  .parameter_count = sizeof PARAMETERS / sizeof *PARAMETERS, .parameters = PARAMETERS, \
+  .build = BUILD, .state = STATE, .units = UNITS, .bodies = BODIES
+
+/* Sets the fields of a reference that is computed. */
+#define BAUM_I_CATALOG_COMPUTED(SOLUTION, SAMPLES, COLUMNS, DIGITS)                 \
+  .solution = SOLUTION, .samples = SAMPLES, .columns = COLUMNS, .digits_q = DIGITS, \
+  .digits_v = DIGITS
 
 /* Sets the fields of a reference that is stored in data/. */
 #define BAUM_I_CATALOG_STORED(NAME, DIGITS)                                            \

@@ -30,18 +30,15 @@ static double value_or(const double *values, int k, double otherwise)
 
 static void add_link(baum_i_parts *parts, const baum_i_chain *data, int k, tip *from)
 {
-  double q[3];
-  double v[3];
   double length = value_or(data->length, k, data->all.length);
   double angle = value_or(data->angle, k, data->all.angle);
   double rate = value_or(data->rate, k, data->all.rate);
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.mass = value_or(data->mass, k, data->all.mass);
-  def.inertia = def.mass * length * length / 12.0;
+  double mass = value_or(data->mass, k, data->all.mass);
   baum_i_mover_go(&from->at, angle, rate, length / 2, 0.0);
-  baum_i_mover_state(&from->at, angle, rate, q, v);
+  const baum_i_body_state state = baum_i_mover_state(&from->at, angle, rate);
   baum_i_mover_go(&from->at, angle, rate, length / 2, 0.0);
-  baum_body_id link = baum_i_parts_body(parts, &def, q, v);
+  baum_body_id link =
+    baum_i_parts_body_at(parts, NULL, mass, mass * length * length / 12.0, state, BAUM_I_GIVE_ALL);
   baum_i_parts_hinge(parts, NULL, from->body, from->length / 2, link, -length / 2);
   from->body = link;
   from->length = length;
@@ -63,8 +60,7 @@ static void build_3(baum_i_parts *parts, const double *p)
   baum_i_chain_add(parts, &baum_i_chain_3);
 }
 
-static void state_3(const double *p, const double *q, const double *v, int body, double *body_q,
-                    double *body_v)
+static baum_i_body_state state_3(const double *p, const double *q, const double *v, int body)
 {
   (void)p;
   baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
@@ -72,7 +68,7 @@ static void state_3(const double *p, const double *q, const double *v, int body,
     baum_i_mover_go(&at, q[k], v[k], LENGTH_3[k], 0.0);
   }
   baum_i_mover_go(&at, q[body], v[body], LENGTH_3[body] / 2, 0.0);
-  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
+  return baum_i_mover_state(&at, q[body], v[body]);
 }
 
 static const baum_i_catalog_parameter PARAMETERS_3[1] = {
@@ -85,14 +81,9 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .source = "ours",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 19 digits, another model in "
                 "double precision to 14.1",
-  .parameter_count = 1,
-  .parameters = PARAMETERS_3,
+  BAUM_I_CATALOG_MODEL(PARAMETERS_3, build_3, state_3, "mmr", 3),
   .defaults = (const double[1]){9.81},
   .end = 2.0,
-  .build = build_3,
-  .units = "mmr",
-  .bodies = 3,
-  .state = state_3,
   BAUM_I_CATALOG_STORED(CHAIN, 15),
 };
 

@@ -37,11 +37,9 @@ static double reach(const double *p)
 
 /* The columns q are the angle of the shaft, the height of the slider, and the angle of the arms
  * below the horizontal. */
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
-  static const double foot[3] = {0.0, 0.0, 0.0};
-  baum_i_axes at = baum_i_axes_at(foot, foot);
+  baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
   baum_i_axes_turn(&at, 2, q[0], v[0]);
   if (body == SHAFT) {
     baum_i_axes_go(&at, 0.0, 0.0, 0.5);
@@ -54,7 +52,7 @@ static void state(const double *p, const double *q, const double *v, int body, d
     baum_i_axes_turn(&at, 1, body == RIGHT ? q[2] : acos(-1.0) - q[2], side * v[2]);
     baum_i_axes_go(&at, reach(p), 0.0, 0.0);
   }
-  baum_i_axes_state(&at, body_q, body_v);
+  return baum_i_axes_state(&at);
 }
 
 static void add_arm(baum_i_parts *parts, const double *p, const baum_body_id *id, int side)
@@ -75,14 +73,13 @@ static void add_arm(baum_i_parts *parts, const double *p, const baum_body_id *id
   spring.stiffness = p[STIFFNESS];
   spring.damping = p[DAMPING];
   spring.free_length = 0.5;
-  baum_i_parts_spatial_spring(parts, &spring);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_spring(parts->mechanism, &spring, NULL));
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
   static const char *const names[BODIES] = {"shaft", "slider", "right arm", "left arm"};
   static const double up[3] = {0.0, 0.0, 1.0};
-  static const double foot[3] = {0.0, 0.0, 0.0};
   const double columns[3] = {0.0, 0.5, p[BELOW]};
   const double rates[3] = {p[SPEED], 0.0, 0.0};
   double arm = ACROSS + ROD * p[BALL] / (ROD + p[BALL]) * 0.25; /* 0.5 m apart */
@@ -90,22 +87,19 @@ static void build(baum_i_parts *parts, const double *p)
   const double inertia[BODIES][3] = {
     {ACROSS, ACROSS, AXIAL}, {0.005, 0.005, 0.005}, {AXIAL, arm, arm}, {AXIAL, arm, arm}};
   baum_body_id id[BODIES];
-  double q[7];
-  double v[6];
   baum_i_parts_gravity_z(parts, p[GRAVITY]);
   for (int k = 0; k < BODIES; k++) {
-    state(p, columns, rates, k, q, v);
-    id[k] = baum_i_parts_spatial_body(parts, names[k], mass[k], inertia[k], q, v);
+    id[k] =
+      baum_i_parts_spatial_body(parts, names[k], mass[k], inertia[k], state(p, columns, rates, k));
   }
-  baum_i_parts_spatial_revolute(parts, "foot", (baum_i_place){BAUM_GROUND, id[SHAFT], foot, up});
-  baum_i_parts_prismatic(parts, "guide", (baum_i_place){id[SHAFT], id[SLIDER], foot, up});
+  baum_i_parts_spatial_revolute(parts, "foot",
+                                (baum_i_place){BAUM_GROUND, id[SHAFT], baum_i_zeros, up});
+  baum_i_parts_prismatic(parts, "guide", (baum_i_place){id[SHAFT], id[SLIDER], baum_i_zeros, up});
   add_arm(parts, p, id, 1);
   add_arm(parts, p, id, -1);
 }
 
-#define FLYBALL_ENTRY                                                                     \
-  .parameter_count = COUNT, .parameters = PARAMETERS, .build = build, .units = "mmmqqqq", \
-  .bodies = BODIES, .state = state, .end = 5.0
+#define FLYBALL_ENTRY BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES), .end = 5.0
 
 const baum_i_catalog_mechanism baum_i_flyball = {
   FLYBALL_ENTRY,

@@ -38,15 +38,14 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 };
 
 /* Computes positions and velocities of a body from the angles q of crank, coupler and rocker. */
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   baum_i_mover at = {{body == 2 ? p[FRAME] : 0.0, 0.0}, {0.0, 0.0}};
   if (body == 1) {
     baum_i_mover_go(&at, q[0], v[0], p[CRANK], 0.0);
   }
   baum_i_mover_go(&at, q[body], v[body], p[CRANK + body] / 2, 0.0);
-  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
+  return baum_i_mover_state(&at, q[body], v[body]);
 }
 
 static void build(baum_i_parts *parts, const double *p)
@@ -64,18 +63,12 @@ static void build(baum_i_parts *parts, const double *p)
     const double *from = ends[k][0];
     const double *to = ends[k][1];
     double length = p[CRANK + k];
-    baum_planar_body_def def = baum_planar_body_def_default();
-    def.name = names[k];
-    def.mass = p[CRANK_MASS + k];
-    def.inertia = def.mass * length * length / 12;
-    def.position[0] = (from[0] + to[0]) / 2;
-    def.position[1] = (from[1] + to[1]) / 2;
-    def.angle = k == 0 ? p[ANGLE] : atan2(to[1] - from[1], to[0] - from[0]);
-    if (k == 0) {
-      def.angular_velocity = p[SPEED];
-      def.held = true;
-    }
-    id[k] = baum_i_parts_body(parts, &def, NULL, NULL);
+    double angle = k == 0 ? p[ANGLE] : atan2(to[1] - from[1], to[0] - from[0]);
+    const baum_i_body_state at = {{(from[0] + to[0]) / 2, (from[1] + to[1]) / 2, angle},
+                                  {[2] = p[SPEED]}};
+    id[k] = baum_i_parts_body_at(parts, names[k], p[CRANK_MASS + k],
+                                 p[CRANK_MASS + k] * length * length / 12, at,
+                                 k == 0 ? BAUM_I_GIVE_ROTATION : BAUM_I_GIVE_NONE);
   }
   baum_i_parts_hinge(parts, "A", BAUM_GROUND, 0.0, id[0], -p[CRANK] / 2);
   baum_i_parts_hinge(parts, "B", id[0], p[CRANK] / 2, id[1], -p[COUPLER] / 2);
@@ -89,13 +82,8 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .source = "ours",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 17 digits, another model in "
                 "double precision to 12.4",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 3),
   .defaults = (const double[COUNT]){1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0},
   .end = 5.0,
-  .build = build,
-  .units = "mmr",
-  .bodies = 3,
-  .state = state,
   BAUM_I_CATALOG_STORED(FOUR_BAR, 15),
 };

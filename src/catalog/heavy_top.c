@@ -22,31 +22,26 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [PRECESSION] = {"precession", "rad/s", "about z at start", BAUM_I_ANY},
 };
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
-  static const double fixed[3] = {0.0, 0.0, 0.0};
   (void)body;
-  baum_i_axes at = baum_i_axes_at(fixed, fixed);
+  baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
   baum_i_axes_turn(&at, 2, q[0], v[0]);
   baum_i_axes_turn(&at, 0, q[1], v[1]);
   baum_i_axes_turn(&at, 1, q[2], v[2]);
   baum_i_axes_go(&at, 0.0, p[DISTANCE], 0.0);
-  baum_i_axes_state(&at, body_q, body_v);
+  return baum_i_axes_state(&at);
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
-  static const double level[3] = {0.0, 0.0, 0.0};
   const double rates[3] = {p[PRECESSION], 0.0, p[SPIN]};
   double across = p[MASS] * p[RADIUS] * p[RADIUS] / 4; /* of a thin disc */
   const double inertia[3] = {across, 2 * across, across};
-  double q[7];
-  double v[6];
   baum_i_parts_gravity_z(parts, p[GRAVITY]);
-  state(p, level, rates, 0, q, v);
-  baum_body_id top = baum_i_parts_spatial_body(parts, "top", p[MASS], inertia, q, v);
-  baum_i_parts_spherical(parts, "tip", (baum_i_place){BAUM_GROUND, top, level, NULL});
+  baum_body_id top =
+    baum_i_parts_spatial_body(parts, "top", p[MASS], inertia, state(p, baum_i_zeros, rates, 0));
+  baum_i_parts_spherical(parts, "tip", (baum_i_place){BAUM_GROUND, top, baum_i_zeros, NULL});
 }
 
 const baum_i_catalog_mechanism baum_i_heavy_top = {
@@ -56,13 +51,8 @@ const baum_i_catalog_mechanism baum_i_heavy_top = {
   .provenance =
     "Taylor series of the equations for three angles in 30 digits, two tolerances agree "
     "to 18.8 digits",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 1),
   .defaults = (const double[COUNT]){15.0, 1.0, 0.25, 9.81, 150.0, -4.61538},
   .end = 1.0,
-  .build = build,
-  .units = "mmmqqqq",
-  .bodies = 1,
-  .state = state,
   BAUM_I_CATALOG_STORED(HEAVY_TOP, 13),
 };

@@ -48,29 +48,23 @@ static double solution(const double *p, double t, double *q, double *v)
 }
 
 /* The bodies are in the order crank 0, coupler 0, crank 1, ..., crank N. */
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   bool crank = body % 2 == 0;
   int window = body / 2;
   double half = p[LENGTH] / 2;
   baum_i_mover at = {{window * p[LENGTH] + (crank ? 0.0 : half), 0.0}, {0.0, 0.0}};
   baum_i_mover_go(&at, q[0], v[0], crank ? half : p[LENGTH], 0.0);
-  baum_i_mover_state(&at, crank ? q[0] : 0.0, crank ? v[0] : 0.0, body_q, body_v);
+  return baum_i_mover_state(&at, crank ? q[0] : 0.0, crank ? v[0] : 0.0);
 }
 
 static baum_body_id add_rod(baum_i_parts *parts, const double *p, int k)
 {
   char name[32];
-  double q[3];
-  double v[3];
-  baum_planar_body_def def = baum_planar_body_def_default();
   (void)snprintf(name, sizeof name, "%s %d", k % 2 == 0 ? "crank" : "coupler", k / 2);
-  def.name = name;
-  def.mass = p[k % 2 == 0 ? CRANK_MASS : COUPLER_MASS];
-  def.inertia = def.mass * p[LENGTH] * p[LENGTH] / 12.0;
-  state(p, &p[ANGLE], &p[RATE], k, q, v);
-  return baum_i_parts_body(parts, &def, q, v);
+  double mass = p[k % 2 == 0 ? CRANK_MASS : COUPLER_MASS];
+  return baum_i_parts_body_at(parts, name, mass, mass * p[LENGTH] * p[LENGTH] / 12.0,
+                              state(p, &p[ANGLE], &p[RATE], k), BAUM_I_GIVE_ALL);
 }
 
 static void build(baum_i_parts *parts, const double *p)
@@ -100,14 +94,10 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT]){2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81},
   .end = 10.0,
-  .digits_q = 11,
-  .digits_v = 11,
   .branches = true,
   .build = build,
   .units = "mmr",
   .count = count,
-  .samples = 21,
-  .columns = 1,
-  .solution = solution,
+  BAUM_I_CATALOG_COMPUTED(solution, 21, 1, 11),
   .state = state,
 };

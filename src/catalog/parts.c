@@ -4,10 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Makes a call unless an earlier call has failed. */
-#define UNLESS_FAILED(parts, call) \
-  ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
-
 void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, double y)
 {
   double along = x * cos(angle) - y * sin(angle);
@@ -18,13 +14,10 @@ void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, d
   mover->v[1] += rate * along;
 }
 
-void baum_i_mover_state(const baum_i_mover *centre, double angle, double rate, double q[3],
-                        double v[3])
+baum_i_body_state baum_i_mover_state(const baum_i_mover *centre, double angle, double rate)
 {
-  memcpy(q, centre->r, sizeof centre->r);
-  memcpy(v, centre->v, sizeof centre->v);
-  q[2] = angle;
-  v[2] = rate;
+  return (baum_i_body_state){{centre->r[0], centre->r[1], angle},
+                             {centre->v[0], centre->v[1], rate}};
 }
 
 void baum_i_meet(const double a[2], double ra, const double b[2], double rb, double side,
@@ -48,38 +41,40 @@ baum_i_parts baum_i_parts_begin(void)
 
 void baum_i_parts_gravity(baum_i_parts *parts, double downwards)
 {
-  UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, -downwards, 0.0));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, -downwards, 0.0));
 }
 
 baum_body_id baum_i_parts_particle(baum_i_parts *parts, const baum_planar_particle_def *def)
 {
   baum_body_id id = {0};
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_particle(parts->mechanism, def, &id));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_particle(parts->mechanism, def, &id));
   return id;
 }
 
-baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *def,
-                               const double *q, const double *v)
+baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *def)
 {
   baum_body_id id = {0};
-  baum_planar_body_def placed = *def;
-  if (q) {
-    memcpy(placed.position, q, sizeof placed.position);
-    placed.angle = q[2];
-  }
-  if (v) {
-    memcpy(placed.velocity, v, sizeof placed.velocity);
-    placed.angular_velocity = v[2];
-  }
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_body(parts->mechanism, &placed, &id));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_body(parts->mechanism, def, &id));
   return id;
 }
 
-baum_body_id baum_i_parts_coordinates(baum_i_parts *parts, const baum_coordinates_def *def)
+baum_body_id baum_i_parts_body_at(baum_i_parts *parts, const char *name, double mass,
+                                  double inertia, baum_i_body_state at, baum_i_given given)
 {
-  baum_body_id id = {0};
-  UNLESS_FAILED(parts, baum_mechanism_add_coordinates(parts->mechanism, def, &id));
-  return id;
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.name = name;
+  def.mass = mass;
+  def.inertia = inertia;
+  memcpy(def.position, at.q, sizeof def.position);
+  def.angle = at.q[2];
+  if (given == BAUM_I_GIVE_ALL) {
+    memcpy(def.velocity, at.v, sizeof def.velocity);
+  }
+  if (given != BAUM_I_GIVE_NONE) {
+    def.angular_velocity = at.v[2];
+  }
+  def.held = given == BAUM_I_GIVE_ROTATION;
+  return baum_i_parts_body(parts, &def);
 }
 
 baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b)
@@ -91,7 +86,7 @@ baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spo
   def.body_b = b.body;
   memcpy(def.point_a, a.point, sizeof def.point_a);
   memcpy(def.point_b, b.point, sizeof def.point_b);
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_revolute(parts->mechanism, &def, &id));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_revolute(parts->mechanism, &def, &id));
   return id;
 }
 
@@ -111,7 +106,8 @@ void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slid
   def.point_a[0] = def.point_b[0] = along;
   def.point_a[1] = height;
   def.point_b[1] = 0.0;
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_translational(parts->mechanism, &def, NULL));
+  BAUM_I_UNLESS_FAILED(parts,
+                       baum_mechanism_add_planar_translational(parts->mechanism, &def, NULL));
 }
 
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,
@@ -124,32 +120,29 @@ void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum
   memcpy(def.point_a, a.point, sizeof def.point_a);
   memcpy(def.point_b, b.point, sizeof def.point_b);
   def.length = length;
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_distance(parts->mechanism, &def, NULL));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_distance(parts->mechanism, &def, NULL));
 }
 
-void baum_i_parts_driver(baum_i_parts *parts, const baum_driver_def *def)
+void baum_i_parts_motor(baum_i_parts *parts, baum_joint_id joint, double value, double rate)
 {
-  UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, def, NULL));
+  baum_driver_def def = baum_driver_def_default();
+  def.name = "motor";
+  def.joint = joint;
+  def.value = value;
+  def.rate = rate;
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &def, NULL));
 }
 
-void baum_i_parts_constraint(baum_i_parts *parts, const baum_user_constraint_def *def)
+void baum_i_parts_constraint(baum_i_parts *parts, baum_body_id body, baum_user_constraint_def def)
 {
-  UNLESS_FAILED(parts, baum_mechanism_add_user_constraint(parts->mechanism, def, NULL));
-}
-
-void baum_i_parts_spring(baum_i_parts *parts, const baum_planar_spring_def *def)
-{
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_spring(parts->mechanism, def, NULL));
-}
-
-void baum_i_parts_load(baum_i_parts *parts, const baum_planar_load_def *def)
-{
-  UNLESS_FAILED(parts, baum_mechanism_add_planar_load(parts->mechanism, def, NULL));
+  def.bodies = &body;
+  def.body_count = 1;
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_user_constraint(parts->mechanism, &def, NULL));
 }
 
 baum_status baum_i_parts_finish(baum_i_parts *parts, baum_mechanism **out)
 {
-  UNLESS_FAILED(parts, baum_mechanism_freeze(parts->mechanism));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_freeze(parts->mechanism));
   if (parts->status != BAUM_OK) {
     baum_mechanism_destroy(parts->mechanism);
     parts->mechanism = NULL;

@@ -8,6 +8,7 @@
 #include "catalog/catalog.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "catalog/swing.h"
 
@@ -32,12 +33,10 @@ static double solve(const double *p, double length, double t, double *q, double 
   return baum_i_swing(p[GRAVITY] / length, t, q, v);
 }
 
-static void place(double length, const double *q, const double *v, double *body_q, double *body_v)
+static baum_i_body_state place(double length, double angle, double rate)
 {
-  body_q[0] = length * sin(q[0]);
-  body_q[1] = -length * cos(q[0]);
-  body_v[0] = length * cos(q[0]) * v[0];
-  body_v[1] = length * sin(q[0]) * v[0];
+  return (baum_i_body_state){{length * sin(angle), -length * cos(angle)},
+                             {length * cos(angle) * rate, length * sin(angle) * rate}};
 }
 
 static double rod_solution(const double *p, double t, double *q, double *v)
@@ -50,30 +49,29 @@ static double circle_solution(const double *p, double t, double *q, double *v)
   return solve(p, 1.0, t, q, v);
 }
 
-static void rod_state(const double *p, const double *q, const double *v, int body, double *body_q,
-                      double *body_v)
+static baum_i_body_state rod_state(const double *p, const double *q, const double *v, int body)
 {
   (void)body;
-  place(p[LENGTH], q, v, body_q, body_v);
+  return place(p[LENGTH], q[0], v[0]);
 }
 
-static void circle_state(const double *p, const double *q, const double *v, int body,
-                         double *body_q, double *body_v)
+static baum_i_body_state circle_state(const double *p, const double *q, const double *v, int body)
 {
   (void)p;
   (void)body;
-  place(1.0, q, v, body_q, body_v);
+  return place(1.0, q[0], v[0]);
 }
 
 /* ---- mechanisms ---- */
 
 static baum_body_id add_bob(baum_i_parts *parts, const double *p, double length)
 {
-  double rate = p[SPEED] / length;
+  const baum_i_body_state at = place(length, p[ANGLE], p[SPEED] / length);
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   bob.name = "bob";
   bob.mass = p[MASS];
-  place(length, &p[ANGLE], &rate, bob.position, bob.velocity);
+  memcpy(bob.position, at.q, sizeof bob.position);
+  memcpy(bob.velocity, at.v, sizeof bob.velocity);
   baum_i_parts_gravity(parts, p[GRAVITY]);
   return baum_i_parts_particle(parts, &bob);
 }
@@ -115,13 +113,11 @@ static void build_on_circle(baum_i_parts *parts, const double *p)
   baum_body_id bob = add_bob(parts, p, 1.0);
   baum_user_constraint_def circle = baum_user_constraint_def_default();
   circle.name = "circle";
-  circle.bodies = &bob;
-  circle.body_count = 1;
   circle.row_count = 1;
   circle.phi = phi;
   circle.jacobian = jacobian;
   circle.gamma = gamma;
-  baum_i_parts_constraint(parts, &circle);
+  baum_i_parts_constraint(parts, bob, circle);
 }
 
 /* ---- entries ---- */
@@ -130,29 +126,26 @@ static void build_on_circle(baum_i_parts *parts, const double *p)
   "the pendulum equation by its Taylor series, any parameters; agrees to 13 digits " \
   "with extrapolation in 160 bits"
 
-#define ON_ROD                                                                         \
-  .parameter_count = COUNT, .parameters = PARAMETERS, .build = build_on_rod,           \
-  .provenance = BY_SERIES, .digits_q = 12, .digits_v = 12, .units = "mm", .bodies = 1, \
-  .columns = 1, .solution = rod_solution, .state = rod_state
+#define ON_ROD(SAMPLES)                                               \
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build_on_rod, rod_state, "mm", 1), \
+    BAUM_I_CATALOG_COMPUTED(rod_solution, SAMPLES, 1, 12), .provenance = BY_SERIES
 
 const baum_i_catalog_mechanism baum_i_pendulum_a01 = {
-  ON_ROD,
+  ON_ROD(21),
   .name = "pendulum",
   .title = "simple pendulum, from level at the left",
   .source = "IFToMM and A Coruna library of benchmarks, A01",
   .defaults = (const double[COUNT]){9.81, -LEVEL, 0.0, 1.0, 1.0},
   .end = 10.0,
-  .samples = 21,
 };
 
 const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
-  ON_ROD,
+  ON_ROD(41), /* samples every 0.75 s, so that not all are at the ends of the swing */
   .name = "pendulum_sundials",
   .title = "simple pendulum with a period of exactly 2 s, from level at the right",
   .source = "LLNL/sundials, examples/cvode/serial/cvPendulum_dns.c",
   .defaults = (const double[COUNT]){13.750371636040745, LEVEL, 0.0, 1.0, 1.0},
   .end = 30.0,
-  .samples = 41, /* every 0.75 s, so that not all are at the ends of the swing */
 };
 
 const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {
@@ -164,13 +157,9 @@ const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT_ON_CIRCLE]){1.0, LEVEL, 1.0, 1.0},
   .end = 1.0,
-  .digits_q = 12,
-  .digits_v = 12,
   .build = build_on_circle,
   .units = "mm",
   .bodies = 1,
-  .samples = 11,
-  .columns = 1,
-  .solution = circle_solution,
+  BAUM_I_CATALOG_COMPUTED(circle_solution, 11, 1, 12),
   .state = circle_state,
 };

@@ -121,26 +121,25 @@ static int width_v(const baum_i_catalog_mechanism *of)
   return width(of) - is_spatial(of);
 }
 
-static void state_of(const sample *at, int body, double *q, double *v)
+static baum_i_body_state state_of(const sample *at, int body)
 {
   if (at->of->state) {
-    at->of->state(at->p, at->q, at->v, body, q, v);
-    return;
+    return at->of->state(at->p, at->q, at->v, body);
   }
+  baum_i_body_state out;
   int count = width(at->of);
-  memcpy(q, at->q + body * count, (size_t)count * sizeof *q);
-  memcpy(v, at->v + body * count, (size_t)count * sizeof *v);
+  memcpy(out.q, at->q + body * count, (size_t)count * sizeof *out.q);
+  memcpy(out.v, at->v + body * count, (size_t)count * sizeof *out.v);
+  return out;
 }
 
 /* Formulas may have no value, for example if the rod of a driven crank is too short. */
 static baum_status check_finite(const sample *at, double t)
 {
-  double q[BAUM_I_CATALOG_WIDTH];
-  double v[BAUM_I_CATALOG_WIDTH];
   for (int body = 0; body < baum_i_catalog_bodies(at->of, at->p); body++) {
-    state_of(at, body, q, v);
+    const baum_i_body_state s = state_of(at, body);
     for (int k = 0; k < width(at->of); k++) {
-      if (!isfinite(q[k]) || (k < width_v(at->of) && !isfinite(v[k]))) {
+      if (!isfinite(s.q[k]) || (k < width_v(at->of) && !isfinite(s.v[k]))) {
         return baum_i_catalog_fail(BAUM_ERR_UNSUPPORTED,
                                    "catalogue: with these parameters \"%s\" has no reference at "
                                    "t = %g s",
@@ -166,14 +165,12 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
   int count = width(at.of);
   int count_v = width_v(at.of);
   for (int body = 0; body < baum_i_catalog_bodies(at.of, at.p); body++) {
-    double body_q[BAUM_I_CATALOG_WIDTH];
-    double body_v[BAUM_I_CATALOG_WIDTH];
-    state_of(&at, body, body_q, body_v);
+    const baum_i_body_state s = state_of(&at, body);
     if (q) {
-      memcpy(q + body * count, body_q, (size_t)count * sizeof *q);
+      memcpy(q + body * count, s.q, (size_t)count * sizeof *q);
     }
     if (v) {
-      memcpy(v + body * count_v, body_v, (size_t)count_v * sizeof *v);
+      memcpy(v + body * count_v, s.v, (size_t)count_v * sizeof *v);
     }
   }
   return BAUM_OK;
@@ -207,7 +204,7 @@ static double most(double a, double b)
 /* Finds the displacement of a body between two poses. Quaternions give the rotation vector in body
  * axes, to first order, whichever signs they have. */
 static void subtract(const baum_i_catalog_mechanism *of, const double *from, const double *to,
-                     double d[BAUM_I_CATALOG_WIDTH])
+                     double d[BAUM_I_BODY_WIDTH])
 {
   for (int k = 0; k < width(of); k++) {
     d[k] = to[k] - from[k];
@@ -234,18 +231,16 @@ static measure measure_state(const sample *at, double scale, const double *q, co
   double step_v = pow(10.0, -of->digits_v);
   int count = width_v(of);
   for (int body = 0; body < baum_i_catalog_bodies(of, at->p); body++) {
-    double body_q[BAUM_I_CATALOG_WIDTH];
-    double body_v[BAUM_I_CATALOG_WIDTH];
-    double d[BAUM_I_CATALOG_WIDTH];
-    state_of(at, body, body_q, body_v);
-    subtract(of, body_q, q ? q + body * width(of) : body_q, d);
+    double d[BAUM_I_BODY_WIDTH];
+    const baum_i_body_state s = state_of(at, body);
+    subtract(of, s.q, q ? q + body * width(of) : s.q, d);
     for (int k = 0; k < count; k++) {
       double unit = of->units[k] == 'm' ? scale : 1.0;
       out.q = most(out.q, q ? fabs(d[k]) / unit : (double)NAN);
-      out.v = most(out.v, v ? fabs(v[body * count + k] - body_v[k]) / unit : (double)NAN);
-      out.size_v = most(out.size_v, fabs(body_v[k]) / unit);
-      out.floor_q = most(out.floor_q, step_q * fmax(1.0, fabs(body_q[k])) / unit);
-      out.floor_v = most(out.floor_v, step_v * fmax(1.0, fabs(body_v[k])) / unit);
+      out.v = most(out.v, v ? fabs(v[body * count + k] - s.v[k]) / unit : (double)NAN);
+      out.size_v = most(out.size_v, fabs(s.v[k]) / unit);
+      out.floor_q = most(out.floor_q, step_q * fmax(1.0, fabs(s.q[k])) / unit);
+      out.floor_v = most(out.floor_v, step_v * fmax(1.0, fabs(s.v[k])) / unit);
     }
   }
   return out;

@@ -63,22 +63,19 @@ static void go(const double *p, baum_i_axes *axes, int link, double part)
   baum_i_axes_go(axes, link == 0 ? 0.0 : length, 0.0, link == 0 ? length : 0.0);
 }
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
-  static const double foot[3] = {0.0, 0.0, 0.0};
-  baum_i_axes at = baum_i_axes_at(foot, foot);
+  baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
   for (int k = 0; k <= body; k++) {
     baum_i_axes_turn(&at, AXIS[k], q[k], v[k]);
     go(p, &at, k, k < body ? 1.0 : 0.5);
   }
-  baum_i_axes_state(&at, body_q, body_v);
+  return baum_i_axes_state(&at);
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
-  static const double zero[3] = {0.0, 0.0, 0.0};
-  baum_i_axes at = baum_i_axes_at(zero, zero);
+  baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
   baum_body_id last = BAUM_GROUND;
   double q[JOINTS];
   double v[JOINTS];
@@ -91,15 +88,12 @@ static void build(baum_i_parts *parts, const double *p)
     double across = axial / 2 + mass * length * length / 12;
     const double inertia[3] = {k == 0 ? across : axial, across, k == 0 ? axial : across};
     const double axis[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
-    double body_q[7];
-    double body_v[6];
-    state(p, q, v, k, body_q, body_v);
-    baum_body_id next = baum_i_parts_spatial_body(parts, NULL, mass, inertia, body_q, body_v);
+    baum_body_id next = baum_i_parts_spatial_body(parts, NULL, mass, inertia, state(p, q, v, k));
     baum_driver_def motor = baum_driver_def_default();
     motor.joint =
       baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, at.r, axis});
     motor.law = LAWS[k];
-    baum_i_parts_driver(parts, &motor);
+    BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &motor, NULL));
     go(p, &at, k, 1.0);
     last = next;
   }
@@ -111,17 +105,8 @@ const baum_i_catalog_mechanism baum_i_robot_arm = {
   .source = "ours",
   .provenance = "closed form",
   .note = "no freedom left: solved by kinematics, too",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", JOINTS),
   .defaults = (const double[COUNT]){1.0, 2.5, 9.81},
   .end = 2.0,
-  .build = build,
-  .units = "mmmqqqq",
-  .bodies = JOINTS,
-  .state = state,
-  .samples = 21,
-  .columns = JOINTS,
-  .solution = solution,
-  .digits_q = 13,
-  .digits_v = 13,
+  BAUM_I_CATALOG_COMPUTED(solution, 21, JOINTS, 13),
 };

@@ -44,14 +44,12 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the crank", BAUM_I_ANY},
 };
 
-static const double ORIGIN[3] = {0.0, 0.0, 0.0};
-
 /* Finds axes that rotate with crank and rocker, with their origins at the ends of these. */
 static void find_ends(const double *p, const double *q, const double *v, baum_i_axes *crank,
                       baum_i_axes *rocker)
 {
-  *crank = baum_i_axes_at(ORIGIN, ORIGIN);
-  *rocker = baum_i_axes_at(&p[PIVOT_X], ORIGIN);
+  *crank = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
+  *rocker = baum_i_axes_at(&p[PIVOT_X], baum_i_zeros);
   baum_i_axes_turn(crank, 2, q[0], v[0]);
   baum_i_axes_go(crank, p[CRANK], 0.0, 0.0);
   double square = 0.0;
@@ -69,8 +67,7 @@ static void find_ends(const double *p, const double *q, const double *v, baum_i_
   baum_i_axes_go(rocker, 0.0, p[ROCKER], 0.0);
 }
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   baum_i_axes crank;
   baum_i_axes rocker;
@@ -80,7 +77,7 @@ static void state(const double *p, const double *q, const double *v, int body, d
   baum_i_axes_go(&coupler, p[COUPLER] / 2, 0.0, 0.0);
   baum_i_axes_go(&rocker, 0.0, -p[ROCKER] / 2, 0.0);
   const baum_i_axes *const all[3] = {&crank, &coupler, &rocker};
-  baum_i_axes_state(all[body], body_q, body_v);
+  return baum_i_axes_state(all[body]);
 }
 
 static double solution(const double *p, double t, double *q, double *v)
@@ -95,32 +92,26 @@ static void build(baum_i_parts *parts, const double *p)
   static const char *const names[3] = {"crank", "coupler", "rocker"};
   static const double x[3] = {1.0, 0.0, 0.0};
   static const double z[3] = {0.0, 0.0, 1.0};
-  static const double start[1] = {0.0};
   baum_i_axes ends[2];
   baum_body_id id[3];
-  find_ends(p, start, &p[SPEED], &ends[0], &ends[1]);
+  find_ends(p, baum_i_zeros, &p[SPEED], &ends[0], &ends[1]);
   baum_i_parts_gravity_z(parts, p[GRAVITY]);
   for (int k = 0; k < 3; k++) {
     double mass = p[CRANK_MASS + k];
     double axial = mass * p[RADIUS] * p[RADIUS] / 2;
     double across = axial / 2 + mass * p[CRANK + k] * p[CRANK + k] / 12;
     const double inertia[3] = {k < 2 ? axial : across, k < 2 ? across : axial, across};
-    double q[7];
-    double v[6];
-    state(p, start, &p[SPEED], k, q, v);
-    id[k] = baum_i_parts_spatial_body(parts, names[k], mass, inertia, q, v);
+    id[k] = baum_i_parts_spatial_body(parts, names[k], mass, inertia,
+                                      state(p, baum_i_zeros, &p[SPEED], k));
   }
   const double *b = ends[1].r;
   const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]}; /* to coupler and x */
-  baum_driver_def motor = baum_driver_def_default();
-  motor.name = "motor";
-  motor.rate = p[SPEED];
-  motor.joint =
-    baum_i_parts_spatial_revolute(parts, "shaft", (baum_i_place){BAUM_GROUND, id[0], ORIGIN, z});
+  baum_joint_id shaft = baum_i_parts_spatial_revolute(
+    parts, "shaft", (baum_i_place){BAUM_GROUND, id[0], baum_i_zeros, z});
   baum_i_parts_spatial_revolute(parts, "pivot", (baum_i_place){BAUM_GROUND, id[2], &p[PIVOT_X], x});
   baum_i_parts_spherical(parts, "A", (baum_i_place){id[0], id[1], ends[0].r, NULL});
   baum_i_parts_universal(parts, "B", (baum_i_place){id[2], id[1], b, x}, across);
-  baum_i_parts_driver(parts, &motor);
+  baum_i_parts_motor(parts, shaft, 0.0, p[SPEED]);
 }
 
 const baum_i_catalog_mechanism baum_i_rssr = {
@@ -129,18 +120,9 @@ const baum_i_catalog_mechanism baum_i_rssr = {
   .source = "ours",
   .provenance = "closed form",
   .note = "no freedom left: solved by kinematics, too",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.1, 0.4, 0.25, 0.2, 0.3, 0.05, 0.3, 0.5, 0.6, 0.01, 9.81,
                                     12.566370614359172},
   .end = 1.0,
-  .build = build,
-  .units = "mmmqqqq",
-  .bodies = 3,
-  .state = state,
-  .samples = 21,
-  .columns = 1,
-  .solution = solution,
-  .digits_q = 13,
-  .digits_v = 13,
+  BAUM_I_CATALOG_COMPUTED(solution, 21, 1, 13),
 };

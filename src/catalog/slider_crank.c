@@ -47,27 +47,25 @@ static const double CENTRIC[BAUM_I_SLIDER_CRANK_COUNT] = {
 static const double SIMEON[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.15, 0.3, 0.0, 0.36, 0.151104, 0.075552, 7.02e-4, 1.1340859e-3, 2.7e-6, 0.0, 0.0, 150.0};
 
-void baum_i_slider_crank_state(const double *p, const double *q, const double *v, int body,
-                               double *body_q, double *body_v)
+baum_i_body_state baum_i_slider_crank_state(const double *p, const double *q, const double *v,
+                                            int body)
 {
   baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
   if (body == 0) {
     baum_i_mover_go(&at, q[0], v[0], P(CRANK) / 2, 0.0);
-    baum_i_mover_state(&at, q[0], v[0], body_q, body_v);
-    return;
+    return baum_i_mover_state(&at, q[0], v[0]);
   }
   baum_i_mover_go(&at, q[0], v[0], P(CRANK), 0.0);
   double angle = asin((P(ECCENTRICITY) - at.r[1]) / P(ROD));
   double rate = -at.v[1] / (P(ROD) * cos(angle));
   if (body == 1) {
     baum_i_mover_go(&at, angle, rate, P(ROD) / 2, 0.0);
-    baum_i_mover_state(&at, angle, rate, body_q, body_v);
-    return;
+    return baum_i_mover_state(&at, angle, rate);
   }
   baum_i_mover_go(&at, angle, rate, P(ROD), 0.0);
   at.r[1] = P(ECCENTRICITY);
   at.v[1] = 0.0;
-  baum_i_mover_state(&at, 0.0, 0.0, body_q, body_v);
+  return baum_i_mover_state(&at, 0.0, 0.0);
 }
 
 static double driven_solution(const double *p, double t, double *q, double *v)
@@ -82,18 +80,10 @@ baum_i_slider_crank_bodies baum_i_slider_crank_add_bodies(baum_i_parts *parts, c
   static const char *const names[3] = {"crank", "rod", "slider"};
   baum_i_slider_crank_bodies bodies;
   for (int k = 0; k < 3; k++) {
-    double q[3];
-    double v[3];
-    baum_planar_body_def def = baum_planar_body_def_default();
-    def.name = names[k];
-    def.mass = p[BAUM_I_SLIDER_CRANK_CRANK_MASS + k];
-    def.inertia = p[BAUM_I_SLIDER_CRANK_CRANK_INERTIA + k];
-    if (k == 0) {
-      def.angular_velocity = P(SPEED);
-      def.held = true;
-    }
-    baum_i_slider_crank_state(p, &P(ANGLE), &P(SPEED), k, q, v);
-    bodies.id[k] = baum_i_parts_body(parts, &def, q, NULL);
+    bodies.id[k] = baum_i_parts_body_at(parts, names[k], p[BAUM_I_SLIDER_CRANK_CRANK_MASS + k],
+                                        p[BAUM_I_SLIDER_CRANK_CRANK_INERTIA + k],
+                                        baum_i_slider_crank_state(p, &P(ANGLE), &P(SPEED), k),
+                                        k == 0 ? BAUM_I_GIVE_ROTATION : BAUM_I_GIVE_NONE);
   }
   return bodies;
 }
@@ -108,12 +98,7 @@ void baum_i_slider_crank_add_joints(baum_i_parts *parts, const double *p,
   baum_i_parts_hinge(parts, "C", id[1], P(ROD) / 2, id[2], 0.0);
   baum_i_parts_guide(parts, "guide", id[2], P(ECCENTRICITY), 0.0);
   if (driven) {
-    baum_driver_def motor = baum_driver_def_default();
-    motor.name = "motor";
-    motor.joint = pin;
-    motor.value = P(ANGLE);
-    motor.rate = P(SPEED);
-    baum_i_parts_driver(parts, &motor);
+    baum_i_parts_motor(parts, pin, P(ANGLE), P(SPEED));
   }
 }
 
@@ -140,18 +125,15 @@ static void build_driven(baum_i_parts *parts, const double *p)
   "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, table 1, as " \
   "kept in siconos/siconos, without clearance"
 
-#define SLIDER_CRANK                                                                      \
-  .parameter_count = BAUM_I_SLIDER_CRANK_COUNT, .parameters = PARAMETERS, .units = "mmr", \
-  .bodies = 3, .state = baum_i_slider_crank_state
+#define FREE \
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build_free, baum_i_slider_crank_state, "mmr", 3), .end = 0.2
 
-#define FREE SLIDER_CRANK, .build = build_free, .end = 0.2
-
-#define DRIVEN                                                                                   \
-  SLIDER_CRANK, .build = build_driven, .samples = 21, .columns = 1, .solution = driven_solution, \
-                .digits_q = 13, .digits_v = 13,                                                  \
-                .provenance = "closed form; agrees with extrapolation in 160 bits",              \
-                .note = "no freedom left: solved by kinematics, too. Its formulas need "         \
-                        "rod > crank + |eccentricity|"
+#define DRIVEN                                                                         \
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3), \
+    BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                               \
+    .provenance = "closed form; agrees with extrapolation in 160 bits",                \
+    .note = "no freedom left: solved by kinematics, too. Its formulas need "           \
+            "rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
   FREE,

@@ -30,10 +30,10 @@ typedef struct baum_i_slider_crank_bodies {
 /* Parameters of the source (see slider_crank.c), with an eccentricity of our choice. */
 extern const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT];
 
-/* Computes position and velocity of body 0 to 2 from the angle q[0] and the angular velocity v[0]
- * of the crank. */
-void baum_i_slider_crank_state(const double *p, const double *q, const double *v, int body,
-                               double *body_q, double *body_v);
+/* Computes the state of body 0 to 2 from the angle q[0] and the angular velocity v[0] of the
+ * crank. */
+baum_i_body_state baum_i_slider_crank_state(const double *p, const double *q, const double *v,
+                                            int body);
 
 /* Adds the bodies in the initial configuration. Only the crank is given a velocity. */
 baum_i_slider_crank_bodies baum_i_slider_crank_add_bodies(baum_i_parts *parts, const double *p);

@@ -27,19 +27,17 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 /* Computes the state of a body from the angle of the crank. The centre of the rod, 1 m from pin B,
  * is on y = 0.
  */
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
   if (body == 0) {
-    baum_i_mover_state(&at, q[0], v[0], body_q, body_v);
-    return;
+    return baum_i_mover_state(&at, q[0], v[0]);
   }
   baum_i_mover_go(&at, q[0], v[0], p[CRANK], 0.0);
   double angle = -asin(at.r[1]);
   double rate = -at.v[1] / cos(angle);
   baum_i_mover_go(&at, angle, rate, 1.0, 0.0);
-  baum_i_mover_state(&at, angle, rate, body_q, body_v);
+  return baum_i_mover_state(&at, angle, rate);
 }
 
 static int guide(double t, const double *q, double *phi, void *user)
@@ -63,12 +61,10 @@ static void add_guide(baum_i_parts *parts, baum_body_id rod)
 {
   baum_user_constraint_def def = baum_user_constraint_def_default();
   def.name = "guide";
-  def.bodies = &rod;
-  def.body_count = 1;
   def.row_count = 1;
   def.phi = guide;
   def.jacobian = guide_jacobian;
-  baum_i_parts_constraint(parts, &def);
+  baum_i_parts_constraint(parts, rod, def);
 }
 
 static void add_forces(baum_i_parts *parts, const double *p, baum_body_id crank, baum_body_id rod)
@@ -83,30 +79,24 @@ static void add_forces(baum_i_parts *parts, const double *p, baum_body_id crank,
   spring.stiffness = p[STIFFNESS];
   spring.damping = p[DAMPING];
   spring.free_length = p[FREE_LENGTH];
-  baum_i_parts_spring(parts, &spring);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_spring(parts->mechanism, &spring, NULL));
   baum_planar_load_def load = baum_planar_load_def_default();
   load.name = "push";
   load.body = rod;
   load.point[0] = 1.0;
   load.force[0] = p[FORCE];
-  baum_i_parts_load(parts, &load);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_load(parts->mechanism, &load, NULL));
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
   baum_i_parts_gravity(parts, 0.0);
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.name = "crank";
-  def.inertia = p[CRANK_INERTIA];
-  def.angle = acos(0.0);
-  baum_body_id crank = baum_i_parts_body(parts, &def, NULL, NULL);
-  def = baum_planar_body_def_default();
-  def.name = "rod";
-  def.mass = p[ROD_MASS];
-  def.inertia = p[ROD_INERTIA];
-  def.angle = -asin(p[CRANK]);
-  def.position[0] = cos(def.angle);
-  baum_body_id rod = baum_i_parts_body(parts, &def, NULL, NULL);
+  double slope = -asin(p[CRANK]);
+  const baum_i_body_state at[2] = {{.q = {0.0, 0.0, acos(0.0)}}, {.q = {cos(slope), 0.0, slope}}};
+  baum_body_id crank =
+    baum_i_parts_body_at(parts, "crank", 1.0, p[CRANK_INERTIA], at[0], BAUM_I_GIVE_NONE);
+  baum_body_id rod =
+    baum_i_parts_body_at(parts, "rod", p[ROD_MASS], p[ROD_INERTIA], at[1], BAUM_I_GIVE_NONE);
   baum_i_parts_hinge(parts, "A", BAUM_GROUND, 0.0, crank, 0.0);
   baum_i_parts_hinge(parts, "B", crank, p[CRANK], rod, -1.0);
   add_guide(parts, rod);
@@ -121,13 +111,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_sundials = {
     "extrapolation in 160 bits, two tolerances agree to 24 digits, another model in "
     "double precision to 14.9; its 41 published rows have 5 digits and the error of a run "
     "at rtol 1e-6",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 2),
   .defaults = (const double[COUNT]){0.5, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0},
   .end = 10.0,
-  .build = build,
-  .units = "mmr",
-  .bodies = 2,
   BAUM_I_CATALOG_SERIES(SUNDIALS_SLIDER_CRANK, 15, 15),
-  .state = state,
 };

@@ -4,11 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Makes a call unless an earlier call has failed. */
-#define UNLESS_FAILED(parts, call) \
-  ((parts)->status = (parts)->status == BAUM_OK ? (call) : (parts)->status)
-
 /* ---- moving axes ---- */
+
+const double baum_i_zeros[3] = {0.0, 0.0, 0.0};
 
 /* Hamilton's product. */
 static void multiply(const double a[4], const double b[4], double out[4])
@@ -35,10 +33,7 @@ static void turn_vector(const double p[4], const double s[3], double out[3])
 
 baum_i_axes baum_i_axes_at(const double r[3], const double v[3])
 {
-  baum_i_axes axes = {.p = {1.0, 0.0, 0.0, 0.0}};
-  memcpy(axes.r, r, sizeof axes.r);
-  memcpy(axes.v, v, sizeof axes.v);
-  return axes;
+  return (baum_i_axes){.r = {r[0], r[1], r[2]}, .v = {v[0], v[1], v[2]}, .p = {1.0, 0.0, 0.0, 0.0}};
 }
 
 void baum_i_axes_turn(baum_i_axes *axes, int axis, double angle, double rate)
@@ -91,37 +86,36 @@ baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *en
   return axes;
 }
 
-void baum_i_axes_state(const baum_i_axes *axes, double q[7], double v[6])
+baum_i_body_state baum_i_axes_state(const baum_i_axes *axes)
 {
-  memcpy(q, axes->r, sizeof axes->r);
-  memcpy(q + 3, axes->p, sizeof axes->p);
-  memcpy(v, axes->v, sizeof axes->v);
-  memcpy(v + 3, axes->w, sizeof axes->w);
+  baum_i_body_state out = {{0.0}, {0.0}};
+  memcpy(out.q, axes->r, sizeof axes->r);
+  memcpy(out.q + 3, axes->p, sizeof axes->p);
+  memcpy(out.v, axes->v, sizeof axes->v);
+  memcpy(out.v + 3, axes->w, sizeof axes->w);
+  return out;
 }
 
 /* ---- parts ---- */
 
 void baum_i_parts_gravity_z(baum_i_parts *parts, double downwards)
 {
-  UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, 0.0, -downwards));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_set_gravity(parts->mechanism, 0.0, 0.0, -downwards));
 }
 
 baum_body_id baum_i_parts_spatial_body(baum_i_parts *parts, const char *name, double mass,
-                                       const double inertia[3], const double q[7],
-                                       const double v[6])
+                                       const double inertia[3], baum_i_body_state at)
 {
   baum_body_id id = {0};
   baum_spatial_body_def def = baum_spatial_body_def_default();
   def.name = name;
   def.mass = mass;
   memcpy(def.inertia, inertia, 3 * sizeof *inertia);
-  memcpy(def.position, q, sizeof def.position);
-  memcpy(def.orientation, q + 3, sizeof def.orientation);
-  if (v) {
-    memcpy(def.velocity, v, sizeof def.velocity);
-    memcpy(def.angular_velocity, v + 3, sizeof def.angular_velocity);
-  }
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_body(parts->mechanism, &def, &id));
+  memcpy(def.position, at.q, sizeof def.position);
+  memcpy(def.orientation, at.q + 3, sizeof def.orientation);
+  memcpy(def.velocity, at.v, sizeof def.velocity);
+  memcpy(def.angular_velocity, at.v + 3, sizeof def.angular_velocity);
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_body(parts->mechanism, &def, &id));
   return id;
 }
 
@@ -141,7 +135,7 @@ baum_joint_id baum_i_parts_spatial_revolute(baum_i_parts *parts, const char *nam
   baum_spatial_revolute_def def = baum_spatial_revolute_def_default();
   PLACE(def, name, place);
   memcpy(def.axis, place.axis, sizeof def.axis);
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_revolute(parts->mechanism, &def, &id));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_revolute(parts->mechanism, &def, &id));
   return id;
 }
 
@@ -149,7 +143,7 @@ void baum_i_parts_spherical(baum_i_parts *parts, const char *name, baum_i_place 
 {
   baum_spatial_spherical_def def = baum_spatial_spherical_def_default();
   PLACE(def, name, place);
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_spherical(parts->mechanism, &def, NULL));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_spherical(parts->mechanism, &def, NULL));
 }
 
 void baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place)
@@ -157,7 +151,7 @@ void baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place 
   baum_spatial_prismatic_def def = baum_spatial_prismatic_def_default();
   PLACE(def, name, place);
   memcpy(def.axis, place.axis, sizeof def.axis);
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_prismatic(parts->mechanism, &def, NULL));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_prismatic(parts->mechanism, &def, NULL));
 }
 
 void baum_i_parts_universal(baum_i_parts *parts, const char *name, baum_i_place place,
@@ -167,10 +161,5 @@ void baum_i_parts_universal(baum_i_parts *parts, const char *name, baum_i_place 
   PLACE(def, name, place);
   memcpy(def.axis, place.axis, sizeof def.axis);
   memcpy(def.axis_b, axis_b, sizeof def.axis_b);
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_universal(parts->mechanism, &def, NULL));
-}
-
-void baum_i_parts_spatial_spring(baum_i_parts *parts, const baum_spatial_spring_def *def)
-{
-  UNLESS_FAILED(parts, baum_mechanism_add_spatial_spring(parts->mechanism, def, NULL));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_universal(parts->mechanism, &def, NULL));
 }

@@ -52,15 +52,13 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 
 static baum_i_axes crank_axes(const double *p, const double *q, const double *v)
 {
-  static const double rest[3] = {0.0, 0.0, 0.0};
   const double axis[3] = {0.0, p[BESIDE], p[ABOVE]};
-  baum_i_axes crank = baum_i_axes_at(axis, rest);
+  baum_i_axes crank = baum_i_axes_at(axis, baum_i_zeros);
   baum_i_axes_turn(&crank, 0, q[0], v[0]);
   return crank;
 }
 
-static void state(const double *p, const double *q, const double *v, int body, double *body_q,
-                  double *body_v)
+static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   baum_i_axes at = crank_axes(p, q, v);
   if (body == 0) {
@@ -77,7 +75,7 @@ static void state(const double *p, const double *q, const double *v, int body, d
       baum_i_axes_go(&at, p[ROD] / 2, 0.0, 0.0);
     }
   }
-  baum_i_axes_state(&at, body_q, body_v);
+  return baum_i_axes_state(&at);
 }
 
 static void build(baum_i_parts *parts, const double *p)
@@ -87,13 +85,12 @@ static void build(baum_i_parts *parts, const double *p)
   const double inertia[3][3] = {{p[CRANK_INERTIA], p[CRANK_INERTIA], p[CRANK_INERTIA]},
                                 {p[ROD_AXIAL], p[ROD_ACROSS], p[ROD_ACROSS]},
                                 {p[SLIDER_INERTIA], p[SLIDER_INERTIA], p[SLIDER_INERTIA]}};
-  double q[3][7];
-  double v[3][6];
+  const baum_i_body_state slider = state(p, &p[ANGLE], &p[SPEED], 2);
   baum_body_id id[3];
   baum_i_parts_gravity_z(parts, p[GRAVITY]);
   for (int k = 0; k < 3; k++) {
-    state(p, &p[ANGLE], &p[SPEED], k, q[k], v[k]);
-    id[k] = baum_i_parts_spatial_body(parts, names[k], p[CRANK_MASS + k], inertia[k], q[k], v[k]);
+    id[k] = baum_i_parts_spatial_body(parts, names[k], p[CRANK_MASS + k], inertia[k],
+                                      state(p, &p[ANGLE], &p[SPEED], k));
   }
   baum_i_axes pin = crank_axes(p, &p[ANGLE], &p[SPEED]);
   baum_i_axes tip = pin;
@@ -101,8 +98,8 @@ static void build(baum_i_parts *parts, const double *p)
   const double across[3] = {0.0, tip.r[2], -tip.r[1]}; /* perpendicular to rod and x */
   baum_i_parts_spatial_revolute(parts, "A", (baum_i_place){BAUM_GROUND, id[0], pin.r, along});
   baum_i_parts_spherical(parts, "B", (baum_i_place){id[0], id[1], tip.r, NULL});
-  baum_i_parts_universal(parts, "C", (baum_i_place){id[2], id[1], q[2], along}, across);
-  baum_i_parts_prismatic(parts, "guide", (baum_i_place){BAUM_GROUND, id[2], q[2], along});
+  baum_i_parts_universal(parts, "C", (baum_i_place){id[2], id[1], slider.q, along}, across);
+  baum_i_parts_prismatic(parts, "guide", (baum_i_place){BAUM_GROUND, id[2], slider.q, along});
 }
 
 const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
@@ -113,14 +110,9 @@ const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
             "rotate, was chosen here",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 16.3 digits, another model in "
                 "double precision to 13.3",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.08, 0.3, 0.1, 0.12, 0.12, 0.5, 2.0, 1e-4, 4e-4, 4e-3, 1e-3,
                                     9.81, 0.0, 6.0},
   .end = 5.0,
-  .build = build,
-  .units = "mmmqqqq",
-  .bodies = 3,
-  .state = state,
   BAUM_I_CATALOG_SERIES(SPATIAL_SLIDER_CRANK, 13, 13),
 };

@@ -2,12 +2,15 @@
 /* The list of shapes of a mechanism. */
 #include "draw/drawing.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
 
-static const double SHARE = 0.02; /* of a unit in the largest extent of the mechanism */
+/* The largest unit as a share of the largest extent of the mechanism, and of the mean distance of
+ * joints from the centres of mass of their bodies, which limits it if there are many bodies. */
+static const double SHARE = 0.02, LINK_SHARE = 0.125;
 
 const char *baum_i_style_name(baum_i_style style)
 {
@@ -19,11 +22,12 @@ const char *baum_i_style_name(baum_i_style style)
 
 const char *baum_i_form_name(baum_i_form form)
 {
-  static const char *const names[] = {"line", "area", "disc", "ball", "box", "between", "arrow"};
+  static const char *const names[] = {"line",  "area",     "disc",     "ball",
+                                      "box",   "cylinder", "mesh",     "between",
+                                      "arrow", "to line",  "to plane", "to sphere"};
   return names[form];
 }
 
-/* Keeps the shapes in the order of their styles. */
 void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const double (*points)[3])
 {
   const int wanted = drawing->point_count + count;
@@ -40,11 +44,20 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shape.count = count;
   memcpy(grown + shape.first, points, (size_t)count * sizeof *points);
   drawing->point_count = wanted;
-  int k = drawing->shape_count++;
-  for (; k > 0 && shapes[k - 1].style > shape.style; k--) {
-    shapes[k] = shapes[k - 1];
+  shapes[drawing->shape_count++] = shape;
+}
+
+/* Shapes of one style keep the order in which they were added, which is that of their points. */
+static int compare(const void *a, const void *b)
+{
+  const baum_i_shape *x = a, *y = b;
+  if (x->style != y->style) {
+    return x->style < y->style ? -1 : 1;
   }
-  shapes[k] = shape;
+  if (x->style == BAUM_I_WHEEL && x->radius != y->radius) {
+    return x->radius > y->radius ? -1 : 1;
+  }
+  return x->first - y->first;
 }
 
 /* ---- the whole ---- */
@@ -94,6 +107,23 @@ static double largest_edge(const baum_i_box *box)
   return edge;
 }
 
+/* Mean distance of joints from the centres of mass of their bodies, without those below `least`.
+ * Infinity if there are no others. */
+static double mean_distance(const baum_i_drawing *drawing, double least)
+{
+  double sum = 0.0;
+  int count = 0;
+  for (int k = 0; k < 2 * drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k / 2];
+    const double *point = place->point[k % 2];
+    double distance =
+      place->element && place->body[k % 2] > 0 ? sqrt(baum_i_dot3(point, point)) : 0.0;
+    sum += distance > least ? distance : 0.0;
+    count += distance > least;
+  }
+  return count > 0 ? sum / count : (double)INFINITY;
+}
+
 static double find_unit(const baum_i_drawing *drawing)
 {
   const double origin[3] = {0.0, 0.0, 0.0};
@@ -114,7 +144,10 @@ static double find_unit(const baum_i_drawing *drawing)
     include(drawing, 0, origin, &box);
     extent = largest_edge(&box);
   }
-  return SHARE * (extent > 0.0 ? extent : 1.0);
+  if (extent <= 0.0) {
+    return SHARE;
+  }
+  return fmin(SHARE * extent, LINK_SHARE * mean_distance(drawing, 1e-6 * extent));
 }
 
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
@@ -124,20 +157,25 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   out->place_count = m->joint_count + m->force_count;
   out->design = baum_i_alloc((size_t)m->body_count + 1, sizeof *out->design);
   out->places = baum_i_alloc((size_t)out->place_count, sizeof *out->places);
-  if (!out->design || !out->places) {
+  out->ends = baum_i_alloc(2 * (size_t)out->place_count, sizeof *out->ends);
+  out->first_end = baum_i_alloc((size_t)m->body_count + 2, sizeof *out->first_end);
+  out->gears = baum_i_alloc((size_t)m->joint_count, sizeof *out->gears);
+  if (!out->design || !out->places || !out->ends || !out->first_end || !out->gears) {
     return baum_i_fail_memory();
   }
   for (int k = 0; k <= m->body_count; k++) {
     out->design[k] = baum_i_spatial_design_frame(m, k);
   }
-  BAUM_I_TRY(baum_i_find_places(out));
+  baum_i_find_places(out);
   out->unit = find_unit(out);
-  for (int k = 1; k <= m->body_count; k++) {
+  for (int k = 0; k <= m->body_count; k++) {
     baum_i_draw_body(out, k);
   }
   for (int k = 0; k < out->place_count; k++) {
     baum_i_draw_symbol(out, k);
+    baum_i_draw_gaps(out, &out->places[k]);
   }
+  qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
@@ -145,6 +183,9 @@ void baum_i_drawing_release(baum_i_drawing *drawing)
 {
   baum_i_free(drawing->design);
   baum_i_free(drawing->places);
+  baum_i_free(drawing->ends);
+  baum_i_free(drawing->first_end);
+  baum_i_free(drawing->gears);
   baum_i_free(drawing->shapes);
   baum_i_free(drawing->points);
 }
@@ -163,6 +204,26 @@ static void put_bodies(const baum_mechanism *m, baum_i_buffer *out)
   }
 }
 
+static void put_points(const baum_i_drawing *drawing, const baum_i_shape *shape, baum_i_buffer *out)
+{
+  baum_i_put(out, ",\"points\":[");
+  for (int i = 0; i < shape->count; i++) {
+    const double *x = drawing->points[shape->first + i];
+    baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+  }
+  baum_i_put(out, "]");
+}
+
+static void put_triangles(const baum_i_shape *shape, baum_i_buffer *out)
+{
+  for (int k = 0; k < shape->triangle_count; k++) {
+    const int32_t *corner = shape->triangles + 3 * (size_t)k;
+    baum_i_putf(out, "%s%d,%d,%d", k ? "," : ",\"triangles\":[", (int)corner[0], (int)corner[1],
+                (int)corner[2]);
+  }
+  baum_i_put(out, shape->triangle_count > 0 ? "]" : "");
+}
+
 void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
 {
   baum_i_putf(out, "{\"version\":1,\"spatial\":%s,\"unit\":%.6g,\"gravity\":[%.6g,%.6g,%.6g]",
@@ -178,12 +239,13 @@ void baum_i_put_drawing(const baum_i_drawing *drawing, baum_i_buffer *out)
                 shape->body, shape->other);
     baum_i_put(out, "\"element\":\"");
     baum_i_put_user_text(out, shape->element->name, BAUM_I_JSON);
-    baum_i_putf(out, "\",\"radius\":%.5g,\"points\":[", shape->radius);
-    for (int i = 0; i < shape->count; i++) {
-      const double *x = drawing->points[shape->first + i];
-      baum_i_putf(out, "%s[%.6g,%.6g,%.6g]", i ? "," : "", x[0], x[1], x[2]);
+    baum_i_putf(out, "\",\"radius\":%.5g", shape->radius);
+    if (shape->color) {
+      baum_i_putf(out, ",\"color\":\"%s\"", shape->color);
     }
-    baum_i_put(out, "]}");
+    put_points(drawing, shape, out);
+    put_triangles(shape, out);
+    baum_i_put(out, "}");
   }
   baum_i_put(out, "]}");
 }

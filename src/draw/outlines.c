@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Outlines of bodies, from the points of their joints: links as rounded bars and polygons, sliders
  * as blocks, wheels as discs. A body without such points is drawn with the size that its inertia
- * gives: in the plane a disc of the same inertia, in space a box with the same moments about the
- * axes of the body.
+ * gives: in the plane a disc of the same inertia, in space a box or cylinder with the same moments
+ * about the axes of the body.
  */
 #include <string.h>
 
@@ -27,7 +27,7 @@ typedef struct outline {
 static void draw(const outline *o, baum_i_style style, baum_i_form form, double radius, int count,
                  const double (*points)[3])
 {
-  baum_i_shape shape = {style, form, o->element, o->body, o->body, radius, 0, 0};
+  const baum_i_shape shape = baum_i_shape_of(style, form, o->element, o->body, o->body, radius);
   baum_i_draw(o->drawing, shape, count, points);
 }
 
@@ -57,13 +57,14 @@ static bool is_point_on(const baum_i_place *place, int side)
 
 static void add_points(outline *o)
 {
-  for (int k = 0; k < o->drawing->place_count; k++) {
-    const baum_i_place *place = &o->drawing->places[k];
-    for (int side = 0; place->element && side < 2; side++) {
-      if (place->body[side] == o->body && is_point_on(place, side) &&
-          !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
-        add_point(o, place->point[side]);
-      }
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(o->drawing, o->body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &o->drawing->places[ends[k].place];
+    const int side = ends[k].side;
+    if (is_point_on(place, side) &&
+        !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
+      add_point(o, place->point[side]);
     }
   }
 }
@@ -130,10 +131,11 @@ static bool draw_block(const outline *o)
 {
   const double u = o->drawing->unit;
   bool found = false;
-  for (int k = 0; k < o->drawing->mechanism->joint_count; k++) {
-    const baum_i_place *place = &o->drawing->places[k];
-    if (place->body[1] != o->body || !place->element ||
-        place->element->definition != baum_i_planar_translational_definition) {
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(o->drawing, o->body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &o->drawing->places[ends[k].place];
+    if (ends[k].side == 0 || place->element->definition != baum_i_planar_translational_definition) {
       continue;
     }
     const double *at = place->point[1], *along = place->axis[1];
@@ -201,12 +203,54 @@ static void draw_box(const outline *o)
   draw(o, BAUM_I_BODY, BAUM_I_BOX, 0.0, 2, (const double(*)[3])box);
 }
 
+/* Returns the axis of the body about which its inertia is symmetric; -1 if there is none, or if all
+ * moments are equal. */
+static int find_symmetry(const double inertia[6])
+{
+  const double least = 1e-6 * (inertia[0] + inertia[1] + inertia[2]);
+  const bool diagonal = fabs(inertia[3]) + fabs(inertia[4]) + fabs(inertia[5]) < least;
+  for (int i = 0; diagonal && i < 3; i++) {
+    const double next = inertia[(i + 1) % 3], last = inertia[(i + 2) % 3];
+    if (fabs(next - last) < least && fabs(inertia[i] - next) > least) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+/* For a cylinder of radius r and length 2 e: I = m r^2 / 2 about its axis, and
+ * m (r^2 / 4 + e^2 / 3) across it. */
+static void draw_cylinder(const outline *o, int axis)
+{
+  const double least = 0.5 * o->drawing->unit, most = 2.0 * MOST * o->drawing->unit;
+  const baum_spatial_body_def *def = o->element->def;
+  const double about = def->inertia[axis] / def->mass;
+  const double across = def->inertia[(axis + 1) % 3] / def->mass;
+  double ends[2][3] = {{0.0}};
+  ends[1][axis] = fmin(fmax(sqrt(fmax(3.0 * across - 1.5 * about, 0.0)), least), most);
+  ends[0][axis] = -ends[1][axis];
+  const double radius = fmin(fmax(sqrt(2.0 * about), least), most);
+  draw(o, BAUM_I_BODY, BAUM_I_CYLINDER, radius, 2, (const double(*)[3])ends);
+  double mark[4][3] = {{0.0}}; /* across both ends and along the side, shows how it rotates */
+  for (int k = 0; k < 4; k++) {
+    mark[k][axis] = ends[k / 2][axis];
+    mark[k][(axis + 1) % 3] = k == 1 || k == 2 ? radius : 0.0;
+  }
+  draw(o, BAUM_I_MARK, BAUM_I_LINE, 0.0, 4, (const double(*)[3])mark);
+}
+
 static void draw_spatial(const outline *o)
 {
   static const double origin[3] = {0.0, 0.0, 0.0};
   const double u = o->drawing->unit;
   if (o->count < 2 && o->element->definition == baum_i_spatial_body_definition) {
-    draw_box(o);
+    const baum_spatial_body_def *def = o->element->def;
+    const int axis = find_symmetry(def->inertia);
+    if (axis >= 0) {
+      draw_cylinder(o, axis);
+    } else {
+      draw_box(o);
+    }
   }
   if (o->count == 2) { /* one bar through the centre of mass */
     const double bar[3][3] = {{o->points[0][0], o->points[0][1], o->points[0][2]},
@@ -232,14 +276,20 @@ void baum_i_draw_body(baum_i_drawing *drawing, int body)
   const baum_i_body *drawn = drawing->mechanism->bodies[body];
   baum_i_frame_kind kind = baum_i_frame_of(drawn);
   outline o = {drawing, body, &drawn->element, 0, NULL};
-  if (kind == BAUM_I_FRAME_NONE) {
+  if (drawn->outline_count > 0) {
+    baum_i_draw_outlines(drawing, body);
+    return;
+  }
+  if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
     return;
   }
   if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE) {
     draw(&o, BAUM_I_BODY, BAUM_I_BALL, 1.3 * drawing->unit, 1, origin);
     return;
   }
-  o.points = baum_i_alloc(2 * (size_t)drawing->place_count + 1, sizeof *o.points);
+  int ends;
+  (void)baum_i_ends_of(drawing, body, &ends);
+  o.points = baum_i_alloc((size_t)ends + 1, sizeof *o.points);
   if (!o.points) {
     drawing->failed = true;
     return;

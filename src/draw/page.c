@@ -18,9 +18,11 @@
 #include "simulate/run.h"
 
 enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
-static const char PLACE[] = "\"DATA\""; /* where the template takes the data */
+/* Where the template takes the data, and the script that draws solids. */
+static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
 
-extern const unsigned char baum_i_page_html[]; /* made by cmake/Embed.cmake */
+/* Made by cmake/Embed.cmake. */
+extern const unsigned char baum_i_page_html[], baum_i_solids_js[];
 
 /* A column of the table. */
 typedef struct column {
@@ -43,9 +45,7 @@ typedef struct table {
 void baum_page_init(baum_page *page, size_t caller_size)
 {
   const baum_page defaults = {.struct_size = sizeof defaults};
-  if (baum_i_takes_sized(page, caller_size)) {
-    baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(page, caller_size, &defaults, sizeof defaults);
 }
 
 /* ---- checks ---- */
@@ -75,6 +75,27 @@ static baum_status check_list(const char *call, const char *names, int64_t count
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the page needs %s", call, names);
 }
 
+static const char *mark_kind_name(const baum_page *page, int k)
+{
+  switch (page->mark_kinds ? page->mark_kinds[k] : BAUM_MARK_WARNING) {
+  case BAUM_MARK_WARNING: return "warning";
+  case BAUM_MARK_SINGULAR: return "singular";
+  case BAUM_MARK_EVENT: return "event";
+  default: return NULL;
+  }
+}
+
+static baum_status check_marks(const baum_page *page, const char *call)
+{
+  for (int k = 0; k < page->mark_count; k++) {
+    if (!mark_kind_name(page, k)) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: mark_kinds[%d] is %d, not a baum_mark_kind", call,
+                         k, page->mark_kinds[k]);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_given(const baum_page *page, const char *call)
 {
   BAUM_I_TRY(
@@ -85,23 +106,24 @@ static baum_status check_given(const baum_page *page, const char *call)
                         page->traces));
   BAUM_I_TRY(check_list(call, "plots and plot_labels for its plot_count >= 0", page->plot_count, 0,
                         page->plots, page->plot_labels));
-  return check_list(call, "mark_times and mark_texts for its mark_count >= 0", page->mark_count, 0,
-                    page->mark_times, page->mark_texts);
+  BAUM_I_TRY(check_list(call, "mark_times and mark_texts for its mark_count >= 0", page->mark_count,
+                        0, page->mark_times, page->mark_texts));
+  return check_marks(page, call);
+}
+
+/* Copies the page of the caller. Fields that an older version lacks keep their defaults. */
+static baum_status take_page(const baum_page *given, const char *call, baum_page *page)
+{
+  if (!given) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: page is NULL", call);
+  }
+  *page = baum_page_default();
+  return baum_i_take_sized(page, sizeof *page, given, call, " of the page", "baum_page_default()");
 }
 
 static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,
                          int *width)
 {
-  BAUM_I_TRY(baum_i_check_frozen(m, call));
-  if (!page) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: page is NULL", call);
-  }
-  if (page->struct_size != sizeof *page) {
-    return baum_i_fail(
-      BAUM_ERR_STRUCT,
-      "%s: struct_size of the page is %zu, must be %zu; begin with baum_page_default()", call,
-      page->struct_size, sizeof *page);
-  }
   BAUM_I_TRY(check_given(page, call));
   BAUM_I_TRY(baum_i_check_channels(m, page->channels, page->channel_count, width));
   if (page->trace_count > 0) {
@@ -354,8 +376,8 @@ static void put_traces(const table *t, baum_i_buffer *out)
 static void put_marks(const baum_page *page, baum_i_buffer *out)
 {
   for (int k = 0; k < page->mark_count; k++) {
-    baum_i_putf(out, "%s{\"t\":%s,\"text\":\"", k ? "," : "",
-                baum_i_exact(page->mark_times[k], "null").text);
+    baum_i_putf(out, "%s{\"t\":%s,\"kind\":\"%s\",\"text\":\"", k ? "," : "",
+                baum_i_exact(page->mark_times[k], "null").text, mark_kind_name(page, k));
     baum_i_put_user_text(out, page->mark_texts[k] ? page->mark_texts[k] : "", BAUM_I_JSON);
     baum_i_put(out, "\"}");
   }
@@ -364,7 +386,8 @@ static void put_marks(const baum_page *page, baum_i_buffer *out)
 static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
 {
   const char *page = (const char *)baum_i_page_html;
-  const char *place = strstr(page, PLACE);
+  const char *place = strstr(page, DATA), *after = place + strlen(DATA);
+  const char *script = strstr(after, SOLIDS);
   const char *title = t->page->title ? t->page->title : "Mechanism";
   t->columns = baum_i_alloc((size_t)t->width + (size_t)t->page->plot_count + 1, sizeof *t->columns);
   if (!t->columns) {
@@ -391,17 +414,22 @@ static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *ou
   put_ranges(t, out);
   baum_i_put(out, "],\n\"values\":\"");
   put_values(t, out);
-  baum_i_putf(out, "\"}%s", place + strlen(PLACE));
+  baum_i_putf(out, "\"}%.*s%s", (int)(script - after), after,
+              drawing->spatial ? (const char *)baum_i_solids_js : "");
+  baum_i_put(out, script + strlen(SOLIDS));
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
 static baum_status make(const baum_mechanism *mechanism, const baum_page *page, const char *call,
                         baum_i_buffer *out)
 {
-  table t = {.mechanism = mechanism, .page = page};
-  BAUM_I_TRY(check(mechanism, page, call, &t.width));
+  baum_page checked;
+  table t = {.mechanism = mechanism, .page = &checked};
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
+  BAUM_I_TRY(take_page(page, call, &checked));
+  BAUM_I_TRY(check(mechanism, &checked, call, &t.width));
   baum_i_drawing drawing;
-  const baum_i_samples motion = {page->rows + find_positions(&t), page->count, t.width};
+  const baum_i_samples motion = {checked.rows + find_positions(&t), checked.count, t.width};
   baum_status status = baum_i_drawing_create(mechanism, &motion, &drawing);
   if (status == BAUM_OK) {
     status = put_page(&t, &drawing, out);

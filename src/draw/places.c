@@ -4,8 +4,7 @@
 
 #include "draw/drawing.h"
 #include "mechanism/identify.h"
-#include "mechanism/planar/axis_row.h"
-#include "mechanism/spatial/spatial.h"
+#include "mechanism/kinds.h"
 
 /* Finds a field of a definition; NULL if there is none. */
 static const void *find_field(const baum_i_element *element, const char *name, size_t *size)
@@ -86,6 +85,11 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
     baum_i_turn_back(drawing->design[place->body[0]].axes, ground, axis);
   }
   baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
+  given = find_field(place->element, "angle", &size);
+  if (given && !isnan(*given)) { /* of a guide in the plane: the given relative orientation */
+    axis_b[0] = cos(*given) * axis[0] + sin(*given) * axis[1];
+    axis_b[1] = cos(*given) * axis[1] - sin(*given) * axis[0];
+  }
   given = find_field(place->element, "axis_b", &size);
   if (given && !isnan(*given)) {
     memcpy(axis_b, given, size);
@@ -99,42 +103,103 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
 
 /* ---- places ---- */
 
-/* Sets the points of an element from its fields point, point_a and point_b. */
-static baum_status set_points(const baum_i_drawing *drawing, const double *point, size_t size,
-                              baum_i_place *out)
+static bool is_particle(const baum_i_drawing *drawing, int body)
 {
-  const bool planar = size == 2 * sizeof *point;
-  double s[6];
-  BAUM_I_TRY(planar ? baum_i_planar_points(drawing->mechanism, out->element, s)
-                    : baum_i_spatial_points(drawing->mechanism, out->element, s));
-  memcpy(out->point[0], s, size);
-  memcpy(out->point[1], s + size / sizeof *s, size);
-  set_axes(drawing, planar, !isnan(point[0]), out);
-  return BAUM_OK;
+  const baum_i_frame_kind kind = baum_i_frame_of(drawing->mechanism->bodies[body]);
+  return kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE;
 }
 
-static baum_status find_place(const baum_i_drawing *drawing, const baum_i_element *element,
-                              baum_i_place *out)
+/* Sets the points of an element from its fields point, point_a and point_b. The only point of a
+ * particle is the particle itself, also if `point` is elsewhere by mistake. */
+static void set_points(const baum_i_drawing *drawing, const double *point, size_t size,
+                       baum_i_place *out)
+{
+  static const char *const names[2] = {"point_a", "point_b"};
+  const bool in_ground = !isnan(point[0]);
+  double ground[3] = {0.0};
+  memcpy(ground, point, size);
+  for (int side = 0; side < 2; side++) {
+    size_t same;
+    const double *own = find_field(out->element, names[side], &same);
+    if (in_ground && !is_particle(drawing, out->body[side])) {
+      baum_i_draw_move(drawing, 0, out->body[side], ground, out->point[side]);
+    } else if (!in_ground && own && !isnan(own[0])) {
+      memcpy(out->point[side], own, size);
+    }
+  }
+  set_axes(drawing, size == 2 * sizeof *point, in_ground, out);
+}
+
+/* A load at the centre of mass needs no place. */
+static void set_load(const baum_i_element *element, int body, const double *point, size_t size,
+                     baum_i_place *out)
+{
+  out->body[0] = out->body[1] = body;
+  memcpy(out->point[0], point, size);
+  memcpy(out->point[1], point, size);
+  out->element = baum_i_dot3(out->point[0], out->point[0]) > 0.0 ? element : NULL;
+}
+
+static void find_place(const baum_i_drawing *drawing, const baum_i_element *element,
+                       baum_i_place *out)
 {
   size_t size;
   *out = (baum_i_place){.axis = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}}};
   const double *point = find_field(element, "point", &size);
+  const int loaded = find_body(drawing, element, "body");
+  if (point && loaded >= 0) {
+    set_load(element, loaded, point, size, out);
+    return;
+  }
   out->body[0] = find_body(drawing, element, "body_a");
   out->body[1] = find_body(drawing, element, "body_b");
-  if (!point || out->body[0] < 0 || out->body[1] < 0) {
-    return BAUM_OK;
+  if (point && out->body[0] >= 0 && out->body[1] >= 0) {
+    out->element = element;
+    set_points(drawing, point, size, out);
   }
-  out->element = element;
-  return set_points(drawing, point, size, out);
 }
 
-baum_status baum_i_find_places(baum_i_drawing *drawing)
+/* Lists the ends of places by body, and the gears, so that large mechanisms are drawn quickly. */
+static void list_ends(baum_i_drawing *drawing)
+{
+  const baum_mechanism *m = drawing->mechanism;
+  int *first = drawing->first_end;
+  for (int k = 0; k < m->joint_count; k++) {
+    if (m->joints[k]->element.definition == baum_i_planar_gear_definition) {
+      drawing->gears[drawing->gear_count++] = k;
+    }
+  }
+  for (int k = 0; k < 2 * drawing->place_count; k++) {
+    const baum_i_place *place = &drawing->places[k / 2];
+    first[place->body[k % 2] + 1] += place->element != NULL;
+  }
+  for (int k = 0; k <= m->body_count; k++) {
+    first[k + 1] += first[k];
+  }
+  const int total = first[m->body_count + 1];
+  for (int k = 2 * drawing->place_count - 1; k >= 0; k--) { /* each end moves to its begin */
+    const baum_i_place *place = &drawing->places[k / 2];
+    if (place->element) {
+      drawing->ends[--first[place->body[k % 2] + 1]] = (baum_i_place_end){k / 2, k % 2};
+    }
+  }
+  memmove(first, first + 1, ((size_t)m->body_count + 1) * sizeof *first);
+  first[m->body_count + 1] = total;
+}
+
+const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count)
+{
+  *count = drawing->first_end[body + 1] - drawing->first_end[body];
+  return drawing->ends + drawing->first_end[body];
+}
+
+void baum_i_find_places(baum_i_drawing *drawing)
 {
   const baum_mechanism *m = drawing->mechanism;
   for (int k = 0; k < drawing->place_count; k++) {
     const baum_i_element *element =
       k < m->joint_count ? &m->joints[k]->element : &m->forces[k - m->joint_count]->element;
-    BAUM_I_TRY(find_place(drawing, element, &drawing->places[k]));
+    find_place(drawing, element, &drawing->places[k]);
   }
-  return BAUM_OK;
+  list_ends(drawing);
 }

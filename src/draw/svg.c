@@ -5,28 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <baum/draw.h>
-
 #include "base/alloc.h"
-#include "base/file.h"
-#include "draw/drawing.h"
-#include "mechanism/identify.h"
+#include "draw/svg.h"
 
-enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22, CIRCLE = 24 };
+enum { WIDTH = 640, HEIGHT = 480, COLOURS = 8, COIL = 22 };
 static const double MARGIN = 12.0;
 
-typedef struct look {
-  const char *fill;
-  const char *stroke;
-  double width; /* [px] */
-  const char *dash;
-} look;
+typedef baum_i_picture picture;
+typedef baum_i_look look;
 
+/* Bodies have a fill and stroke of COLOUR instead. */
 static const look LOOKS[BAUM_I_STYLE_COUNT] = {
+  [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
   [BAUM_I_GROUND] = {"none", "#78828c", 1.3, NULL},
-  [BAUM_I_WHEEL] = {NULL, NULL, 1.3, NULL},
-  [BAUM_I_BODY] = {NULL, NULL, 1.3, NULL}, /* see COLOUR */
+  [BAUM_I_WHEEL] = {"", "", 1.3, NULL},
+  [BAUM_I_BODY] = {"", "", 1.3, NULL},
   [BAUM_I_MARK] = {"none", "#59636e", 1.2, NULL},
   [BAUM_I_PITCH] = {"none", "#59636e", 1.2, "8 3 2 3"},
   [BAUM_I_SLOT] = {"#f4f6f8", "#59636e", 1.3, NULL},
@@ -34,7 +28,7 @@ static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_DAMPER] = {"none", "#78828c", 1.7, NULL},
   [BAUM_I_ROD] = {"#d5dae0", "#59636e", 1.2, NULL},
   [BAUM_I_JOINT] = {"#f4f6f8", "#3f4750", 1.3, NULL},
-  [BAUM_I_COUPLING] = {"none", "#78828c", 1.3, "2 4"},
+  [BAUM_I_COUPLING] = {"none", "#78828c", 1.6, "5 4"},
   [BAUM_I_DRIVER] = {"none", "#0f9d6b", 2.0, NULL},
   [BAUM_I_LOAD] = {"none", "#d9480f", 2.0, NULL},
   [BAUM_I_MOMENT] = {"none", "#8b5cf6", 2.0, NULL},
@@ -46,24 +40,19 @@ static const char *const COLOUR[COLOURS][2] = {
   {"#a9c9ec", "#2563a8"}, {"#f5c396", "#b4560f"}, {"#a5dcc0", "#0c7a50"}, {"#dcb4e8", "#8d22a3"},
   {"#ead48a", "#86640a"}, {"#a3dbe5", "#0e7188"}, {"#f3b3be", "#b91c43"}, {"#c8ced6", "#4b5563"}};
 
-typedef struct picture {
-  const baum_i_drawing *drawing;
-  const baum_i_spatial_frame *frames; /* (body_count + 1) */
-  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
-  double scale;                       /* [px/m] */
-  double left, top;                   /* [m] */
-  baum_i_buffer *out;
-} picture;
-
 /* ---- projection ---- */
 
 /* Transforms a point of a body to the axes right, up and towards the eye [m]. */
 static void project(const picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
-  baum_i_turn(p->frames[body].axes, point, at);
-  baum_i_add_scaled3(1.0, p->frames[body].r, at);
+  baum_i_to_ground(&p->frames[body], point, at);
   baum_i_turn(p->view, at, out);
+}
+
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
+{
+  project(p, body, point, out);
 }
 
 static void set_view(picture *p)
@@ -80,8 +69,14 @@ static void set_view(picture *p)
   for (int i = 0; i < 3 && size > 0.0; i++) {
     up[i] = -g[i] / size;
   }
-  /* x and y are horizontal. If up is an axis of the ground, they are the next two axes. */
-  baum_i_complete_axes(up, x, y);
+  /* x and y are horizontal, as in page.html. */
+  const double other[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0.0};
+  baum_i_cross(up, other, y);
+  double length = sqrt(baum_i_dot3(y, y));
+  for (int i = 0; i < 3; i++) {
+    y[i] /= length;
+  }
+  baum_i_cross(y, up, x);
   for (int i = 0; i < 3; i++) {
     double right = cos(TURN) * x[i] + sin(TURN) * y[i];
     double front = sin(TURN) * x[i] - cos(TURN) * y[i];
@@ -98,31 +93,42 @@ static const double *point_of(const picture *p, const baum_i_shape *shape, int k
   return p->drawing->points[shape->first + k];
 }
 
-/* Projects the second end of a line between bodies or of an arrow. */
-static void project_end(const picture *p, const baum_i_shape *shape, double out[3])
+/* Projects the ends of a shape that connects bodies. Returns the length [m]. */
+static double project_ends(const picture *p, const baum_i_shape *shape, double out[2][3])
 {
-  if (shape->form == BAUM_I_BETWEEN) {
-    project(p, shape->other, point_of(p, shape, 1), out);
-    return;
-  }
-  double vector[3], seen_vector[3]; /* the arrow is 8 units long */
-  baum_i_turn(p->frames[shape->other].axes, point_of(p, shape, 1), vector);
-  baum_i_turn(p->view, vector, seen_vector);
-  project(p, shape->body, point_of(p, shape, 0), out);
-  double length = sqrt(baum_i_dot3(vector, vector));
-  baum_i_add_scaled3(8.0 * p->drawing->unit / length, seen_vector, out);
+  double at[2][3];
+  baum_i_find_ends(p->drawing, p->frames, shape, at[0], at[1]);
+  baum_i_turn(p->view, at[0], out[0]);
+  baum_i_turn(p->view, at[1], out[1]);
+  baum_i_add_scaled3(-1.0, at[0], at[1]);
+  return sqrt(baum_i_dot3(at[1], at[1]));
 }
 
-static double mean_depth(const picture *p, const baum_i_shape *shape)
+static bool connects(const baum_i_shape *shape)
 {
-  bool pair = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
-  double sum = 0.0, at[3];
-  int count = pair ? shape->count : 1;
+  return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
+}
+
+/* Whether all points of a shape are places, not directions or lengths. */
+static bool has_places(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||
+         shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
+}
+
+/* Bars count as far away as their farther end, so that the joints at both ends cover them. Other
+ * shapes count as their mean. */
+static double depth_of(const picture *p, const baum_i_shape *shape)
+{
+  bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
+  double sum = 0.0, least = INFINITY, at[3];
+  int count = has_places(shape) ? shape->count : 1;
   for (int k = 0; k < count; k++) {
     project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
+    least = fmin(least, at[2]);
   }
-  return sum / count + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
+  return (bar ? least : sum / count) + (shape->style == BAUM_I_JOINT ? p->drawing->unit : 0.0);
 }
 
 static void include(const double at[3], double radius, baum_i_box *box)
@@ -131,21 +137,43 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
+/* A gap is only shown if it is long enough to be seen. */
+static bool is_shown(const picture *p, const baum_i_shape *shape)
+{
+  double ends[2][3];
+  return shape->style != BAUM_I_GAP || project_ends(p, shape, ends) > 0.2 * p->drawing->unit;
+}
+
+static void include_box(const picture *p, const baum_i_shape *shape, baum_i_box *box)
+{
+  const double *centre = point_of(p, shape, 0), *half = point_of(p, shape, 1);
+  for (int k = 0; k < 8; k++) {
+    double point[3], at[3];
+    for (int i = 0; i < 3; i++) {
+      point[i] = centre[i] + (k >> i & 1 ? half[i] : -half[i]);
+    }
+    project(p, shape->body, point, at);
+    include(at, 0.0, box);
+  }
+}
+
 static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_box *box)
 {
-  bool many = shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA;
-  double at[3], radius = shape->radius;
+  double at[3];
   if (shape->form == BAUM_I_BOX) {
-    const double *half = point_of(p, shape, 1);
-    radius = sqrt(baum_i_dot3(half, half));
+    include_box(p, shape, box);
+    return;
   }
-  for (int k = 0; k < (many ? shape->count : 1); k++) {
+  if (connects(shape)) {
+    double ends[2][3];
+    (void)project_ends(p, shape, ends);
+    include(ends[0], shape->radius, box);
+    include(ends[1], shape->radius, box);
+    return;
+  }
+  for (int k = 0; k < (has_places(shape) ? shape->count : 1); k++) {
     project(p, shape->body, point_of(p, shape, k), at);
-    include(at, radius, box);
-  }
-  if (shape->form == BAUM_I_BETWEEN || shape->form == BAUM_I_ARROW) {
-    project_end(p, shape, at);
-    include(at, radius, box);
+    include(at, shape->radius, box);
   }
 }
 
@@ -156,7 +184,7 @@ static void put_number(const picture *p, double x)
   baum_i_putf(p->out, "%.1f", x);
 }
 
-static void put_point(const picture *p, const char *word, const double at[3])
+void baum_i_picture_put_point(const picture *p, const char *word, const double at[3])
 {
   baum_i_put(p->out, word);
   put_number(p, (at[0] - p->left) * p->scale);
@@ -164,13 +192,16 @@ static void put_point(const picture *p, const char *word, const double at[3])
   put_number(p, (p->top - at[1]) * p->scale);
 }
 
-static look look_of(const baum_i_shape *shape)
+look baum_i_picture_look(const baum_i_shape *shape)
 {
   look found = LOOKS[shape->style];
-  if (!found.fill) {
+  if (shape->color) {
+    memcpy(found.fill, shape->color, sizeof found.fill);
+    baum_i_shade(found.fill, 0.55, found.stroke);
+  } else if (!*found.fill) {
     const char *const *colour = COLOUR[(shape->body + COLOURS - 1) % COLOURS];
-    found.fill = colour[0];
-    found.stroke = colour[1];
+    memcpy(found.fill, colour[0], sizeof found.fill);
+    memcpy(found.stroke, colour[1], sizeof found.stroke);
   }
   return found;
 }
@@ -189,7 +220,7 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
 {
   baum_i_put(p->out, "<path d=\"");
   for (int k = 0; k < count; k++) {
-    put_point(p, k ? "L" : "M", at[k]);
+    baum_i_picture_put_point(p, k ? "L" : "M", at[k]);
   }
   baum_i_put(p->out, closed ? "Z\"" : "\"");
 }
@@ -199,7 +230,7 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
 static void put_line(const picture *p, const baum_i_shape *shape, int count, const double (*at)[3],
                      bool closed)
 {
-  look l = look_of(shape);
+  const look l = baum_i_picture_look(shape);
   double wide = 2.0 * shape->radius * p->scale;
   put_path(p, count, at, closed);
   if (wide <= 2.0 * l.width || strcmp(l.fill, "none") == 0) {
@@ -211,9 +242,15 @@ static void put_line(const picture *p, const baum_i_shape *shape, int count, con
   put_attributes(p, closed ? l.fill : "none", l.fill, wide - 2.0 * l.width, NULL);
 }
 
+void baum_i_picture_put_area(const picture *p, const look *l, int count, const double (*at)[3])
+{
+  put_path(p, count, at, true);
+  put_attributes(p, l->fill, l->stroke, l->width, l->dash);
+}
+
 static void put_circle(const picture *p, const baum_i_shape *shape, const double at[3])
 {
-  look l = look_of(shape);
+  const look l = baum_i_picture_look(shape);
   baum_i_put(p->out, "<circle cx=\"");
   put_number(p, (at[0] - p->left) * p->scale);
   baum_i_put(p->out, "\" cy=\"");
@@ -242,43 +279,44 @@ static void put_face(const picture *p, const baum_i_shape *shape, int axis, doub
     point[(axis + 2) % 3] += (k < 2 ? -1.0 : 1.0) * half[(axis + 2) % 3];
     project(p, shape->body, point, corners[k]);
   }
-  baum_i_shape face = *shape;
-  face.radius = 0.0;
-  put_line(p, &face, 4, (const double(*)[3])corners, true);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, 4, (const double(*)[3])corners);
 }
 
 static void put_disc(const picture *p, const baum_i_shape *shape)
 {
-  double at[CIRCLE][3], x[3], y[3];
+  double at[BAUM_I_CIRCLE][3], x[3], y[3];
   if (!p->drawing->spatial) {
     project(p, shape->body, point_of(p, shape, 0), at[0]);
     put_circle(p, shape, at[0]);
     return;
   }
   baum_i_complete_axes(point_of(p, shape, 1), x, y);
-  for (int k = 0; k < CIRCLE; k++) {
-    double angle = BAUM_I_REVOLUTION * k / CIRCLE, point[3];
+  for (int k = 0; k < BAUM_I_CIRCLE; k++) {
+    double angle = BAUM_I_REVOLUTION * k / BAUM_I_CIRCLE, point[3];
     memcpy(point, point_of(p, shape, 0), sizeof point);
     baum_i_add_scaled3(shape->radius * cos(angle), x, point);
     baum_i_add_scaled3(shape->radius * sin(angle), y, point);
     project(p, shape->body, point, at[k]);
   }
-  baum_i_shape flat = *shape;
-  flat.radius = 0.0;
-  put_line(p, &flat, CIRCLE, (const double(*)[3])at, true);
+  const look l = baum_i_picture_look(shape);
+  baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
 }
 
 /* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
- * radii. */
+ * radii. A third point of the shape moves all except the ends to the left. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
   double at[COIL][3];
   const double d[2] = {ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]};
-  const double across = shape->radius / hypot(d[0], d[1]);
+  const double length = hypot(d[0], d[1]);
+  const double shift = shape->count > 2 ? point_of(p, shape, 2)[1] : 0.0;
   for (int k = 0; k < count; k++) {
-    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * xy[k][1] * d[1];
-    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * xy[k][1] * d[0];
+    bool inner = xy[k][0] > 0.0 && xy[k][0] < 1.0;
+    double across = (shape->radius * xy[k][1] + (inner ? shift : 0.0)) / length;
+    at[k][0] = ends[0][0] + xy[k][0] * d[0] - across * d[1];
+    at[k][1] = ends[0][1] + xy[k][0] * d[1] + across * d[0];
   }
   baum_i_shape thin = *shape;
   thin.radius = 0.0;
@@ -299,25 +337,24 @@ static void put_coil(const picture *p, const baum_i_shape *shape, const double (
 
 static void put_damper(const picture *p, const baum_i_shape *shape, const double (*ends)[3])
 {
-  static const double rod[2][2] = {{0.0, 0.0}, {0.3, 0.0}};
+  static const double rod[3][2] = {{0.0, 0.0}, {0.15, 0.0}, {0.3, 0.0}};
   static const double cylinder[4][2] = {{0.7, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {0.7, 1.0}};
-  static const double piston[4][2] = {{1.0, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
-  put_along(p, shape, ends, 2, rod);
+  static const double piston[5][2] = {{1.0, 0.0}, {0.85, 0.0}, {0.5, 0.0}, {0.5, -0.8}, {0.5, 0.8}};
+  put_along(p, shape, ends, 3, rod);
   put_along(p, shape, ends, 4, cylinder);
-  put_along(p, shape, ends, 4, piston);
+  put_along(p, shape, ends, 5, piston);
 }
 
 static void put_between(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
-  project(p, shape->body, point_of(p, shape, 0), ends[0]);
-  project_end(p, shape, ends[1]);
-  double length = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
-  if (length > 0.0 && shape->style == BAUM_I_SPRING) {
+  (void)project_ends(p, shape, ends);
+  double seen = hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+  if (seen > 0.0 && shape->style == BAUM_I_SPRING) {
     put_coil(p, shape, (const double(*)[3])ends);
-  } else if (length > 0.0 && shape->style == BAUM_I_DAMPER) {
+  } else if (seen > 0.0 && shape->style == BAUM_I_DAMPER) {
     put_damper(p, shape, (const double(*)[3])ends);
-  } else if (shape->style != BAUM_I_GAP || length > 0.2 * p->drawing->unit) {
+  } else {
     put_line(p, shape, 2, (const double(*)[3])ends, false);
   }
 }
@@ -326,13 +363,13 @@ static void put_between(const picture *p, const baum_i_shape *shape)
 static void put_arrow(const picture *p, const baum_i_shape *shape)
 {
   static const double tip[4][2] = {{0.0, 0.0}, {1.2, 0.5}, {0.0, 0.0}, {1.2, -0.5}};
-  double from[3], to[3], at[9][3];
-  project(p, shape->body, point_of(p, shape, 0), from);
-  project_end(p, shape, to);
+  double ends[2][3], at[9][3];
+  (void)project_ends(p, shape, ends);
+  const double *from = ends[0], *to = ends[1];
   const double d[2] = {to[0] - from[0], to[1] - from[1]};
   const double size = p->drawing->unit / fmax(hypot(d[0], d[1]), p->drawing->unit);
   const int count = shape->style == BAUM_I_MOMENT ? 9 : 5;
-  memcpy(at[0], from, sizeof from);
+  memcpy(at[0], from, sizeof at[0]);
   for (int k = 1; k < count; k++) {
     double back = size * (tip[(k - 1) % 4][0] + (k > 4 ? 0.8 : 0.0));
     double side = size * tip[(k - 1) % 4][1];
@@ -340,6 +377,15 @@ static void put_arrow(const picture *p, const baum_i_shape *shape)
     at[k][1] = to[1] - back * d[1] - side * d[0];
   }
   put_line(p, shape, count, (const double(*)[3])at, false);
+}
+
+static void put_connection(const picture *p, const baum_i_shape *shape)
+{
+  if (shape->form == BAUM_I_ARROW) {
+    put_arrow(p, shape);
+  } else {
+    put_between(p, shape);
+  }
 }
 
 static void put_points(const picture *p, const baum_i_shape *shape)
@@ -356,48 +402,96 @@ static void put_points(const picture *p, const baum_i_shape *shape)
   baum_i_free(at);
 }
 
-static void put_shape(const picture *p, const baum_i_shape *shape)
+static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 {
   double at[3];
   project(p, shape->body, point_of(p, shape, 0), at);
-  baum_i_put(p->out, "<g><title>");
-  baum_i_put_user_text(p->out, shape->element->name, BAUM_I_XML);
-  baum_i_put(p->out, "</title>");
-  switch (shape->form) {
-  case BAUM_I_BALL: put_circle(p, shape, at); break;
-  case BAUM_I_DISC: put_disc(p, shape); break;
-  case BAUM_I_BETWEEN: put_between(p, shape); break;
-  case BAUM_I_ARROW: put_arrow(p, shape); break;
-  case BAUM_I_BOX:
+  if (connects(shape)) {
+    put_connection(p, shape);
+  } else if (shape->form == BAUM_I_BALL) {
+    put_circle(p, shape, at);
+  } else if (shape->form == BAUM_I_DISC) {
+    put_disc(p, shape);
+  } else if (shape->form == BAUM_I_CYLINDER) {
+    baum_i_picture_put_cylinder(p, shape);
+  } else if (shape->form == BAUM_I_MESH) {
+    baum_i_picture_put_triangle(p, shape, part);
+  } else if (shape->form == BAUM_I_BOX) {
     for (int face = 0; face < 6; face++) {
       put_face(p, shape, face / 2, face % 2 ? 1.0 : -1.0);
     }
-    break;
-  case BAUM_I_LINE:
-  case BAUM_I_AREA:
-  default: put_points(p, shape);
+  } else {
+    put_points(p, shape);
   }
-  baum_i_put(p->out, "</g>\n");
 }
 
 /* ---- the picture ---- */
 
+/* A shape, or a triangle of a mesh. In the plane, layers are shapes. In space, outlines of ground
+ * are behind all others, because the depth of a floor says little; symbols of forces are in
+ * front. */
 typedef struct order {
+  int layer;
   double depth;
   int shape;
+  int part;
 } order;
 
 static int compare(const void *a, const void *b)
 {
   const order *x = a, *y = b;
-  return x->depth != y->depth ? (x->depth > y->depth) - (x->depth < y->depth) : x->shape - y->shape;
+  if (x->layer != y->layer) {
+    return x->layer - y->layer;
+  }
+  if (x->depth != y->depth) {
+    return x->depth > y->depth ? 1 : -1;
+  }
+  return x->shape != y->shape ? x->shape - y->shape : x->part - y->part;
+}
+
+static int parts_of(const baum_i_shape *shape)
+{
+  return shape->form == BAUM_I_MESH ? shape->triangle_count : 1;
+}
+
+static int layer_of(const picture *p, int k)
+{
+  const baum_i_style style = p->drawing->shapes[k].style;
+  const int in_space = style == BAUM_I_BASE ? 0 : style > BAUM_I_JOINT ? 2 + k : 1;
+  return p->drawing->spatial ? in_space : k;
+}
+
+/* Lists all parts in the order of drawing; returns their number, or -1 when out of memory. */
+static int sort_parts(const picture *p, order **out)
+{
+  int count = 0, room = 0;
+  for (int k = 0; k < p->drawing->shape_count; k++) {
+    room += parts_of(&p->drawing->shapes[k]);
+  }
+  order *orders = *out = baum_i_alloc((size_t)room, sizeof *orders);
+  if (!orders) {
+    return -1;
+  }
+  for (int k = 0; k < p->drawing->shape_count; k++) {
+    const baum_i_shape *shape = &p->drawing->shapes[k];
+    const int parts = is_shown(p, shape) ? parts_of(shape) : 0;
+    for (int part = 0; part < parts; part++) {
+      double depth =
+        shape->form == BAUM_I_MESH ? baum_i_picture_depth(p, shape, part) : depth_of(p, shape);
+      orders[count++] = (order){layer_of(p, k), depth, k, part};
+    }
+  }
+  qsort(orders, (size_t)count, sizeof *orders, compare);
+  return count;
 }
 
 static void fit(picture *p)
 {
   baum_i_box box = {{INFINITY, INFINITY, 0.0}, {-INFINITY, -INFINITY, 0.0}};
   for (int k = 0; k < p->drawing->shape_count; k++) {
-    include_shape(p, &p->drawing->shapes[k], &box);
+    if (is_shown(p, &p->drawing->shapes[k])) {
+      include_shape(p, &p->drawing->shapes[k], &box);
+    }
   }
   if (p->drawing->shape_count == 0) {
     include((const double[3]){0.0, 0.0, 0.0}, 1.0, &box);
@@ -409,103 +503,33 @@ static void fit(picture *p)
   double size[2] = {width * p->scale + 2.0 * MARGIN, height * p->scale + 2.0 * MARGIN};
   baum_i_putf(p->out,
               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-              "viewBox=\"0 0 %.0f %.0f\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
+              "viewBox=\"0 0 %.0f %.0f\" stroke-width=\".7\" stroke-linecap=\"round\" "
+              "stroke-linejoin=\"round\">\n",
               size[0], size[1], size[0], size[1]);
 }
 
-static baum_status put_picture(picture *p)
+baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
+                               baum_i_buffer *out)
 {
-  const int count = p->drawing->shape_count;
-  order *orders = baum_i_alloc((size_t)count, sizeof *orders);
-  if (!orders) {
-    return baum_i_fail_memory();
-  }
+  order *orders;
+  picture seen = {.drawing = drawing, .frames = frames, .out = out};
+  picture *p = &seen;
   set_view(p);
   fit(p);
-  for (int k = 0; k < count; k++) {
-    const baum_i_shape *shape = &p->drawing->shapes[k];
-    double depth = shape->style > BAUM_I_JOINT ? (double)INFINITY : mean_depth(p, shape);
-    orders[k] = (order){p->drawing->spatial ? depth : 0.0, k};
+  const int count = sort_parts(p, &orders);
+  if (count < 0) {
+    return baum_i_fail_memory();
   }
-  qsort(orders, (size_t)count, sizeof *orders, compare);
   for (int k = 0; k < count; k++) {
-    put_shape(p, &p->drawing->shapes[orders[k].shape]);
+    const baum_i_shape *shape = &p->drawing->shapes[orders[k].shape];
+    if (k == 0 || orders[k].shape != orders[k - 1].shape) {
+      baum_i_put(p->out, k ? "</g>\n<g><title>" : "<g><title>");
+      baum_i_put_user_text(p->out, shape->element->name, BAUM_I_XML);
+      baum_i_put(p->out, "</title>");
+    }
+    put_shape(p, shape, orders[k].part);
   }
-  baum_i_put(p->out, "</svg>\n");
+  baum_i_put(p->out, count ? "</g>\n</svg>\n" : "</svg>\n");
   baum_i_free(orders);
   return p->out->failed ? baum_i_fail_memory() : BAUM_OK;
-}
-
-static baum_status check(const baum_mechanism *mechanism, const double *q, const char *call)
-{
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: mechanism is NULL", call);
-  }
-  if (!q) {
-    return BAUM_OK;
-  }
-  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
-  for (int k = 0; k < mechanism->nq; k++) {
-    if (!isfinite(q[k])) {
-      return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: q[%d] is %g, must be finite", call, k, q[k]);
-    }
-  }
-  return BAUM_OK;
-}
-
-static baum_status draw_at(const baum_i_drawing *drawing, const double *q, baum_i_buffer *out)
-{
-  const baum_mechanism *m = drawing->mechanism;
-  picture p = {.drawing = drawing, .frames = drawing->design, .out = out};
-  baum_i_spatial_frame *frames = NULL;
-  if (q) {
-    frames = baum_i_alloc((size_t)m->body_count + 1, sizeof *frames);
-    if (!frames) {
-      return baum_i_fail_memory();
-    }
-    for (int k = 0; k <= m->body_count; k++) {
-      frames[k] = baum_i_drawing_frame(m->bodies[k], q);
-    }
-    p.frames = frames;
-  }
-  baum_status status = put_picture(&p);
-  baum_i_free(frames);
-  return status;
-}
-
-static baum_status make(const baum_mechanism *mechanism, const double *q, const char *call,
-                        baum_i_buffer *out)
-{
-  BAUM_I_TRY(check(mechanism, q, call));
-  baum_i_drawing drawing;
-  baum_status status = baum_i_drawing_create(mechanism, &(baum_i_samples){NULL, 0, 0}, &drawing);
-  if (status == BAUM_OK) {
-    status = draw_at(&drawing, q, out);
-  }
-  baum_i_drawing_release(&drawing);
-  return status;
-}
-
-baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const double *q, char *text,
-                               size_t capacity, size_t *size)
-{
-  baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_svg", &out);
-  if (status == BAUM_OK) {
-    status = baum_i_give_text(&out, "baum_mechanism_svg", text, capacity, size);
-  }
-  baum_i_buffer_clear(&out);
-  return status;
-}
-
-baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
-                                     const char *path)
-{
-  baum_i_buffer out = {0};
-  baum_status status = make(mechanism, q, "baum_mechanism_write_svg", &out);
-  if (status == BAUM_OK) {
-    status = baum_i_give_file(&out, "baum_mechanism_write_svg", path);
-  }
-  baum_i_buffer_clear(&out);
-  return status;
 }

@@ -8,21 +8,21 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
+/* In units: height of a tooth over the pitch circle; width of a ring around its own. */
+static const double TOOTH = 0.6, RING = 1.8;
+
 /* Finds the first revolute joint of a body, or else its centre of mass. */
 static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
 {
   centre[0] = centre[1] = centre[2] = 0.0;
-  for (int k = 0; k < drawing->mechanism->joint_count; k++) {
-    const baum_i_place *place = &drawing->places[k];
-    if (!place->element || place->element->definition != baum_i_planar_revolute_definition) {
-      continue;
-    }
-    for (int side = 0; side < 2; side++) {
-      if (place->body[side] == body) {
-        centre[0] = place->point[side][0];
-        centre[1] = place->point[side][1];
-        return;
-      }
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(drawing, body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &drawing->places[ends[k].place];
+    if (place->element->definition == baum_i_planar_revolute_definition) {
+      centre[0] = place->point[ends[k].side][0];
+      centre[1] = place->point[ends[k].side][1];
+      return;
     }
   }
 }
@@ -52,19 +52,24 @@ double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joi
 
 double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3])
 {
-  for (int k = 0; k < drawing->mechanism->joint_count; k++) {
-    const baum_i_joint *joint = drawing->mechanism->joints[k];
-    const baum_i_place *place = &drawing->places[k];
-    double radius = 0.0;
-    if (joint->element.definition == baum_i_planar_gear_definition) {
-      radius = baum_i_gear_radius(drawing, joint, body, centre);
-    } else if (joint->element.definition == baum_i_planar_rack_and_pinion_definition &&
-               place->body[1] == body) {
-      radius = fabs(baum_i_find_number(&joint->element, "radius"));
-      memcpy(centre, place->point[1], 3 * sizeof *centre);
-    }
+  for (int k = 0; k < drawing->gear_count; k++) {
+    const baum_i_joint *joint = drawing->mechanism->joints[drawing->gears[k]];
+    const baum_planar_gear_def *def = joint->element.def;
+    const double radius = baum_i_gear_radius(drawing, joint, body, centre);
+    const bool is_a = baum_i_body_index(drawing->mechanism, def->body_a) == body;
+    const bool is_ring = (is_a ? def->radius_a : def->radius_b) < 0.0;
     if (radius > 0.0) {
-      return radius;
+      return radius + (is_ring ? RING : TOOTH) * drawing->unit;
+    }
+  }
+  int count;
+  const baum_i_place_end *ends = baum_i_ends_of(drawing, body, &count);
+  for (int k = 0; k < count; k++) {
+    const baum_i_place *place = &drawing->places[ends[k].place];
+    if (ends[k].side == 1 &&
+        place->element->definition == baum_i_planar_rack_and_pinion_definition) {
+      memcpy(centre, place->point[1], 3 * sizeof *centre);
+      return fabs(baum_i_find_number(place->element, "radius")) + TOOTH * drawing->unit;
     }
   }
   return 0.0;

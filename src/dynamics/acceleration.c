@@ -20,28 +20,23 @@
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass matrix is not "
     "positive for motions that the constraints allow); the right side is largest in %s",
-    w->point.t, baum_i_row_label(w->mechanism, row, label));
+    w->point.t, baum_i_row_label(w->mechanism, row).text);
 }
 
 static baum_status fail_blocks(const baum_workspace *w)
 {
   int joint = -1;
   (void)baum_i_smallest_pivot(w, &joint);
-  char label[BAUM_I_LABEL_SIZE] = "no joint";
-  if (joint >= 0) {
-    (void)baum_i_joint_label(w->mechanism, joint, label);
-  }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the pivots of the block solver are too small, the smallest in %s: the "
     "configuration is close to a singular one, or the masses are too uneven; choose the "
     "solver auto, which then takes klu and qr",
-    w->point.t, label);
+    w->point.t, baum_i_joint_label(w->mechanism, joint).text);
 }
 
 /* ---- the solver of the whole system ---- */

@@ -42,6 +42,7 @@ typedef struct assembly {
   double *trial;    /* (nq) */
   double *distance; /* (nc) d_i */
   bool fits;        /* the last violation found at q was only rounding */
+  int open;         /* row with the largest violation before assembly; -1: none */
 } assembly;
 
 static bool is_held(const bool *held, int i)
@@ -153,28 +154,57 @@ static double worst_displacement(const assembly *s, const double *rows)
   return worst;
 }
 
-/* Fail and name the joints whose violations are at least a tenth of the largest. */
-static baum_status fail_inconsistent(const assembly *s, const double *rows, const char *what,
-                                     const char *unit)
+/* Keep the row that is violated most before assembly. It is often the mistake, because assembly
+ * distributes the violation among all contradicting rows. */
+static void keep_open_row(assembly *s)
 {
+  double worst = ROUNDING;
+  for (int i = 0; i < s->w->mechanism->nc; i++) {
+    double size = displacement(s, s->w->phi, i);
+    s->open = size > worst ? i : s->open;
+    worst = fmax(worst, size);
+  }
+}
+
+/* Name the joints whose violations are at least a tenth of the largest. */
+static void name_contradicting(const assembly *s, const double *rows, const char *unit,
+                               char text[BAUM_I_MESSAGE_SIZE])
+{
+  enum { ROOM = BAUM_I_MESSAGE_SIZE - 512 }; /* for the rest */
   const baum_mechanism *m = s->w->mechanism;
   double worst = worst_displacement(s, rows);
-  char text[BAUM_I_MESSAGE_SIZE] = "";
   size_t used = 0;
   int last = -1;
-  for (int i = 0; i < m->nc && used + BAUM_I_LABEL_SIZE + 64 < sizeof text; i++) {
+  text[0] = '\0';
+  for (int i = 0; i < m->nc && used < ROOM; i++) {
     int joint = baum_i_row_joint(m, i);
     if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
       continue;
     }
-    char label[BAUM_I_LABEL_SIZE];
     used +=
-      (size_t)baum_i_print(text + used, sizeof text - used, "%s%s (%.3g %s)", used ? ", " : "",
-                           baum_i_joint_label(m, joint, label), rows[i], unit);
+      (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used, "%s%s (%.3g %s)",
+                           used ? ", " : "", baum_i_joint_label(m, joint).text, rows[i], unit);
     last = joint;
   }
-  return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s", s->t,
-                     what, text);
+}
+
+static baum_status fail_positions(const assembly *s)
+{
+  char text[BAUM_I_MESSAGE_SIZE];
+  name_contradicting(s, s->w->phi, "left", text);
+  return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                     "t = %.9g s: the constraints, or constraints and held bodies, contradict each "
+                     "other in %s; before assembly, %s is open most, see baum_mechanism_svg()",
+                     s->t, text, baum_i_row_label(s->w->mechanism, s->open).text);
+}
+
+static baum_status fail_velocities(const assembly *s)
+{
+  char text[BAUM_I_MESSAGE_SIZE];
+  name_contradicting(s, s->w->phi_rate, "per s left", text);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: the given velocities and the constraints contradict each other in %s", s->t, text);
 }
 
 /* ---- positions ---- */
@@ -232,7 +262,7 @@ static baum_status search_along_step(assembly *s, double before, bool *fell)
   return BAUM_OK;
 }
 
-static baum_status newton_step(assembly *s, double *size, bool *fell)
+static baum_status newton_step(assembly *s, double *size, bool *fell, bool first)
 {
   baum_workspace *w = s->w;
   BAUM_I_TRY(baum_i_position_stage(w, s->t, s->q));
@@ -240,6 +270,9 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
   clear_held_columns(w, s->held);
   baum_i_row_displacements(w, s->distance);
   s->fits = worst_displacement(s, w->phi) <= ROUNDING;
+  if (first) {
+    keep_open_row(s);
+  }
   if (s->fits) {
     return BAUM_OK;
   }
@@ -258,17 +291,14 @@ static baum_status assemble_positions(assembly *s)
   double size = (double)INFINITY;
   bool fell = true;
   for (int k = 0; k < ITERATIONS && fell && size > CONVERGED; k++) {
-    BAUM_I_TRY(newton_step(s, &size, &fell));
+    BAUM_I_TRY(newton_step(s, &size, &fell, k == 0));
     if (s->fits) {
       return BAUM_OK;
     }
   }
   BAUM_I_TRY(baum_i_position_stage(s->w, s->t, s->q));
   leave(s);
-  return worst_displacement(s, s->w->phi) <= CONSISTENT
-           ? BAUM_OK
-           : fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
-                               "left");
+  return worst_displacement(s, s->w->phi) <= CONSISTENT ? BAUM_OK : fail_positions(s);
 }
 
 /* Refuse axes that have become opposite instead of parallel, because the rows hold for both. */
@@ -278,11 +308,10 @@ static baum_status check_sides(const assembly *s)
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_joint *joint = m->joints[k];
     if (joint->type->is_reversed && joint->type->is_reversed(joint, &s->w->point)) {
-      char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
                          "t = %.9g s: assembly leads to opposite axes in %s; give a design "
                          "configuration in which they point the same way",
-                         s->t, baum_i_joint_label(m, k, label));
+                         s->t, baum_i_joint_label(m, k).text);
     }
   }
   return BAUM_OK;
@@ -353,16 +382,16 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   double rounding = NO_RATE + NO_SWING * baum_i_swing_rate(m);
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + rounding)) {
-    return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",
-                             "per s left");
+    return fail_velocities(s);
   }
   return BAUM_OK;
 }
 
 /* ---- assembly ---- */
 
+/* If `closest`, q is also set if the rows contradict each other. */
 static baum_status assemble(baum_workspace *workspace, double t, double *q, double *v,
-                            const bool *held, const double *left)
+                            const bool *held, const double *left, bool closest)
 {
   size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
@@ -374,7 +403,7 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
     baum_i_free(given);
     return baum_i_fail_memory();
   }
-  assembly s = {.w = workspace, .held = held, .left = left, .t = t, .q = memory};
+  assembly s = {.w = workspace, .held = held, .left = left, .t = t, .q = memory, .open = -1};
   s.trial = memory + nq;
   s.distance = memory + 2 * nq + nv;
   double *velocity = memory + 2 * nq;
@@ -388,11 +417,11 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
     memcpy(velocity, v, nv * sizeof *v);
     status = complete_velocities(&s, velocity, given);
   }
-  if (status == BAUM_OK) {
+  if (status == BAUM_OK || (closest && status == BAUM_ERR_INCONSISTENT)) {
     memcpy(q, s.q, nq * sizeof *q);
-    if (v) {
-      memcpy(v, velocity, nv * sizeof *v);
-    }
+  }
+  if (status == BAUM_OK && v) {
+    memcpy(v, velocity, nv * sizeof *v);
   }
   workspace->mass_ready = false;
   baum_i_free(memory);
@@ -403,11 +432,17 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held)
 {
-  return assemble(workspace, t, q, v, held, NULL);
+  return assemble(workspace, t, q, v, held, NULL, false);
 }
 
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left)
 {
-  return assemble(workspace, t, q, NULL, held, left);
+  return assemble(workspace, t, q, NULL, held, left, false);
+}
+
+baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
+                                    const bool *held)
+{
+  return assemble(workspace, t, q, NULL, held, NULL, true);
 }

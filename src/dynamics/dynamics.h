@@ -119,9 +119,8 @@ baum_status baum_i_use_blocks(baum_workspace *workspace);
 
 /* The first function describes the solver and the reason for its choice, the second why the block
  * solver is not used. Both texts end without a full stop. */
-enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
-void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
-void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
+baum_i_text baum_i_solver_text(const baum_workspace *workspace);
+baum_i_text baum_i_blocks_reason(const baum_workspace *workspace);
 
 /* Refuse calls made from inside a user function of this workspace (BAUM_ERR_STATE). `what` names
  * the object in the message. */
@@ -306,6 +305,9 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 /* Assemble positions until Phi = left (nc). */
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left);
+/* Assemble positions. On BAUM_ERR_INCONSISTENT q is where assembly gave up. */
+baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
+                                    const bool *held);
 
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 

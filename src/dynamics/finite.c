@@ -27,16 +27,14 @@ static baum_status fail(const baum_workspace *w, const char *what, const char *l
 
 static baum_status fail_row(const baum_workspace *w, const char *what, int row, double value)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  return fail(w, what, baum_i_row_label(w->mechanism, row, label), value);
+  return fail(w, what, baum_i_row_label(w->mechanism, row).text, value);
 }
 
 static baum_status fail_velocity(const baum_workspace *w, const char *what, int column,
                                  double value)
 {
-  char label[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, column);
-  return fail(w, what, baum_i_label(&body->element, label), value);
+  return fail(w, what, baum_i_label(&body->element).text, value);
 }
 
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values)
@@ -69,12 +67,11 @@ baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const 
   BAUM_I_TRY(baum_i_check_velocities(w, what, values));
   for (int i = 0; i < m->nv; i++) {
     if (!isfinite(values[i] / m->scale[i])) {
-      char label[BAUM_I_LABEL_SIZE];
       const baum_i_body *body = baum_i_velocity_body(m, i);
       return baum_i_fail(BAUM_ERR_NOT_FINITE,
                          "t = %.9g s: the %s of %s is %g, too large for double precision relative "
                          "to its scale of %g",
-                         w->point.t, what, baum_i_label(&body->element, label), values[i],
+                         w->point.t, what, baum_i_label(&body->element).text, values[i],
                          m->scale[i]);
     }
   }

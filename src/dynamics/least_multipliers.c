@@ -279,14 +279,12 @@ static baum_status check_balance(const baum_workspace *w)
   if (imbalance <= 1.0) {
     return BAUM_OK;
   }
-  char label[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, worst);
-  (void)baum_i_label(&body->element, label);
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the multipliers balance the forces on %s only to a relative error of %.2g, must "
     "be at most %g; the masses are too uneven, or the configuration is close to a singular one",
-    w->point.t, label, imbalance * OF_ROW, OF_ROW);
+    w->point.t, baum_i_label(&body->element).text, imbalance * OF_ROW, OF_ROW);
 }
 
 /* Find the largest fraction of part that keeps the residual within the tolerances. */

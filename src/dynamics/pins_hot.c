@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The geometry of all revolute joints, with the equations of mechanism/planar/pin_rows.c:
+/* The geometry of all revolute joints, with the equations of mechanism/planar/lower_pairs.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
  *   r     = bending gamma - damping Phi' - stiffness Phi

@@ -129,13 +129,12 @@ static const double NEGLIGIBLE = 1e-7;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: projection: a redundant row of %s was omitted, but is violated by %.3g, and its "
     "time derivative by %.3g, although the other rows are satisfied: constraints contradict each "
     "other, or the configuration is on another branch",
-    w->point.t, baum_i_row_label(w->mechanism, row, label), w->phi[row], w->phi_rate[row]);
+    w->point.t, baum_i_row_label(w->mechanism, row).text, w->phi[row], w->phi_rate[row]);
 }
 
 baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,

@@ -81,9 +81,8 @@ static baum_status find_most_joined(const baum_workspace *w, baum_report *report
 static void say_most_joined(const baum_mechanism *m, baum_report *report)
 {
   if (report->most_joints > 0) {
-    char label[BAUM_I_LABEL_SIZE];
-    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, label);
-    say(report, "; %s has most joints, %d", label, report->most_joints);
+    say(report, "; %s has most joints, %d",
+        baum_i_label(&m->bodies[report->most_joined.index1]->element).text, report->most_joints);
   }
 }
 
@@ -105,9 +104,7 @@ static void report_block(const baum_i_block_path *path, baum_report *report)
 static baum_status report_solver(const baum_workspace *w, baum_report *report)
 {
   const baum_i_block_path *path = w->motion;
-  char text[BAUM_I_SOLVER_TEXT_SIZE];
-  baum_i_solver_text(w, text);
-  say(report, "solver        %s\n", text);
+  say(report, "solver        %s\n", baum_i_solver_text(w).text);
   baum_status status = find_most_joined(w, report);
   if (path) {
     report_block(path, report);

@@ -274,13 +274,12 @@ static double find_violation(const baum_workspace *w, const double *length, doub
 
 static baum_status fail_contradiction(const baum_workspace *w, int row, double part)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: no acceleration satisfies all constraints: with the other rows "
                      "met, a redundant row of %s is off by %.3g of the accelerations; constraints "
                      "contradict each other, or the velocities in a singular configuration follow "
                      "no branch",
-                     w->point.t, baum_i_row_label(w->mechanism, row, label), part);
+                     w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
 /* Return |J a - r| of an omitted row, and the sum of the sizes of its terms. Its row of J is up to

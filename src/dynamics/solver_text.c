@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Descriptions of the solver of accelerations. */
-#include <stdio.h>
 
 #include "dynamics/block_path.h"
 
@@ -16,59 +15,45 @@ static int count_joints(const baum_mechanism *m, int body)
   return count;
 }
 
-static void blocks_text(const baum_workspace *w, const baum_i_block_path *path, char *text,
-                        size_t size)
+static baum_i_text blocks_text(const baum_workspace *w, const baum_i_block_path *path)
 {
   const baum_i_block *block = path->block;
-  char fixed[64] = "";
+  baum_i_text fixed = {""};
   if (path->fixed_count > 0) {
-    (void)snprintf(fixed, sizeof fixed, "; %d fixed %s omitted", path->fixed_count,
-                   path->fixed_count == 1 ? "body" : "bodies");
+    fixed = baum_i_text_of("; %d fixed %s omitted", path->fixed_count,
+                           path->fixed_count == 1 ? "body" : "bodies");
   }
-  (void)snprintf(text, size, "blocks, %d %s, %d %s%s%s", block->node_count,
-                 block->node_count == 1 ? "node" : "nodes", block->off_count,
-                 block->off_count == 1 ? "coupling" : "couplings", fixed,
-                 w->blocks_only ? ", no other solver" : "; klu and qr where pivots are bad");
+  return baum_i_text_of("blocks, %d %s, %d %s%s%s", block->node_count,
+                        block->node_count == 1 ? "node" : "nodes", block->off_count,
+                        block->off_count == 1 ? "coupling" : "couplings", fixed.text,
+                        w->blocks_only ? ", no other solver" : "; klu and qr where pivots are bad");
 }
 
-void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
+baum_i_text baum_i_blocks_reason(const baum_workspace *w)
 {
-  size_t size = BAUM_I_SOLVER_TEXT_SIZE;
   const baum_mechanism *m = w->mechanism;
   int body = w->verdict.body;
-  char label[BAUM_I_LABEL_SIZE] = "a body";
-  if (body > 0) {
-    (void)baum_i_label(&m->bodies[body]->element, label);
-  }
+  const baum_i_text label =
+    body > 0 ? baum_i_label(&m->bodies[body]->element) : (baum_i_text){"a body"};
   switch (w->verdict.blocks) {
   case BAUM_I_BLOCKS_CROWDED:
-    (void)snprintf(text, size, "%.150s has %d joints, too many for blocks", label,
-                   count_joints(m, body));
-    break;
+    return baum_i_text_of("%.150s has %d joints, too many for blocks", label.text,
+                          count_joints(m, body));
   case BAUM_I_BLOCKS_FILLED:
-    (void)snprintf(text, size, "the joints form a dense net, so blocks would fill");
-    break;
+    return (baum_i_text){"the joints form a dense net, so blocks would fill"};
   case BAUM_I_BLOCKS_MASSLESS:
-    (void)snprintf(text, size, "the mass matrix of %.150s is not positive definite", label);
-    break;
+    return baum_i_text_of("the mass matrix of %.150s is not positive definite", label.text);
   case BAUM_I_BLOCKS_UNKNOWN:
-    (void)snprintf(text, size, "mass or force cannot be evaluated in the design configuration");
-    break;
+    return (baum_i_text){"mass or force cannot be evaluated in the design configuration"};
   case BAUM_I_BLOCKS_SUIT:
   case BAUM_I_BLOCKS_UNWANTED:
-  default: (void)snprintf(text, size, "another solver was chosen"); break;
+  default: return (baum_i_text){"another solver was chosen"};
   }
 }
 
-void baum_i_solver_text(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
+baum_i_text baum_i_solver_text(const baum_workspace *w)
 {
-  const baum_i_block_path *path = w->motion;
-  if (path) {
-    blocks_text(w, path, text, BAUM_I_SOLVER_TEXT_SIZE);
-    return;
-  }
-  char reason[BAUM_I_SOLVER_TEXT_SIZE];
-  baum_i_blocks_reason(w, reason);
-  (void)snprintf(text, BAUM_I_SOLVER_TEXT_SIZE, "%s on the whole system: %.200s",
-                 baum_i_kkt_backend(w->kkt), reason);
+  return w->motion ? blocks_text(w, w->motion)
+                   : baum_i_text_of("%s on the whole system: %.200s", baum_i_kkt_backend(w->kkt),
+                                    baum_i_blocks_reason(w).text);
 }

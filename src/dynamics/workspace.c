@@ -139,9 +139,8 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
 /* Fail because the block solver does not suit and no other solver is allowed. */
 static baum_status refuse_other_solvers(const baum_workspace *w)
 {
-  char text[BAUM_I_SOLVER_TEXT_SIZE];
-  baum_i_blocks_reason(w, text);
-  return baum_i_fail(BAUM_ERR_UNSUPPORTED, "simulation options: solver is block, but %s", text);
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED, "simulation options: solver is block, but %s",
+                     baum_i_blocks_reason(w).text);
 }
 
 baum_status baum_i_use_blocks(baum_workspace *w)

@@ -36,7 +36,7 @@
 
 #include "integrate/sundials_klu.h"
 
-/* Convert a status to a flag. If a substitution fails, a smaller step may help. */
+/* Convert the status of a solution to CVODE's flag. 1 makes CVODE try a smaller step. */
 static int answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {

@@ -166,12 +166,10 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h)
 {
-  char length[48] = "";
-  if (h != 0.0) {
-    baum_i_print(length, sizeof length, ", %.3g s long", fabs(h));
-  }
+  const baum_i_text length =
+    h != 0.0 ? baum_i_text_of(", %.3g s long", fabs(h)) : (baum_i_text){""};
   return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", message, integrator, t,
-                     length);
+                     length.text);
 }
 
 baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size)

@@ -158,26 +158,20 @@ static double shortest_step(const baum_i_problem *problem, double t)
   return fmax(SHORTEST / problem->rate + TIME_ROUNDINGS * DBL_EPSILON * fabs(t), DBL_MIN);
 }
 
-static const char *label_of(const baum_mechanism *m, int joint, char text[BAUM_I_LABEL_SIZE])
-{
-  return joint >= 0 ? baum_i_joint_label(m, joint, text) : baum_i_row_label(m, -1, text);
-}
-
 static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i_impasse *at)
 {
-  char driver[BAUM_I_LABEL_SIZE];
-  char resister[BAUM_I_LABEL_SIZE];
+  const baum_i_text resister = baum_i_joint_label(m, at->resister);
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(BAUM_ERR_SINGULAR,
                        "t = %.9g s: kinematics: the mechanism locks up here: beyond this time no "
                        "configuration satisfies %s and the other constraints, above all %s",
-                       t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
+                       t, baum_i_joint_label(m, at->driver).text, resister.text);
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: kinematics: the configuration is singular here and the motion may continue in "
     "more than one way, most visibly in %s; the drivers do not determine which",
-    t, label_of(m, at->resister, resister));
+    t, resister.text);
 }
 
 /* Fail if the cause of the refusal is a callback, an evaluation or memory. Otherwise return BAUM_OK
@@ -204,10 +198,8 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
   const baum_mechanism *m = problem->workspace->mechanism;
   double t = run->right->t;
   baum_i_impasse at;
-  char label[BAUM_I_LABEL_SIZE];
-  char when[48];
-  baum_i_print(when, sizeof when, "in a step of %.3g s", h);
-  BAUM_I_TRY(fail_for_cause(run, run->right, verdict, when, &at));
+  const baum_i_text when = baum_i_text_of("in a step of %.3g s", h);
+  BAUM_I_TRY(fail_for_cause(run, run->right, verdict, when.text, &at));
   if (!(at.gain < SINGULAR_GAIN)) {
     return fail_singular(m, t, &at);
   }
@@ -216,13 +208,13 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
                        "t = %.9g s: kinematics: a row of %s that was omitted as redundant no "
                        "longer follows from the "
                        "others",
-                       t, baum_i_row_label(m, verdict->row, label));
+                       t, baum_i_row_label(m, verdict->row).text);
   }
   return baum_i_fail(
     BAUM_ERR_CONVERGENCE,
     "t = %.9g s: kinematics: no configuration is found nearby, however small the step "
     "(%.3g s); the law of %s may jump here",
-    t, h, label_of(m, at.driver, label));
+    t, h, baum_i_joint_label(m, at.driver).text);
 }
 
 /* Take one step from *from towards t_end and write its end to *to. Refused steps are shortened. *h

@@ -196,23 +196,21 @@ static void close_run(void *self)
 
 static baum_status fail_velocities(const baum_i_element *element)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                      "simulation options: rattle needs forces that depend on time and position "
                      "only, but %s depends on velocities, or does not set depends_on_velocity = "
                      "false; take rk4 or rk8, or generalized_alpha if the force is stiff",
-                     baum_i_label(element, label));
+                     baum_i_label(element).text);
 }
 
 static baum_status check_body(const baum_i_body *body)
 {
   const void *def = body->element.def;
-  char label[BAUM_I_LABEL_SIZE];
   if (body->type->constant_mass && !body->type->constant_mass(def)) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "simulation options: rattle needs constant masses, but %s does not set "
                        "constant_mass = true",
-                       baum_i_label(&body->element, label));
+                       baum_i_label(&body->element).text);
   }
   bool depends =
     body->type->depends_on_velocity && body->type->depends_on_velocity(def) && !body->type->inertia;
@@ -227,7 +225,7 @@ static baum_status check_mechanism(const baum_mechanism *m)
   }
   for (int k = 0; k < m->force_count; k++) {
     const baum_i_force *force = m->forces[k];
-    if (force->type->depends_on_velocity && force->type->depends_on_velocity(force->element.def)) {
+    if (force->type->depends_on_velocity && force->type->depends_on_velocity(force)) {
       return fail_velocities(&force->element);
     }
   }

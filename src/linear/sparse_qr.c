@@ -94,7 +94,7 @@ typedef struct plan {
   int32_t *parent;   /* parent of each column, or NONE */
   int32_t *mark;     /* mark of a search */
   int32_t *count;    /* number of entries in each row of R */
-  int32_t *below;    /* column below each column in its front, or NONE */
+  int32_t *below;    /* child of each column in the same front, or NONE */
   int32_t *front_of; /* front of each column */
   int32_t *listed;   /* number of columns listed so far in each front */
 } plan;

@@ -8,7 +8,6 @@
 
 #include <assert.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -45,12 +44,8 @@ static baum_status complete(const baum_i_definition *definition, const void *def
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the definition is NULL", definition->kind);
   }
   size_t size = ((const baum_i_def_head *)def)->struct_size;
-  if (!baum_i_is_struct_size(size, definition->size)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size is %zu, must be %zu, or that of an older version; start "
-                       "from the default definition",
-                       definition->kind, size, definition->size);
-  }
+  BAUM_I_TRY(baum_i_check_struct_size(size, definition->size, definition->kind, "",
+                                      "the default definition"));
   assert(definition->size <= sizeof *out);
   baum_i_fields_set(definition, out);
   memcpy(out, def, fields_of(definition, size));
@@ -60,11 +55,9 @@ static baum_status complete(const baum_i_definition *definition, const void *def
 
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
 {
-  if (baum_i_takes_sized(def, caller_size)) {
-    whole_def whole;
-    baum_i_fields_set(definition, &whole);
-    baum_i_give_sized(def, caller_size, &whole, definition->size);
-  }
+  whole_def whole;
+  baum_i_fields_set(definition, &whole);
+  baum_i_give_sized(def, caller_size, &whole, definition->size);
 }
 
 /* ---- an element's own copy ---- */
@@ -80,21 +73,13 @@ static void release(baum_i_element *element)
   element->name = NULL;
 }
 
-/* Write the default name of an element, such as "joint2". */
-static const char *name_by_number(const char *family, int number, char text[BAUM_I_LABEL_SIZE])
-{
-  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s%d", family, number);
-  return text;
-}
-
 /* Fill an element from a checked definition. On failure the element owns no memory. */
 static baum_status fill(baum_i_element *element, const void *def)
 {
   const baum_i_definition *definition = element->definition;
   const char *given = ((const baum_i_def_head *)def)->name;
-  char text[BAUM_I_LABEL_SIZE];
-  const char *name = given ? given : name_by_number(element->family, element->index, text);
-  element->name = baum_i_copy_text(name);
+  element->name =
+    baum_i_copy_text(given ? given : baum_i_text_of("%s%d", element->family, element->index).text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
     baum_i_free(element->def); /* which owns no memory */
@@ -161,11 +146,11 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
 {
   BAUM_I_TRY(complete(definition, def, out));
   BAUM_I_TRY(baum_i_check_name(family->name, number, out->head.name));
-  char name[BAUM_I_LABEL_SIZE];
-  char label[BAUM_I_LABEL_SIZE];
-  (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", family->name, number,
-                 out->head.name ? out->head.name : name_by_number(family->name, number, name));
-  return baum_i_fields_check(definition, mechanism, out, label);
+  const char *name = out->head.name;
+  const baum_i_text label =
+    baum_i_text_of("%s %d \"%.80s\"", family->name, number,
+                   name ? name : baum_i_text_of("%s%d", family->name, number).text);
+  return baum_i_fields_check(definition, mechanism, out, label.text);
 }
 
 baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *family,
@@ -195,10 +180,9 @@ static baum_status find(const baum_mechanism *mechanism, const baum_i_family *fa
 
 static baum_status check_kind(const baum_i_element *element, const baum_i_definition *definition)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return element->definition == definition
            ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s is a %s, not a %s", baum_i_label(element, label),
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s is a %s, not a %s", baum_i_label(element).text,
                          element->definition->kind, definition->kind);
 }
 
@@ -218,9 +202,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
                               const void *def, baum_i_element *element)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  baum_i_label(element, label);
-  BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label));
+  const baum_i_text label = baum_i_label(element);
+  BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label.text));
   const baum_i_span *span = baum_i_family_span(family, element);
   baum_i_span next;
   BAUM_I_TRY(make_span(mechanism, element->definition, def, element->index, &next));
@@ -229,7 +212,8 @@ static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_fami
     same = next.bodies[i] == span->bodies[i];
   }
   baum_i_free(next.bodies);
-  return same ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies cannot change", label);
+  return same ? BAUM_OK
+              : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies cannot change", label.text);
 }
 
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,

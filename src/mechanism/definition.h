@@ -10,13 +10,6 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Tell whether a caller's struct_size can be the size of this struct or of an older version. It
- * must be a whole number of words and contain at least the first two fields. */
-static inline bool baum_i_is_struct_size(size_t size, size_t present)
-{
-  return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
-}
-
 /* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY and sets its
  * message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,

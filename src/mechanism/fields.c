@@ -3,7 +3,6 @@
  * fields. */
 #include "mechanism/fields.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -75,9 +74,8 @@ static baum_status check_entry(const baum_i_def_field *f, const double *values, 
   if (is_allowed(f->rule, values[k])) {
     return BAUM_OK;
   }
-  char name[64];
-  (void)snprintf(name, sizeof name, "%s[%d]", f->name, k);
-  return baum_i_check_number(label, name, f->unit, f->rule, values[k]);
+  return baum_i_check_number(label, baum_i_text_of("%s[%d]", f->name, k).text, f->unit, f->rule,
+                             values[k]);
 }
 
 static baum_status check_numbers(const baum_i_def_field *f, const double *values, const char *label)
@@ -151,11 +149,27 @@ baum_status baum_i_check_given(const char *label, const char *field, bool given)
                : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL, must be given", label, field);
 }
 
+baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
+                                      bool point_allowed)
+{
+  if (point && (a || b)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point and %s are both given; give point alone, or point_a and point_b",
+                       label, a ? "point_a" : "point_b");
+  }
+  if (a != b) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
+                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
+  }
+  return point || a
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
+                         label, point_allowed ? "point, or " : "");
+}
+
 static baum_status check_function(const baum_i_def_field *f, const void *def, const char *label)
 {
-  char name[64];
-  (void)snprintf(name, sizeof name, "%s()", f->name);
-  return baum_i_check_given(label, name, has_function(f, def));
+  return baum_i_check_given(label, baum_i_text_of("%s()", f->name).text, has_function(f, def));
 }
 
 /* ---- counts and ids ---- */
@@ -175,17 +189,16 @@ static baum_status check_count(const char *label, const char *field, int32_t val
 static baum_status check_one_of_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
                                        int k, const char *label)
 {
-  char field[32];
-  (void)snprintf(field, sizeof field, "bodies[%d]", k);
-  BAUM_I_TRY(baum_i_check_body(mechanism, bodies[k], label, field));
+  const baum_i_text field = baum_i_text_of("bodies[%d]", k);
+  BAUM_I_TRY(baum_i_check_body(mechanism, bodies[k], label, field.text));
   if (baum_i_body_index(mechanism, bodies[k]) == 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is ground, which has no coordinates", label,
-                       field);
+                       field.text);
   }
   for (int i = 0; i < k; i++) {
     if (bodies[i].index1 == bodies[k].index1) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: bodies[%d] and %s are the same body", label, i,
-                         field);
+                         field.text);
     }
   }
   return BAUM_OK;

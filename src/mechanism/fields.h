@@ -125,6 +125,10 @@ typedef struct baum_i_definition {
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
+/* Set the first members of a definition of baum_NAME_def. */
+#define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
+  .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
+
 static inline const void *baum_i_field_at(const baum_i_def_field *field, const void *def)
 {
   return (const char *)def + field->offset;
@@ -176,6 +180,10 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
 {
   return baum_i_check_number(label, field, unit, BAUM_I_RULE_POSITIVE, value);
 }
+
+/* Check that the points of an element are given in one way: `point`, or point_a and point_b. */
+baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
+                                      bool point_allowed);
 
 /* Check that a required function or array is given: `def->mass != NULL` for the field "mass()". */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);

@@ -115,10 +115,9 @@ static baum_status number_element(baum_mechanism *mechanism, const baum_i_family
   totals->squares += (int64_t)span->nl * span->nl;
   if (totals->blocks > INT_MAX || totals->squares > INT_MAX ||
       !widen_scratch(mechanism, span->ql > span->nl ? span->ql : span->nl, rows)) {
-    char label[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: with this element the mechanism has more than %d matrix entries",
-                       baum_i_label(element, label), INT_MAX);
+                       baum_i_label(element).text, INT_MAX);
   }
   element->parameter = mechanism->parameter_count;
   mechanism->parameter_count += element->definition->parameter_count;

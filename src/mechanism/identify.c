@@ -2,7 +2,6 @@
 /* Ids, labels, and checks of ids. */
 #include "mechanism/identify.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
@@ -134,26 +133,21 @@ const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int col
 
 /* ---- labels ---- */
 
-const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE])
+baum_i_text baum_i_label(const baum_i_element *element)
 {
-  if (!element->definition) {
-    return strcpy(text, "ground");
-  }
-  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s %d \"%.80s\"", element->family, element->index,
-                 element->name);
-  return text;
+  return element->definition
+           ? baum_i_text_of("%s %d \"%.80s\"", element->family, element->index, element->name)
+           : (baum_i_text){"ground"};
 }
 
-const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
-                               char text[BAUM_I_LABEL_SIZE])
+baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint)
 {
-  return baum_i_label(&mechanism->joints[joint]->element, text);
+  return joint < 0 ? (baum_i_text){"no joint"} : baum_i_label(&mechanism->joints[joint]->element);
 }
 
-const char *baum_i_row_label(const baum_mechanism *mechanism, int row, char text[BAUM_I_LABEL_SIZE])
+baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row)
 {
-  memcpy(text, "no joint", sizeof "no joint");
-  return row < 0 ? text : baum_i_joint_label(mechanism, baum_i_row_joint(mechanism, row), text);
+  return baum_i_joint_label(mechanism, row < 0 ? -1 : baum_i_row_joint(mechanism, row));
 }
 
 /* ---- stages ---- */

@@ -4,6 +4,7 @@
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
+#include "base/text.h"
 #include "mechanism/family.h"
 
 /* The id of an element of any family. */
@@ -54,13 +55,10 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* Write `joint 2 "B"`, numbered from 1, or `ground` to text; returns text. */
-enum { BAUM_I_LABEL_SIZE = 128 };
-const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE]);
-const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
-                               char text[BAUM_I_LABEL_SIZE]);
-/* The label of the joint that owns a row; "no joint" for a negative row. */
-const char *baum_i_row_label(const baum_mechanism *mechanism, int row,
-                             char text[BAUM_I_LABEL_SIZE]);
+/* Return `joint 2 "B"`, numbered from 1, or `ground`. */
+baum_i_text baum_i_label(const baum_i_element *element);
+/* The label of a joint, or of the joint that owns a row; "no joint" for a negative number. */
+baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint);
+baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Inputs of a mechanism: names and initial values. Runs and workspaces hold the present values. */
 #include <math.h>
-#include <stdio.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
@@ -71,11 +70,10 @@ baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name
                                      baum_input_id *id)
 {
   const char *call = "baum_mechanism_add_input";
-  char default_name[BAUM_I_LABEL_SIZE];
   BAUM_I_TRY(baum_i_check_open(mechanism, call));
   int number = mechanism->input_count + 1;
-  (void)snprintf(default_name, sizeof default_name, "input%d", number);
-  const char *given = name ? name : default_name;
+  const baum_i_text default_name = baum_i_text_of("input%d", number);
+  const char *given = name ? name : default_name.text;
   BAUM_I_TRY(baum_i_check_name("input", number, name));
   BAUM_I_TRY(check_value(call, number, given, initial));
   BAUM_I_TRY(append(mechanism, given, initial));

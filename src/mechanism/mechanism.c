@@ -73,8 +73,19 @@ const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
   return mechanism;
 }
 
+static void free_all_outlines(baum_mechanism *mechanism)
+{
+  for (int k = 0; k <= mechanism->body_count; k++) {
+    baum_i_body *body = mechanism->bodies ? mechanism->bodies[k] : NULL;
+    if (body) {
+      baum_i_free_outlines(body->outlines, body->outline_count);
+    }
+  }
+}
+
 static void free_elements(baum_mechanism *mechanism)
 {
+  free_all_outlines(mechanism);
   for (int i = 0; i < BAUM_I_FAMILIES; i++) {
     const baum_i_family *family = baum_i_families[i];
     for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
@@ -115,6 +126,16 @@ static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
   return BAUM_OK;
 }
 
+static baum_status copy_all_outlines(baum_mechanism *to, const baum_mechanism *from)
+{
+  for (int k = 0; k <= from->body_count; k++) {
+    const baum_i_body *body = from->bodies[k];
+    BAUM_I_TRY(baum_i_copy_outlines(body->outlines, body->outline_count, &to->bodies[k]->outlines));
+    to->bodies[k]->outline_count = body->outline_count;
+  }
+  return BAUM_OK;
+}
+
 static baum_status copy_all(baum_mechanism *to, const baum_mechanism *from)
 {
   to->tag = from->tag;
@@ -122,7 +143,8 @@ static baum_status copy_all(baum_mechanism *to, const baum_mechanism *from)
   memcpy(to->gravity, from->gravity, sizeof to->gravity);
   BAUM_I_TRY(baum_i_copy_inputs(to, from));
   BAUM_I_TRY(baum_mechanism_add_break_times(to, from->breaks, from->break_count));
-  return copy_elements(to, from);
+  BAUM_I_TRY(copy_elements(to, from));
+  return copy_all_outlines(to, from);
 }
 
 baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism **out)

@@ -26,6 +26,14 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism);
 baum_status baum_i_copy_inputs(baum_mechanism *to, const baum_mechanism *from);
 void baum_i_free_inputs(baum_mechanism *mechanism);
 
+/* ---- body_outlines.c ---- */
+
+/* Copy outlines with their arrays and texts. BAUM_OK or BAUM_ERR_MEMORY; *out is NULL on failure
+ * and for a count of 0. */
+baum_status baum_i_copy_outlines(const struct baum_outline *outlines, int count,
+                                 struct baum_outline **out);
+void baum_i_free_outlines(struct baum_outline *outlines, int count);
+
 /* ---- evaluation of all elements ---- */
 
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows);

@@ -77,6 +77,8 @@ typedef struct baum_i_body {
   int nv;                          /* number of velocities */
   int mass;                        /* start of its nv x nv values in the mass blocks */
   bool fixed;                      /* welded to ground */
+  int outline_count;
+  struct baum_outline *outlines; /* (outline_count) of the user; NULL: it draws itself */
 } baum_i_body;
 
 typedef struct baum_i_joint {
@@ -347,7 +349,7 @@ struct baum_i_joint_type {
   baum_i_definition definition;
   int width;        /* BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction has no force and moment */
   bool scleronomic; /* Phi never depends on t */
-  bool is_pin;      /* its rows are exactly those of pin_rows.h */
+  bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
   /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
    * joint. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
@@ -403,6 +405,14 @@ struct baum_i_joint_type {
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
+/* The length of a spring; of a torsion spring it is an angle, of a joint spring a coordinate. */
+typedef struct baum_i_stretch {
+  double length;
+  double rate;
+  double scale;      /* size of a relevant change of the length */
+  bool no_direction; /* the length is that of a line and zero: there is no force */
+} baum_i_stretch;
+
 struct baum_i_force_type {
   baum_i_definition definition;
   bool spatial; /* requires spatial frames */
@@ -410,7 +420,11 @@ struct baum_i_force_type {
                        double *parameters);
   /* Adds to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
-  bool (*depends_on_velocity)(const void *def); /* NULL: never */
+  bool (*depends_on_velocity)(const baum_i_force *force); /* NULL: never */
+  /* Springs (general/spring_law.h): where the fields that they share begin in a definition, and
+   * the present length of one of them. */
+  size_t spring_fields;
+  baum_i_stretch (*stretch)(const baum_i_force *force, const baum_i_point *point);
   /* Adds the potential of one force to *sum. NULL: it is 0. */
   baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
   /* Sets the blocks of one force, which are zeroed before. */

@@ -187,8 +187,8 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potentials whose power the powers include
- * (baum_i_mechanism_potential_of_whole()). */
+/* Add `factor` times the potential energies to `works`. Only those count whose forces have a share
+ * in the powers (baum_i_mechanism_potential_of_whole()). */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Chooses the gains of a run. Finds the rate of the motion, which the rule `auto` requires. */
 #include <math.h>
-#include <stdio.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
@@ -62,10 +61,9 @@ static baum_status check_factor(const baum_simulation *run, int row)
   if (f > 0.0 && isfinite(f)) {
     return BAUM_OK;
   }
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: row_gains[%d], of %s, is %g, must be finite and > 0", row,
-                     baum_i_row_label(m, row, label), f);
+                     baum_i_row_label(m, row).text, f);
 }
 
 static baum_status copy_row_gains(baum_simulation *run)
@@ -102,9 +100,8 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 /* Add the name of the row to the message of a refusal. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row],
-                     baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
+                     baum_i_row_label(run->workspace->mechanism, row).text, baum_message());
 }
 
 /* Check the gains of all rows. Equal factors of successive rows are checked once. */

@@ -255,18 +255,15 @@ static void record_crossing(baum_simulation *run, double to)
   baum_i_crossings *p = run->crossings;
   baum_near_singular entry = {.struct_size = sizeof entry, .begin = p->present.from, .end = to};
   baum_i_branch_decide(run, &entry);
-  char label[BAUM_I_LABEL_SIZE] = "no joint";
-  if (p->present.joint >= 0) {
-    entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
-    (void)baum_i_joint_label(run->workspace->mechanism, p->present.joint, label);
-  }
-  baum_i_run_warn(run,
-                  entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED
-                                                        : BAUM_WARNING_BRANCH,
-                  entry.t, p->present.joint,
-                  "t = %.9g s to %.9g s: near a singular configuration (smallest pivot %.1e, "
-                  "relative to the usual one, %s): %s",
-                  entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
+  entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
+  baum_i_run_warn(
+    run,
+    entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED : BAUM_WARNING_BRANCH,
+    entry.t, p->present.joint,
+    "t = %.9g s to %.9g s: near a singular configuration (smallest pivot %.1e, "
+    "relative to the usual one, %s): %s",
+    entry.begin, entry.end, entry.pivot,
+    baum_i_joint_label(run->workspace->mechanism, p->present.joint).text, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_NEAR_SINGULAR_KEPT) {
     p->kept[run->counters.near_singular_intervals] = entry;
   }

@@ -72,8 +72,8 @@ void baum_i_crossings_look(baum_simulation *run);
  * end of the step afterwards. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
-/* branch.c: decide which branch the motion has taken from the clear states to the last recent
- * state, and write the result to *out. */
+/* branch.c: decide on which branch the motion has left the singular configuration: compare the
+ * newest state with continuations of the clear states. Write the result to *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
 /* branch.c: return the least pivot, relative to the usual one, of the motion through `knots`, and

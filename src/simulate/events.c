@@ -5,8 +5,6 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/sized.h"
@@ -24,9 +22,7 @@ static const baum_event_def defaults = {
 
 void baum_event_def_init(baum_event_def *def, size_t caller_size)
 {
-  if (baum_i_takes_sized(def, caller_size)) {
-    baum_i_give_sized(def, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(def, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status check_source(const baum_mechanism *m, const baum_event_def *def,
@@ -56,9 +52,10 @@ static baum_status check_definition(const baum_mechanism *m, const baum_event_de
                                 : BAUM_OK;
 }
 
-static void label_of(int number, const char *name, char text[BAUM_I_LABEL_SIZE])
+static baum_i_text label_of(int number, const char *name)
 {
-  (void)snprintf(text, BAUM_I_LABEL_SIZE, name ? "event %d \"%.60s\"" : "event %d", number, name);
+  return name ? baum_i_text_of("event %d \"%.60s\"", number, name)
+              : baum_i_text_of("event %d", number);
 }
 
 /* ---- life ---- */
@@ -116,14 +113,13 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
                               double t)
 {
   const baum_event_def *def = &run->events->list[number].def;
-  char label[BAUM_I_LABEL_SIZE];
-  label_of(number, def->name, label);
+  const baum_i_text label = label_of(number, def->name);
   if (answer != 0) {
-    return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t, label,
-                       answer,
+    return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t,
+                       label.text, answer,
                        answer > 0 ? "retry, but events cannot ask for a smaller step" : "stop");
   }
-  return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
+  return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label.text, value);
 }
 
 static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_state *state)
@@ -220,32 +216,19 @@ static baum_status begin_last(baum_simulation *run)
 
 /* ---- public ---- */
 
-static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
-{
-  const char *call = "baum_simulation_add_event";
-  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
-  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
-  if (!baum_i_is_struct_size(def->struct_size, sizeof *def)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size of the definition is %zu, must be %zu, or that of an older "
-                       "version; start from baum_event_def_default()",
-                       call, def->struct_size, sizeof *def);
-  }
-  return BAUM_OK;
-}
-
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,
                                       int32_t *index)
 {
-  BAUM_I_TRY(check_add(simulation, def));
+  const char *call = "baum_simulation_add_event";
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
   baum_event_def given = baum_event_def_default();
-  /* fields that an older version lacks keep their defaults */
-  memcpy(&given, def, def->struct_size);
+  BAUM_I_TRY(baum_i_take_sized(&given, sizeof given, def, call, " of the definition",
+                               "baum_event_def_default()"));
   int number = simulation->events ? simulation->events->count : 0;
-  char label[BAUM_I_LABEL_SIZE];
-  label_of(number, given.name, label);
   BAUM_I_TRY(baum_i_check_name("event", number, given.name));
-  BAUM_I_TRY(check_definition(simulation->workspace->mechanism, &given, label));
+  BAUM_I_TRY(
+    check_definition(simulation->workspace->mechanism, &given, label_of(number, given.name).text));
   if (!simulation->events) {
     BAUM_I_TRY(create_events(simulation));
   }

@@ -75,15 +75,15 @@ static void explain_integrator(baum_simulation *run)
 
 static void explain_solver(baum_simulation *run)
 {
-  char text[BAUM_I_SOLVER_TEXT_SIZE];
-  baum_i_solver_text(run->workspace, text);
+  const baum_i_text text = baum_i_solver_text(run->workspace);
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
   } else if (run->integrator->solves_residuals) {
     /* The solver for accelerations solves (5) at the start and for outputs. */
-    say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n", text);
+    say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n",
+        text.text);
   } else {
-    say(run, "solver        %s\n", text);
+    say(run, "solver        %s\n", text.text);
   }
 }
 

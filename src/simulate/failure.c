@@ -10,7 +10,6 @@
  *
  * All are relative to the scales. */
 #include <math.h>
-#include <string.h>
 
 #include "base/text.h"
 #include "simulate/run.h"
@@ -52,7 +51,6 @@ static int find_largest(const double *x, const double *n, int count, bool times,
 static void append_joint(baum_workspace *w, char *text, size_t size)
 {
   const baum_mechanism *m = w->mechanism;
-  char label[BAUM_I_LABEL_SIZE];
   double *displacement = w->work_c;
   double violation = 0.0;
   double load = 0.0;
@@ -61,22 +59,20 @@ static void append_joint(baum_workspace *w, char *text, size_t size)
   int loaded = find_largest(w->lambda, displacement, m->nc, true, &load);
   if (violated >= 0 && violation > VIOLATED) {
     baum_i_append(text, size, ", %s is violated by %.2g of the scales",
-                  baum_i_row_label(m, violated, label), violation);
+                  baum_i_row_label(m, violated).text, violation);
   } else if (loaded >= 0) {
-    baum_i_append(text, size, ", %s bears the largest load", baum_i_row_label(m, loaded, label));
+    baum_i_append(text, size, ", %s bears the largest load", baum_i_row_label(m, loaded).text);
   }
 }
 
 static void append_body(const baum_workspace *w, char *text, size_t size)
 {
   const baum_mechanism *m = w->mechanism;
-  char label[BAUM_I_LABEL_SIZE];
   double largest = 0.0;
   int column = find_largest(w->a, m->scale, m->nv, false, &largest);
   if (column >= 0) {
     const baum_i_body *body = baum_i_velocity_body(m, column);
-    (void)baum_i_label(&body->element, label);
-    baum_i_append(text, size, ", %s accelerates most", label);
+    baum_i_append(text, size, ", %s accelerates most", baum_i_label(&body->element).text);
   }
 }
 
@@ -84,10 +80,10 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;
-  char label[BAUM_I_LABEL_SIZE];
+  const baum_mechanism *m = run->workspace->mechanism;
   if (c->max_phi_joint.index1 > 0) {
-    (void)baum_i_joint_label(run->workspace->mechanism, c->max_phi_joint.index1 - 1, label);
-    baum_i_append(text, size, ", %s has been violated most, by %.3g", label, c->max_phi);
+    baum_i_append(text, size, ", %s has been violated most, by %.3g",
+                  baum_i_joint_label(m, c->max_phi_joint.index1 - 1).text, c->max_phi);
   }
 }
 

@@ -171,17 +171,16 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
   const baum_mechanism *m = run->workspace->mechanism;
   BAUM_I_TRY(baum_i_check_joint(m, driver, call, "driver"));
-  char label[BAUM_I_LABEL_SIZE];
   const baum_i_joint *joint = m->joints[baum_i_joint_index(m, driver)];
-  (void)baum_i_label(&joint->element, label);
+  const baum_i_text label = baum_i_label(&joint->element);
   if (!joint->type->replace_law) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is a %s, not a driver", call, label,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is a %s, not a driver", call, label.text,
                        joint->type->definition.kind);
   }
   static const char *const names[3] = {"s", "ds", "dds"};
   static const char *const units[3] = {"rad or m", "rad/s or m/s", "rad/s^2 or m/s^2"};
   for (int k = 0; k < 3; k++) {
-    BAUM_I_TRY(baum_i_check_finite(label, names[k], units[k], law[k]));
+    BAUM_I_TRY(baum_i_check_finite(label.text, names[k], units[k], law[k]));
   }
   return BAUM_OK;
 }

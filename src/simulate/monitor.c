@@ -30,13 +30,12 @@ static void observe_singular(baum_simulation *run, double t)
   }
   if (run->near_singular_seen == 0) {
     int row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
-    char label[BAUM_I_LABEL_SIZE];
     baum_i_run_warn(
       run, BAUM_WARNING_ILL_CONDITIONED, t,
       row >= 0 ? baum_i_row_joint(w->mechanism, row) : BAUM_I_NO_JOINT,
       "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
       "%s",
-      t, baum_i_row_label(w->mechanism, row, label));
+      t, baum_i_row_label(w->mechanism, row).text);
   }
   run->near_singular_seen = w->near_singular;
 }
@@ -76,12 +75,11 @@ static void observe_redundant(baum_simulation *run, double t)
     }
   }
   if (omitted > may_be_off(run, kept)) {
-    char label[BAUM_I_LABEL_SIZE];
     baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
                     "t = %.9g s: an omitted redundant row of %s is violated by %.3g, relative to "
                     "the scales, but the active rows only by %.1g: constraints contradict each "
                     "other, or the motion has left its branch; do not trust it",
-                    t, baum_i_row_label(m, row, label), omitted, kept);
+                    t, baum_i_row_label(m, row).text, omitted, kept);
   }
 }
 
@@ -151,13 +149,12 @@ static void observe_large(baum_simulation *run, double t)
   for (int i = 0; i < m->nc; i++) {
     double size = w->work_c[i];
     if (size > allowed && !(fabs(w->phi[i]) <= PREDICTED * c->predicted_phi)) {
-      char label[BAUM_I_LABEL_SIZE];
       baum_i_run_warn(
         run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
         "t = %.9g s: %s is violated by %.3g, relative to the scales: the motion "
         "has drifted far or grows without bound; take other gains, a smaller step, or "
         "projection",
-        t, baum_i_row_label(m, i, label), size);
+        t, baum_i_row_label(m, i).text, size);
       return;
     }
   }

@@ -23,9 +23,7 @@ void baum_simulation_options_init(baum_simulation_options *options, size_t calle
     .tolerance_v = 1.0,
     .tolerance_lambda = INFINITY,
   };
-  if (baum_i_takes_sized(options, caller_size)) {
-    baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status refuse(const char *field, const char *unit, double value, const char *must)

@@ -3,7 +3,6 @@
  * solution of (5), which is computed once per row of output, and only if a channel needs it. */
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/rotation.h"
@@ -133,9 +132,8 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
     return m->joints[joint]->type->driven ? 1 : fail_channel(k, "only drivers have an effort");
   }
   static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to record"};
-  char label[BAUM_I_LABEL_SIZE];
-  (void)snprintf(label, sizeof label, "channel %d", k);
-  bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label, &fields) == BAUM_OK;
+  const baum_i_text label = baum_i_text_of("channel %d", k);
+  bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label.text, &fields) == BAUM_OK;
   return has ? 2 : -1;
 }
 
@@ -160,27 +158,24 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
 void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char *text, size_t size)
 {
   facts f = facts_of(c->quantity);
-  char label[BAUM_I_LABEL_SIZE];
   bool named = c->quantity == BAUM_JOINT_COORDINATE && c->coordinate != BAUM_COORDINATE_FIRST;
   baum_i_append(text, size, "%s", named ? baum_i_coordinate_name(c->coordinate) : f.word);
   if (f.of == OF_BODY) {
     const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
-    baum_i_append(text, size, " of %s", baum_i_label(&body->element, label));
+    baum_i_append(text, size, " of %s", baum_i_label(&body->element).text);
     if (c->point[0] != 0.0 || c->point[1] != 0.0) {
       baum_i_append(text, size, " at (%g, %g) m", c->point[0], c->point[1]);
     }
   } else if (c->joint.index1 != 0 && (f.of == OF_JOINT || f.of == OF_ROWS)) {
     baum_i_append(text, size, " of %s",
-                  baum_i_joint_label(m, baum_i_joint_index(m, c->joint), label));
+                  baum_i_joint_label(m, baum_i_joint_index(m, c->joint)).text);
   }
 }
 
 void baum_channel_init(baum_channel *channel, size_t caller_size)
 {
   const baum_channel defaults = {.struct_size = sizeof defaults};
-  if (baum_i_takes_sized(channel, caller_size)) {
-    baum_i_give_sized(channel, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(channel, caller_size, &defaults, sizeof defaults);
 }
 
 baum_channel baum_i_channel(const baum_channel *channels, int k)
@@ -198,12 +193,8 @@ static baum_status check_size(const baum_channel *channels, int k)
 {
   const size_t size = channels->struct_size;
   size_t own = 0;
-  if (!baum_i_is_struct_size(size, sizeof *channels)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "channel 0: struct_size is %zu, must be %zu, or that of an older version; "
-                       "start from baum_channel_of()",
-                       size, sizeof *channels);
-  }
+  BAUM_I_TRY(
+    baum_i_check_struct_size(size, sizeof *channels, "channel 0", "", "baum_channel_of()"));
   memcpy(&own, (const char *)channels + (size_t)k * size, sizeof own);
   return own == size ? BAUM_OK
                      : baum_i_fail(BAUM_ERR_STRUCT,

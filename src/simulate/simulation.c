@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Creates and destroys a run, and returns its present state. */
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
+#include "base/sized.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/coordinate.h"
 #include "simulate/account.h"
@@ -171,31 +171,17 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
   return accept_start(run);
 }
 
-static baum_status check_create(const baum_mechanism *mechanism,
-                                const baum_simulation_options *options)
-{
-  const char *call = "baum_simulation_create";
-  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
-  BAUM_I_TRY(baum_i_check_given(call, "options", options != NULL));
-  if (!baum_i_is_struct_size(options->struct_size, sizeof *options)) {
-    return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size of the options is %zu, must be %zu, or that of an older "
-                       "version; start from baum_simulation_options_default()",
-                       call, options->struct_size, sizeof *options);
-  }
-  return BAUM_OK;
-}
-
 baum_status baum_simulation_create(const baum_mechanism *mechanism,
                                    const baum_simulation_options *options, baum_simulation **out)
 {
-  BAUM_I_TRY(baum_i_check_given("baum_simulation_create", "out", out != NULL));
+  const char *call = "baum_simulation_create";
+  BAUM_I_TRY(baum_i_check_given(call, "out", out != NULL));
   *out = NULL;
-  BAUM_I_TRY(check_create(mechanism, options));
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
+  BAUM_I_TRY(baum_i_check_given(call, "options", options != NULL));
   baum_simulation_options checked = baum_simulation_options_default();
-  /* fields that an older version lacks keep their defaults */
-  memcpy(&checked, options, options->struct_size);
-  checked.struct_size = sizeof checked;
+  BAUM_I_TRY(baum_i_take_sized(&checked, sizeof checked, options, call, " of the options",
+                               "baum_simulation_options_default()"));
   BAUM_I_TRY(baum_i_options_check(&checked));
   baum_simulation *run = baum_i_alloc(1, sizeof *run);
   BAUM_I_TRY(baum_i_check_memory(run));

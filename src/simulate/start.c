@@ -49,30 +49,28 @@ static const char *unit_of(const baum_i_body *body, int coordinate)
 }
 
 /* Find the name of the joint with the largest violation in the design configuration. */
-static void name_worst_joint(baum_simulation *run, double t, const double *design,
-                             char label[BAUM_I_LABEL_SIZE])
+static baum_i_text name_worst_joint(baum_simulation *run, double t, const double *design)
 {
   baum_workspace *w = run->workspace;
   int row = -1;
   if (w->mechanism->nc > 0 && baum_i_position_stage(w, t, design) == BAUM_OK) {
     (void)baum_i_row_sizes(w, w->phi, &row);
   }
-  (void)baum_i_row_label(w->mechanism, row, label);
+  return baum_i_row_label(w->mechanism, row);
 }
 
 static baum_status fail_far(baum_simulation *run, const double *design, const baum_i_body *body,
                             int coordinate, double moved, double limit)
 {
   double scale = run->workspace->mechanism->scale[coordinate];
-  char label[BAUM_I_LABEL_SIZE];
-  char joint[BAUM_I_LABEL_SIZE];
-  name_worst_joint(run, run->trial.t, design, joint);
+  const baum_i_text joint = name_worst_joint(run, run->trial.t, design);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the design configuration "
-    "violates %s most; give a design configuration closer to the assembled one",
-    run->trial.t, baum_i_label(&body->element, label), moved, unit_of(body, coordinate),
-    limit * scale, unit_of(body, coordinate), joint);
+    "violates %s most, see baum_mechanism_svg(); give a design configuration closer to the "
+    "assembled one",
+    run->trial.t, baum_i_label(&body->element).text, moved, unit_of(body, coordinate),
+    limit * scale, unit_of(body, coordinate), joint.text);
 }
 
 /* Find the largest displacement by assembly, and fail if it is too large. */
@@ -186,10 +184,9 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
   const baum_workspace *w = run->workspace;
   for (int i = 0; i < w->mechanism->nc; i++) {
     if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
-      char label[BAUM_I_LABEL_SIZE];
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
                          "t = %.9g s: start is exact, but %s has %s = %.3g %s", run->trial.t,
-                         baum_i_row_label(w->mechanism, i, label), what, rows[i], unit);
+                         baum_i_row_label(w->mechanism, i).text, what, rows[i], unit);
     }
   }
   return BAUM_OK;
@@ -229,20 +226,19 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
                                            double change)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_row_label(m, row, label);
+  const baum_i_text label = baum_i_row_label(m, row);
   if (change > CONTRADICTS) {
     return baum_i_fail(BAUM_ERR_INCONSISTENT,
                        "t = %.9g s: the given velocities and the constraints contradict each other "
                        "in %s, which is violated by %.3g per s and is so ill-conditioned that "
                        "velocities would be uncertain by %.1e of their size",
-                       run->trial.t, label, rate, change);
+                       run->trial.t, label.text, rate, change);
   }
   baum_i_run_warn(run, BAUM_WARNING_LOOSE_VELOCITIES, run->trial.t, baum_i_row_joint(m, row),
                   "t = %.9g s: %s is violated by %.3g per s at the given velocities, and is so "
                   "ill-conditioned that velocities and accelerations are uncertain by %.1e of "
                   "their size",
-                  run->trial.t, label, rate, change);
+                  run->trial.t, label.text, rate, change);
   return BAUM_OK;
 }
 

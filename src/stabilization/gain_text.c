@@ -15,19 +15,15 @@ static const double BDF_DAMPING_RATIO = 0.618;
 static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals propose 0.9 */
 static const double EDGE_SHARE = 0.25;   /* fraction of the damping of (6) */
 
-enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
-
 /* ---- numbers ---- */
 
 /* Prints a radius with enough digits to differ from 1. */
-static void print_radius(double radius, char text[RADIUS_SIZE])
+static baum_i_text radius_text(double radius)
 {
   double growth = radius - 1.0;
-  if (fabs(growth) > 1e-12 && fabs(growth) < 1e-4) {
-    baum_i_print(text, RADIUS_SIZE, "1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth));
-  } else {
-    baum_i_print(text, RADIUS_SIZE, "%.6g", radius);
-  }
+  bool close = fabs(growth) > 1e-12 && fabs(growth) < 1e-4;
+  return close ? baum_i_text_of("1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth))
+               : baum_i_text_of("%.6g", radius);
 }
 
 /* Returns alpha h up to which the ray from 0 through a point is stable, or NaN if the point does
@@ -39,25 +35,21 @@ static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft 
   return is_own ? baum_i_stability_limit(method, ratio) : (double)NAN;
 }
 
-static void print_region(const baum_i_method *method, const baum_i_gain_draft *gains,
-                         char text[REGION_SIZE])
+static baum_i_text region_text(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
-    baum_i_print(text, REGION_SIZE, "0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h");
-    return;
+    return (baum_i_text){"0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h"};
   }
   if (method->kind == BAUM_I_METHOD_ONE_STEP && method->degree == 1) {
-    baum_i_print(text, REGION_SIZE, "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4");
-    return;
+    return (baum_i_text){"0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4"};
   }
   double on_ray = limit_on_ray(method, gains);
-  int length = baum_i_print(text, REGION_SIZE, "alpha = beta up to alpha h = %.6g",
-                            baum_i_stability_limit(method, 1.0));
-  if (!isnan(on_ray)) {
-    baum_i_print(text + length, REGION_SIZE - (size_t)length,
-                 " and alpha = %.4g beta up to alpha h = %.6g",
-                 gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
-  }
+  double limit = baum_i_stability_limit(method, 1.0);
+  return isnan(on_ray)
+           ? baum_i_text_of("alpha = beta up to alpha h = %.6g", limit)
+           : baum_i_text_of("alpha = beta up to alpha h = %.6g and alpha = %.4g beta up to "
+                            "alpha h = %.6g",
+                            limit, gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
 }
 
 /* ---- refusals ---- */
@@ -65,12 +57,8 @@ static void print_region(const baum_i_method *method, const baum_i_gain_draft *g
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius)
 {
-  char radius_text[RADIUS_SIZE];
-  char region[REGION_SIZE];
   double good[2];
   double h = context->step;
-  print_radius(radius, radius_text);
-  print_region(context->method, gains, region);
   baum_i_stability_nearest(context->method, gains->alpha_h, gains->beta2_h2, &good[0], &good[1]);
   return baum_i_fail(BAUM_ERR_UNSTABLE,
                      "gains alpha = %.6g 1/s, beta = %.6g 1/s with %s and h = %.6g s: "
@@ -78,7 +66,8 @@ baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_
                      "grow; stable with this integrator is %s; nearest good pair: (%.4g, %.4g), "
                      "that is alpha = %.4g 1/s, beta = %.4g 1/s",
                      gains->alpha, gains->beta, context->integrator, h, gains->alpha_h,
-                     gains->beta2_h2, radius_text, region, good[0], good[1], good[0] / h,
+                     gains->beta2_h2, radius_text(radius).text,
+                     region_text(context->method, gains).text, good[0], good[1], good[0] / h,
                      sqrt(good[1]) / h);
 }
 
@@ -121,70 +110,66 @@ static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_d
   return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
 }
 
-/* Writes the clause on stability. Returns true if it is a warning. */
-static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
-                             const baum_amplification *amplification, char text[CLAUSE_SIZE])
+/* A clause on stability. */
+typedef struct clause {
+  baum_i_text text;
+  bool warns;
+} clause;
+
+static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
+                                const baum_amplification *amplification)
 {
-  char radius[RADIUS_SIZE];
+  const baum_i_text radius = radius_text(amplification->spectral_radius);
   bool stable = amplification->stability == BAUM_STABLE;
   bool undamped = stable && gains->alpha_h == 0.0;
   bool near_edge = stable && !undamped && is_near_edge(context, gains);
-  print_radius(amplification->spectral_radius, radius);
-  int length =
-    baum_i_print(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
-                 gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
+  baum_i_text remark = {""};
   if (near_edge) {
-    baum_i_print(text + length, CLAUSE_SIZE - (size_t)length,
-                 "; warning: near the edge of the region, a step leaves %s of a violation and "
-                 "not %.3g",
-                 radius, exp(-promised_damping(gains)));
+    remark = baum_i_text_of("; warning: near the edge of the region, a step leaves %s of a "
+                            "violation and not %.3g",
+                            radius.text, exp(-promised_damping(gains)));
+  } else if (undamped) {
+    remark = baum_i_text_of("; %s", UNDAMPED);
   }
-  if (undamped) {
-    baum_i_print(text + length, CLAUSE_SIZE - (size_t)length, "; %s", UNDAMPED);
-  }
-  return !stable || undamped || near_edge;
+  return (clause){baum_i_text_of("(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s%s",
+                                 gains->alpha_h, gains->beta2_h2, radius.text,
+                                 class_text[amplification->stability], remark.text),
+                  !stable || undamped || near_edge};
 }
 
-/* Writes the clause on stability. Returns true if it is a warning. With explicit and Adams methods,
- * the error test ensures that violations decay. BDF may use orders and steps with which they grow
- * (statement.c). */
-static bool print_variable_step(baum_i_method_family family, const baum_i_gain_draft *gains,
-                                double max_step, char text[CLAUSE_SIZE])
+/* With explicit and Adams methods, the error test ensures that violations decay. BDF may use orders
+ * and steps with which they grow (statement.c). */
+static clause variable_step_clause(baum_i_method_family family, const baum_i_gain_draft *gains,
+                                   double max_step)
 {
   if (gains->beta == 0.0 && gains->alpha > 0.0) {
-    baum_i_print(text, CLAUSE_SIZE,
-                 "variable step; warning: beta = 0 leaves violations of position");
-    return true;
+    return (clause){{"variable step; warning: beta = 0 leaves violations of position"}, true};
   }
   if (gains->beta > 0.0 && gains->alpha == 0.0) {
-    baum_i_print(text, CLAUSE_SIZE, "variable step; %s", UNDAMPED);
-    return true;
+    return (clause){baum_i_text_of("variable step; %s", UNDAMPED), true};
   }
   if (isfinite(max_step)) {
-    baum_i_print(text, CLAUSE_SIZE,
-                 "variable step, at most %.4g s, for beyond is where violations would grow",
-                 max_step);
-    return false;
+    return (clause){baum_i_text_of("variable step, at most %.4g s, for beyond is where violations "
+                                   "would grow",
+                                   max_step),
+                    false};
   }
   if (family == BAUM_I_FAMILY_BDF && gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
-    baum_i_print(text, CLAUSE_SIZE,
-                 "variable step; warning: alpha / beta = %.3g < %g, where BDF may not damp",
-                 gains->alpha / gains->beta, BDF_DAMPING_RATIO);
-    return true;
+    return (clause){baum_i_text_of("variable step; warning: alpha / beta = %.3g < %g, where BDF "
+                                   "may not damp",
+                                   gains->alpha / gains->beta, BDF_DAMPING_RATIO),
+                    true};
   }
-  baum_i_print(text, CLAUSE_SIZE, "variable step");
-  return false;
+  return (clause){{"variable step"}, false};
 }
 
 void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
                          const baum_i_gain_draft *gains, baum_i_gain_choice *choice)
 {
-  char clause[CLAUSE_SIZE];
-  if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
-    choice->doubtful = print_variable_step(context->family, gains, choice->max_step, clause);
-  } else {
-    choice->doubtful = print_fixed_step(context, gains, &choice->amplification, clause);
-  }
+  const clause about = choice->amplification.stability == BAUM_VARIABLE_STEP
+                         ? variable_step_clause(context->family, gains, choice->max_step)
+                         : fixed_step_clause(context, gains, &choice->amplification);
+  choice->doubtful = about.warns;
   baum_i_print(choice->why, sizeof choice->why, "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s",
-               rule, gains->alpha, gains->beta, gains->note, clause);
+               rule, gains->alpha, gains->beta, gains->note, about.text.text);
 }

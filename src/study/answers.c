@@ -10,7 +10,6 @@
  * The margin is the factor by which MORE_WORK reduces the error of the method. If no entry
  * satisfies this, error <= E is required instead. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,9 +51,7 @@ static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 
 static baum_status check_cost(const baum_study *study, baum_study_cost cost, const char *call)
 {
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   if (cost != BAUM_STUDY_WORK && cost != BAUM_STUDY_CPU) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: cost is %d, must be one of baum_study_cost", call,
                        (int)cost);
@@ -200,7 +197,7 @@ static baum_status find_cost(const cost_query *at, int32_t method, double *out)
     }
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: %s has been measured with errors from %.2g to %.2g, not near %.2g",
-                       at->call, study->methods[method].name, least, most, at->error);
+                       at->call, study->methods[method].name.text, least, most, at->error);
   }
   double a = cost_of(p.coarse, at->cost);
   *out = a * pow(cost_of(p.fine, at->cost) / a, p.share);
@@ -330,12 +327,6 @@ static baum_simulation_options options_of(const baum_study *study, const setting
   return o;
 }
 
-static void name_options(const baum_simulation_options *o, char *text, size_t size)
-{
-  baum_i_name_method(o, text, size);
-  baum_i_name_setting(o, text, size);
-}
-
 /* Appends the best setting of another integrator for comparison. */
 static void add_rival(const baum_study *study, const setting *best, question q, char *why,
                       size_t size)
@@ -344,7 +335,7 @@ static void add_rival(const baum_study *study, const setting *best, question q, 
   q.without = best->fine->options.integrator;
   if (find_best(study, &q, &rival)) {
     double ratio = setting_cost(&rival, q.cost) / setting_cost(best, q.cost);
-    const char *name = study->methods[rival.fine->out.method].name;
+    const char *name = study->methods[rival.fine->out.method].name.text;
     baum_i_append(why, size, "; the next best integrator, %s, costs ", name);
     if (ratio >= 1.05) {
       baum_i_append(why, size, "%.2g times ", ratio);
@@ -355,11 +346,10 @@ static void add_rival(const baum_study *study, const setting *best, question q, 
 
 static void explain(const setting *p, const baum_simulation_options *o, char *why, size_t size)
 {
-  char name[BAUM_I_NAME_SIZE];
-  name_options(o, name, sizeof name);
   why[0] = '\0';
-  baum_i_append(why, size, "%s: error %.2g for a work of %.0f and %.3g ms", name, setting_error(p),
-                setting_cost(p, BAUM_STUDY_WORK), 1e3 * setting_cost(p, BAUM_STUDY_CPU));
+  baum_i_append(why, size, "%s: error %.2g for a work of %.0f and %.3g ms",
+                baum_i_options_name(o).text, setting_error(p), setting_cost(p, BAUM_STUDY_WORK),
+                1e3 * setting_cost(p, BAUM_STUDY_CPU));
   if (p->coarse == p->fine) {
     baum_i_append(why, size, ", as measured");
     return;
@@ -436,7 +426,8 @@ static baum_status refuse_error(const baum_study *study, double error, const cha
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: no entry reaches an error of %.2g; the smallest is %.2g, of %s, and the "
                      "uncertainty of the reference is %.2g",
-                     call, error, best->out.error, best->name, study->reference.out.uncertainty);
+                     call, error, best->out.error, best->name.text,
+                     study->reference.out.uncertainty);
 }
 
 baum_status baum_study_recommend(const baum_study *study, double error, baum_study_cost cost,

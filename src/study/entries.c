@@ -31,8 +31,7 @@ static void describe(baum_i_entry *entry)
   o->formulation = resolve_formulation(o);
   o->progress = NULL;
   o->user = NULL;
-  baum_i_name_method(o, entry->name, sizeof entry->name);
-  baum_i_name_setting(o, entry->name, sizeof entry->name);
+  entry->name = baum_i_options_name(o);
   entry->key = baum_i_options_key(o, true);
   entry->out = (baum_study_entry){.integrator = o->integrator,
                                   .formulation = o->formulation,
@@ -79,7 +78,7 @@ static baum_status copy_options(const baum_study *study, const baum_simulation_o
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   *out = baum_simulation_options_default();
-  BAUM_I_TRY(baum_i_study_take(out, sizeof *out, options, call));
+  BAUM_I_TRY(baum_i_take_sized(out, sizeof *out, options, call, "", "the default"));
   return out->integrator ? baum_i_study_check_idle(study, call)
                          : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
 }
@@ -112,9 +111,7 @@ int32_t baum_study_entry_count(const baum_study *study)
 static baum_status check_read(const baum_study *study, int32_t k, const void *out,
                               size_t caller_size, const char *call)
 {
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   if (k < 0 || k >= study->entry_count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k,
                        study->entry_count - 1);
@@ -127,7 +124,7 @@ baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_e
 {
   BAUM_I_TRY(check_read(study, k, out, caller_size, "baum_study_entry_at"));
   baum_study_entry whole = study->entries[k]->out;
-  whole.name = study->entries[k]->name;
+  whole.name = study->entries[k]->name.text;
   whole.message = study->entries[k]->message;
   baum_i_give_sized(out, caller_size, &whole, sizeof whole);
   return BAUM_OK;

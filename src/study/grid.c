@@ -27,9 +27,7 @@ void baum_study_grid_init(baum_study_grid *grid, size_t caller_size)
 {
   const baum_study_grid defaults = {
     .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = BAUM_I_NOT_GIVEN};
-  if (baum_i_takes_sized(grid, caller_size)) {
-    baum_i_give_sized(grid, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(grid, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status check_grid(const baum_study_grid *g)
@@ -201,20 +199,17 @@ static baum_status add_integrator(void *user, const baum_integrator *integrator)
 baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid_wanted)
 {
   const char *call = "baum_study_add_standard";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   baum_study_grid wanted = baum_study_grid_default();
   if (grid_wanted) {
-    BAUM_I_TRY(baum_i_study_take(&wanted, sizeof wanted, grid_wanted, call));
+    BAUM_I_TRY(baum_i_take_sized(&wanted, sizeof wanted, grid_wanted, call, "", "the default"));
   }
   BAUM_I_TRY(check_grid(&wanted));
   grid g = {.study = study, .wanted = &wanted};
   BAUM_I_TRY(baum_i_study_rate(study, &g.rate));
   const char *formulation = baum_formulation_name(wanted.formulation);
-  char missing[BAUM_I_NAME_SIZE];
-  baum_i_print(missing, sizeof missing,
-               "study grid: this build has no such integrator with the formulation %s",
-               formulation ? formulation : "that is asked for");
-  return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing);
+  const baum_i_text missing =
+    baum_i_text_of("study grid: this build has no such integrator with the formulation %s",
+                   formulation ? formulation : "that is asked for");
+  return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing.text);
 }

@@ -31,7 +31,7 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
   study->methods = methods;
   baum_i_study_method *method = &methods[study->method_count];
   *method = (baum_i_study_method){.key = key, .first = entry};
-  baum_i_name_method(options, method->name, sizeof method->name);
+  method->name = baum_i_method_name(options);
   return study->method_count++;
 }
 
@@ -142,7 +142,7 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
   const baum_i_study_method *method = &study->methods[k];
   const baum_simulation_options *o = &study->entries[method->first]->options;
   const double none = (double)NAN;
-  baum_study_method whole = {.name = method->name,
+  baum_study_method whole = {.name = method->name.text,
                              .integrator = o->integrator,
                              .formulation = o->formulation,
                              .gains = o->gains,

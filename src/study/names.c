@@ -37,29 +37,31 @@ static void name_gains(const baum_simulation_options *o, char *text, size_t size
   }
 }
 
-void baum_i_name_method(const baum_simulation_options *options, char *text, size_t size)
+baum_i_text baum_i_method_name(const baum_simulation_options *options)
 {
-  text[0] = '\0';
   const char *formulation = baum_formulation_name(options->formulation);
   bool has_one = options->formulation != BAUM_FORMULATION_DEFAULT && formulation;
-  baum_i_append(text, size, "%s%s%s", options->integrator->name, has_one ? " " : "",
-                has_one ? formulation : "");
+  baum_i_text out = baum_i_text_of("%s%s%s", options->integrator->name, has_one ? " " : "",
+                                   has_one ? formulation : "");
   if (options->formulation == BAUM_FORMULATION_BAUMGARTE) {
-    name_gains(options, text, size);
+    name_gains(options, out.text, sizeof out.text);
     if (options->row_gains) {
-      baum_i_append(text, size, " by rows");
+      baum_i_append(out.text, sizeof out.text, " by rows");
     }
   }
+  return out;
 }
 
-void baum_i_name_setting(const baum_simulation_options *options, char *text, size_t size)
+baum_i_text baum_i_options_name(const baum_simulation_options *options)
 {
+  baum_i_text out = baum_i_method_name(options);
   if (!isnan(options->step)) {
-    baum_i_append(text, size, ", step %.4g s", options->step);
+    baum_i_append(out.text, sizeof out.text, ", step %.4g s", options->step);
   }
   if (!isnan(options->rtol)) {
-    baum_i_append(text, size, ", rtol %.3g", options->rtol);
+    baum_i_append(out.text, sizeof out.text, ", rtol %.3g", options->rtol);
   }
+  return out;
 }
 
 double baum_i_setting(const baum_simulation_options *options)

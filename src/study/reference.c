@@ -96,11 +96,8 @@ static void keep_most(baum_i_differences *most, const baum_i_differences *other)
 static void describe_failure(const baum_simulation_options *o, const baum_i_outcome *outcome,
                              found *out)
 {
-  char name[BAUM_I_NAME_SIZE];
-  baum_i_name_method(o, name, sizeof name);
-  baum_i_name_setting(o, name, sizeof name);
-  (void)snprintf(out->text, sizeof out->text, "%s did not reach the end: %s", name,
-                 outcome->message);
+  (void)snprintf(out->text, sizeof out->text, "%s did not reach the end: %s",
+                 baum_i_options_name(o).text, outcome->message);
 }
 
 /* Makes one run and writes its samples to values. The first run is the reference of the others. */
@@ -130,13 +127,10 @@ static baum_status compare_run(baum_study *study, const baum_simulation_options 
 
 static void describe(const baum_study *study, const attempt *a, found *out)
 {
-  char names[PARTIES][BAUM_I_NAME_SIZE];
-  for (int k = 0; k < PARTIES; k++) {
-    baum_simulation_options o = setting(study, a, k, 0);
-    baum_i_name_method(&o, names[k], sizeof names[k]);
-  }
-  baum_i_print(out->text, sizeof out->text, "%s and %s, with rtol %g and half of it,", names[0],
-               names[1], a->rtol);
+  const baum_simulation_options one = setting(study, a, 0, 0);
+  const baum_simulation_options other = setting(study, a, 1, 0);
+  baum_i_print(out->text, sizeof out->text, "%s and %s, with rtol %g and half of it,",
+               baum_i_method_name(&one).text, baum_i_method_name(&other).text, a->rtol);
 }
 
 /* Makes the four runs of an attempt, the reference first. Leaves study->reference.samples.values

@@ -8,6 +8,7 @@
 #include <baum/report.h>
 
 #include "base/buffer.h"
+#include "base/text.h"
 #include "study/fields.h"
 
 /* Number of recommendations, which are for the errors 1e-2, 1e-4, ... 1e-10, and of kinds of
@@ -19,7 +20,7 @@ typedef struct baum_i_advice {
   double error;
   baum_status status;
   baum_simulation_options options; /* the recommended setting, if the status is not an error */
-  char setting[256];               /* name of the setting; "": none */
+  baum_i_text setting;             /* name of the setting; "": none */
   char why[BAUM_I_MESSAGE_SIZE];   /* reason of the recommendation, or why there is none */
 } baum_i_advice;
 

@@ -100,7 +100,7 @@ static void put_advice(const baum_i_advice *advice, baum_study_cost cost, baum_i
   put_text(out, "cost", cost == BAUM_STUDY_WORK ? "work" : "cpu");
   put_number(out, "error", advice->error);
   put_text(out, "status", baum_status_name(advice->status));
-  put_text(out, "setting", known ? advice->setting : NULL);
+  put_text(out, "setting", known ? advice->setting.text : NULL);
   put_text(out, "integrator", known ? baum_integrator_name(o->integrator) : NULL);
   put_text(out, "formulation", known ? baum_formulation_name(o->formulation) : NULL);
   put_number(out, "step", known ? o->step : none);

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as one HTML page: the template report.html with the data that its script draws. The data
- * are the report as JSON and, for each fixed-step integrator with gains, its gain rule, its point
- * of best damping, and level lines of the spectral radius, which show its region of stability. */
+/* A study as one HTML page: the template report.html with a picture of the mechanism and the data
+ * that its script draws. The data are the report as JSON and, for each fixed-step integrator with
+ * gains, its gain rule, its point of best damping, and level lines of the spectral radius, which
+ * show its region of stability. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "draw/picture.h"
 #include "integrate/integrator.h"
 #include "study/report.h"
+#include "study/study.h"
 
 enum { POINTS = 4000, LEVELS = 3 };
 static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
-static const char PLACE[] = "\"DATA\""; /* marks the place of the data in the template */
+static const char PICTURE[] = "<!-- PICTURE -->"; /* marks its place in the template */
+static const char DATA[] = "\"DATA\"";
 
 extern const unsigned char baum_i_report_html[]; /* created by cmake/Embed.cmake */
 
@@ -73,21 +77,38 @@ static void put_regions(const baum_i_snapshot *snapshot, double *points, baum_i_
   }
 }
 
+/* Draws the initial configuration or, if assembly fails, the design configuration. */
+static void put_picture(const baum_study *study, baum_i_buffer *out)
+{
+  baum_simulation *start = NULL;
+  baum_status status = baum_i_study_probe(study, &start);
+  const double *q = start ? baum_simulation_q(start) : NULL;
+  if (status != BAUM_ERR_MEMORY) {
+    status = baum_i_put_svg(study->mechanism, q, "picture", out);
+  }
+  out->failed = out->failed || status != BAUM_OK;
+  baum_simulation_destroy(start);
+}
+
 void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   const char *page = (const char *)baum_i_report_html;
-  const char *place = strstr(page, PLACE);
+  const char *picture = strstr(page, PICTURE);
+  const char *data = strstr(picture, DATA);
   double *points = baum_i_alloc((size_t)2 * POINTS, sizeof *points);
   if (!points) {
     out->failed = true;
     return;
   }
   baum_i_kept_message kept = baum_i_message_keep();
-  baum_i_putf(out, "%.*s{\"regions\": [", (int)(place - page), page);
+  baum_i_putf(out, "%.*s", (int)(picture - page), page);
+  put_picture(snapshot->study, out);
+  picture += strlen(PICTURE);
+  baum_i_putf(out, "%.*s{\"regions\": [", (int)(data - picture), picture);
   put_regions(snapshot, points, out);
   baum_i_put(out, "],\n\"report\": ");
   baum_i_report_json(snapshot, out);
-  baum_i_putf(out, "}%s", place + strlen(PLACE));
+  baum_i_putf(out, "}%s", data + strlen(DATA));
   (void)baum_i_message_settle(BAUM_OK, &kept);
   baum_i_free(points);
 }

@@ -79,8 +79,7 @@ static void read_advice(const baum_study *study, baum_study_cost cost, baum_i_ad
     (void)snprintf(out->why, sizeof out->why, "%s", baum_message());
     return;
   }
-  baum_i_name_method(&out->options, out->setting, sizeof out->setting);
-  baum_i_name_setting(&out->options, out->setting, sizeof out->setting);
+  out->setting = baum_i_options_name(&out->options);
 }
 
 static baum_status read_answers(baum_i_snapshot *out)

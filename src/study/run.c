@@ -370,7 +370,7 @@ static baum_status time_entry(workers *c, baum_i_entry *entry)
     baum_i_outcome outcome;
     baum_i_study_run_one(&task, &deadline, NULL, &outcome);
     if (outcome.status < BAUM_OK) {
-      return baum_i_fail(outcome.status, "study: timing of %s failed: %s", entry->name,
+      return baum_i_fail(outcome.status, "study: timing of %s failed: %s", entry->name.text,
                          outcome.message);
     }
     if (outcome.status == BAUM_STOP_CANCELLED) {
@@ -504,9 +504,7 @@ static baum_status begin_study(workers *c)
 
 baum_status baum_study_run(baum_study *study)
 {
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_run: the study is NULL");
-  }
+  BAUM_I_TRY(baum_i_study_check(study, "baum_study_run"));
   if (study->entry_count == 0) {
     return baum_i_fail(BAUM_ERR_STATE,
                        "baum_study_run: the study has no entries; add settings first");

@@ -78,14 +78,11 @@ static baum_status add_integrator(void *user, const baum_integrator *integrator)
 baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator)
 {
   const char *call = "baum_study_add_stress";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   double rate = 0.0;
   BAUM_I_TRY(baum_i_study_rate(study, &rate));
   ladders l = {.study = study, .period = 2.0 * PI / rate};
-  char missing[BAUM_I_NAME_SIZE];
-  baum_i_print(missing, sizeof missing, "%s: this build has no %s with a step or a tolerance", call,
-               baum_integrator_name(integrator));
-  return baum_i_study_add_each(study, integrator, add_integrator, &l, missing);
+  const baum_i_text missing = baum_i_text_of("%s: this build has no %s with a step or a tolerance",
+                                             call, baum_integrator_name(integrator));
+  return baum_i_study_add_each(study, integrator, add_integrator, &l, missing.text);
 }

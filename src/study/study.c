@@ -3,7 +3,6 @@
 #include <baum/study.h>
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <baum/version.h>
@@ -50,12 +49,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL", call);
   }
   *out = NULL;
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
   if (!isfinite(t0) || !isfinite(t1) || t0 == t1) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: t0 is %g s and t1 is %g s; they must be finite and differ", call, t0,
@@ -163,9 +157,7 @@ void baum_study_options_init(baum_study_options *options, size_t caller_size)
     .energy_account = true,
     .validate = true,
   };
-  if (baum_i_takes_sized(options, caller_size)) {
-    baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
-  }
+  baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
 }
 
 static baum_status check_options(const baum_study *study, const baum_study_options *o)
@@ -220,20 +212,9 @@ static baum_status check_begun(const baum_study *study, const baum_study_options
   return study->begun && what ? refuse_change("baum_study_set_options", what) : BAUM_OK;
 }
 
-baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call)
+baum_status baum_i_study_check(const baum_study *study, const char *call)
 {
-  size_t given = 0;
-  memcpy(&given, from, sizeof given);
-  if (!baum_i_is_struct_size(given, size)) {
-    return baum_i_fail(
-      BAUM_ERR_STRUCT,
-      "%s: struct_size is %zu, must be %zu, or that of an older version; start from "
-      "the default",
-      call, given, size);
-  }
-  memcpy(to, from, given); /* fields that an older version lacks keep their defaults */
-  memcpy(to, &size, sizeof size);
-  return BAUM_OK;
+  return study ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
 }
 
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call)
@@ -249,7 +230,7 @@ baum_status baum_study_set_options(baum_study *study, const baum_study_options *
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   baum_study_options o = baum_study_options_default();
-  BAUM_I_TRY(baum_i_study_take(&o, sizeof o, options, call));
+  BAUM_I_TRY(baum_i_take_sized(&o, sizeof o, options, call, "", "the default"));
   BAUM_I_TRY(check_options(study, &o));
   BAUM_I_TRY(baum_i_study_check_idle(study, call));
   BAUM_I_TRY(check_begun(study, &o));
@@ -419,9 +400,7 @@ baum_status baum_study_reference_read(const baum_study *study, baum_study_refere
                                       size_t caller_size)
 {
   const char *call = "baum_study_reference_read";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   BAUM_I_TRY(baum_i_check_sized(out, caller_size, call));
   baum_study_reference whole = study->reference.out;
   whole.text = study->reference.text;
@@ -444,9 +423,7 @@ baum_status baum_study_reference_sample(const baum_study *study, int32_t k, doub
                                         double *v, double *lambda)
 {
   const char *call = "baum_study_reference_sample";
-  if (!study) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_study_check(study, call));
   const baum_i_samples *r = &study->reference.samples;
   if (!r->values) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been computed", call);

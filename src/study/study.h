@@ -12,10 +12,9 @@
 
 #include <baum/study.h>
 
-#include "base/message.h"
+#include "base/text.h"
 
 enum {
-  BAUM_I_NAME_SIZE = 160,
   BAUM_I_NOTE_SIZE = BAUM_I_MESSAGE_SIZE, /* no message is cut */
   BAUM_I_TEXT_SIZE = 2 * BAUM_I_MESSAGE_SIZE,
   BAUM_I_CHANNELS = 4
@@ -51,7 +50,7 @@ typedef struct baum_i_entry {
   baum_study_entry out; /* its name and message point to the members below */
   baum_simulation_options options;
   double *row_gains; /* own copy of the array in the options */
-  char name[BAUM_I_NAME_SIZE];
+  baum_i_text name;
   char message[BAUM_I_NOTE_SIZE];
   uint64_t key; /* key of the options */
   double limit; /* [s] entry limit when it was measured */
@@ -71,9 +70,9 @@ typedef struct baum_i_samples {
 /* A method: a set of entries that differ only in step or rtol. */
 typedef struct baum_i_study_method {
   uint64_t key;
-  int first;                   /* index of its first entry, which has the common options */
-  char name[BAUM_I_NAME_SIZE]; /* name without step or tolerance */
-  double too_fine;             /* step or rtol that has reached the entry limit, else 0 */
+  int first;        /* index of its first entry, which has the common options */
+  baum_i_text name; /* name without step or tolerance */
+  double too_fine;  /* step or rtol that has reached the entry limit, else 0 */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
@@ -121,9 +120,6 @@ struct baum_study {
 
 /* ---- study.c ---- */
 
-/* Copies a caller's struct, of this version or an older one, to `to`, which contains defaults. */
-baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
-
 /* Returns BAUM_ERR_STATE inside baum_study_run(). */
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 
@@ -144,11 +140,14 @@ baum_status baum_i_study_rate(baum_study *study, double *rate);
 
 /* ---- names.c ---- */
 
-/* Writes a name such as "rk4 baumgarte auto". */
-void baum_i_name_method(const baum_simulation_options *options, char *text, size_t size);
+/* Returns a name such as "rk4 baumgarte auto". */
+baum_i_text baum_i_method_name(const baum_simulation_options *options);
 
-/* Appends ", step 0.001 s" or ", rtol 1e-06". */
-void baum_i_name_setting(const baum_simulation_options *options, char *text, size_t size);
+/* The same with ", step 0.001 s" or ", rtol 1e-06". */
+baum_i_text baum_i_options_name(const baum_simulation_options *options);
+
+/* Checks that a study is not NULL: BAUM_OK or BAUM_ERR_ARGUMENT. */
+baum_status baum_i_study_check(const baum_study *study, const char *call);
 
 /* Returns a key that is the same for equal options. Step and rtol are included if with_setting. */
 uint64_t baum_i_options_key(const baum_simulation_options *options, bool with_setting);

@@ -35,6 +35,9 @@ static void add_mechanism(baum_i_digest *d, const baum_mechanism *m)
                             baum_mechanism_input_count(m), breaks};
   baum_i_digest_add(d, counts, sizeof counts);
   baum_i_digest_add(d, times, (size_t)breaks * sizeof *times);
+  for (int32_t k = 0; k < baum_mechanism_body_count(m); k++) {
+    baum_i_digest_add_integer(d, baum_mechanism_outline_count(m, baum_mechanism_body_at(m, k)));
+  }
 }
 
 /* Adds all that the run saves. */
@@ -302,9 +305,28 @@ CALL(baum_study_write)
   return baum_study_write(s->study, BAUM_REPORT_JSON, NULL, FILE_NAME);
 }
 
+CALL(baum_mechanism_set_outlines)
+{
+  static const double points[3][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  static const int32_t triangle[3] = {0, 1, 2};
+  baum_outline two[2] = {baum_outline_default(), baum_outline_default()};
+  two[1].form = BAUM_OUTLINE_MESH;
+  two[0].points = two[1].points = points[0];
+  two[0].point_count = two[1].point_count = 3;
+  two[1].triangles = triangle;
+  two[1].triangle_count = 1;
+  two[1].color = "#123456";
+  return baum_mechanism_set_outlines(s->parts.mechanism, s->parts.crank, two, 2);
+}
+
 CALL(baum_mechanism_svg)
 {
   return baum_mechanism_svg(s->parts.mechanism, s->q, NULL, 0, NULL);
+}
+
+CALL(baum_mechanism_svg_assembled)
+{
+  return baum_mechanism_svg_assembled(s->parts.mechanism, NULL, 0, NULL);
 }
 
 CALL(baum_mechanism_write_svg)
@@ -382,7 +404,9 @@ static const call CALLS[] = {
   ROW(baum_study_run, STUDIED),
   ROW(baum_study_print, STUDIED),
   ROW(baum_study_write, STUDIED),
+  ROW(baum_mechanism_set_outlines, OPEN),
   ROW(baum_mechanism_svg, FROZEN),
+  ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
   ROW(baum_page_print, FROZEN),
   ROW(baum_page_write, FROZEN),

@@ -46,6 +46,7 @@ typedef struct scene {
   unsigned char bytes[BYTES];
   baum_dae dae;
   baum_channel channel;
+  baum_outline outline;
   baum_page page;
   baum_catalog_choice choice;
   baum_mechanism *pendulum; /* a mechanism of the catalogue */
@@ -75,6 +76,8 @@ typedef struct scene {
   X(baum_mechanism_rows, (s->parts.mechanism, s->parts.pin, &s->n[0], &s->n[1]))             \
   X(baum_mechanism_sizes, (s->parts.mechanism, &s->n[0], &s->n[1], &s->n[2]))                \
   X(baum_mechanism_get_gravity, (s->parts.mechanism, s->x))                                  \
+  X(baum_mechanism_get_outline,                                                              \
+    (s->parts.mechanism, s->parts.crank, 0, &s->outline, sizeof s->outline))                 \
   X(baum_mechanism_get_characteristic_length, (s->parts.mechanism, s->x))                    \
   X(baum_mechanism_get_input, (s->parts.mechanism, s->parts.throttle, s->x))                 \
   X(baum_mechanism_set_gravity, (s->open.mechanism, 0.0, -9.81, 0.0))                        \
@@ -180,6 +183,8 @@ typedef struct scene {
   X(baum_simulation_message, (s->run))                                                           \
   X(baum_simulation_cancel, (NULL))                                                              \
   X(baum_event_def_init, (&s->event_def, sizeof s->event_def))                                   \
+  X(baum_outline_init, (&s->outline, sizeof s->outline))                                         \
+  X(baum_mechanism_outline_count, (s->parts.mechanism, s->parts.crank))                          \
   X(baum_page_init, (&s->page, sizeof s->page))                                                  \
   X(baum_channel_init, (&s->channel, sizeof s->channel))                                         \
   X(baum_gains_auto, ())                                                                         \
@@ -268,6 +273,11 @@ static void make_scene(scene *s)
 {
   memset(s, 0, sizeof *s);
   s->parts = every_element_make(NULL);
+  s->outline = baum_outline_default();
+  s->outline.form = BAUM_OUTLINE_CIRCLE;
+  s->outline.radius = 1.0;
+  assert_int_equal(baum_mechanism_set_outlines(s->parts.mechanism, s->parts.crank, &s->outline, 1),
+                   BAUM_OK);
   assert_int_equal(every_element_build(&s->open), BAUM_OK);
   assert_int_equal(baum_workspace_create(s->parts.mechanism, &s->w), BAUM_OK);
   s->run = start(&s->parts);

@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include <baum/draw.h>
+
 #include "message.h"
 #include "report_scene.h"
 
@@ -133,9 +135,53 @@ static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
   assert_int_equal(count(page, "\"DATA\""), 0);
   assert_int_equal(count(page, "\"levels\": "), 1);                     /* only rk2 has gains */
   assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4); /* and methods */
-  assert_int_equal(count(page, "http"), 2); /* in http-equiv and in the namespace of SVG */
+  assert_int_equal(count(page, "http"), 3); /* in http-equiv and in the namespace of SVG, twice */
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);
+}
+
+/* Expects a picture at q of a rod of 1 m between pins at the origin and at x = `to`. */
+static void expect_picture(double to, const double *q)
+{
+  baum_mechanism *m = NULL;
+  baum_study *study = NULL;
+  baum_planar_body_def rod = baum_planar_body_def_default();
+  rod.position[0] = 0.5;
+  rod.position[1] = 0.1;
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.point_a[1] = pin.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &rod, &pin.body_b), BAUM_OK);
+  for (int end = 0; end < 2; end++) {
+    pin.name = end ? REPORT_JOINT : "pin";
+    pin.point_a[0] = end ? to : 0.0;
+    pin.point_b[0] = end ? 0.5 : -0.5;
+    assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_int_equal(baum_study_create(m, 0.0, 1.0, &study), BAUM_OK);
+
+  char *page = print(study, BAUM_REPORT_PAGE);
+  char picture[20000];
+  assert_int_equal(baum_mechanism_svg(m, q, picture, sizeof picture, NULL), BAUM_OK);
+  assert_int_equal(count(page, picture), 1);
+  assert_int_equal(count(page, "<svg xmlns"), 1);
+  free(page);
+  baum_study_destroy(study);
+  baum_mechanism_destroy(m);
+}
+
+static void a_page_shows_the_initial_configuration(void **state)
+{
+  (void)state;
+  expect_picture(1.0, (double[3]){0.5, 0.0, 0.0});
+}
+
+static void a_page_of_a_mechanism_that_cannot_be_assembled_shows_its_design(void **state)
+{
+  (void)state;
+  expect_picture(2.0, NULL);
 }
 
 static void a_page_has_no_markup_of_users(void **state)
@@ -207,6 +253,8 @@ int main(void)
     cmocka_unit_test(a_csv_has_a_line_for_each_entry_and_as_many_cells),
     cmocka_unit_test(a_json_has_null_for_what_is_not_known),
     cmocka_unit_test(a_page_has_the_data_of_every_entry_and_loads_nothing),
+    cmocka_unit_test(a_page_shows_the_initial_configuration),
+    cmocka_unit_test(a_page_of_a_mechanism_that_cannot_be_assembled_shows_its_design),
     cmocka_unit_test(a_page_has_no_markup_of_users),
     cmocka_unit_test(a_study_that_has_not_been_run_is_reported_too),
     cmocka_unit_test(a_buffer_that_is_too_short_gets_the_beginning),

@@ -3,8 +3,10 @@
  *
  * usage: bench_draw
  */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <baum/baum.h>
 #include <baum/catalog.h>
@@ -114,6 +116,56 @@ static void show_many(int bodies, int count)
   baum_mechanism_destroy(m);
 }
 
+/* The vertices and triangles of a torus: n circles of n points. */
+static baum_outline make_ring(int n, double *points, int32_t *triangles)
+{
+  for (int k = 0; k < n * n; k++) {
+    const int i = k / n, j = k % n, next = (i + 1) % n * n, side = (j + 1) % n;
+    const double u = 6.283185307179586 * i / n, v = 6.283185307179586 * j / n;
+    const int32_t corners[6] = {k, next + j, next + side, k, next + side, i * n + side};
+    const double point[3] = {(0.3 + 0.1 * cos(v)) * cos(u), (0.3 + 0.1 * cos(v)) * sin(u),
+                             0.1 * sin(v)};
+    memcpy(points + 3 * k, point, sizeof point);
+    memcpy(triangles + 6 * k, corners, sizeof corners);
+  }
+  baum_outline ring = baum_outline_default();
+  ring.form = BAUM_OUTLINE_MESH;
+  ring.points = points;
+  ring.point_count = n * n;
+  ring.triangles = triangles;
+  ring.triangle_count = 2 * n * n;
+  return ring;
+}
+
+/* A body with an outline of 2 n^2 triangles. */
+static void show_mesh(int n)
+{
+  const double row[7] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+  const double time = 0.0;
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  baum_mechanism *m = NULL;
+  baum_body_id body;
+  baum_page page = baum_page_default();
+  const baum_spatial_body_def def = baum_spatial_body_def_default();
+  double *points = malloc(3 * (size_t)(n * n) * sizeof *points);
+  int32_t *triangles = malloc(6 * (size_t)(n * n) * sizeof *triangles);
+  if (points && triangles) {
+    const baum_outline ring = make_ring(n, points, triangles);
+    must(baum_mechanism_create(&m));
+    must(baum_mechanism_add_spatial_body(m, &def, &body));
+    must(baum_mechanism_set_outlines(m, body, &ring, 1));
+    must(baum_mechanism_freeze(m));
+    page.times = &time;
+    page.rows = row;
+    page.channels = &channel;
+    page.count = page.channel_count = 1;
+    print_sizes("mesh", m, &page);
+  }
+  free(points);
+  free(triangles);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   printf("%-14s %6s %7s | %9s %8s | %9s %8s\n", "mechanism", "bodies", "samples", "SVG [kB]",
@@ -121,5 +173,7 @@ int main(void)
   show_catalog("slider_crank", 400, 0.1);
   show_catalog("andrews_bodies", 400, 0.03);
   show_many(1000, 2000);
+  show_many(10000, 10);
+  show_mesh(100); /* 20 000 triangles */
   return 0;
 }

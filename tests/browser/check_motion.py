@@ -3,11 +3,15 @@
 
 Writes pages of planar and spatial runs, with names that contain scripts, and uses them in headless
 Chromium. Checks that pages load without console messages, play, step, scrub, zoom and rotate, fit
-desktop and telephone screens in light and dark, and that the plots follow the time. Leaves pages
-and screenshots in FOLDER. On failure, lists the errors.
+desktop and telephone screens in light and dark, that the plots follow the time, and that solids
+cover each other as they do in space. Leaves pages and screenshots in FOLDER. On failure, lists the
+errors.
 """
 
+import base64
+import json
 import os
+import re
 import sys
 import time
 
@@ -19,7 +23,7 @@ from chromium import Chromium
 
 NAME = '<b onclick="window.taken = 1">A</b> </script><script>window.taken = 1</script> \u05d0\u05d1' + "long" * 9
 SIZES = [(1280, 900, False), (420, 800, True)]
-FRAME = 4.0  # [ms] longest time to draw 50 bodies
+FRAME = 4.0  # [ms] longest time that the script takes to draw 50 bodies
 INK = "(draw(), stage.toDataURL())"
 
 
@@ -32,7 +36,7 @@ def plane():
     m.revolute("A", crank, rod, point=(1, 0))
     m.revolute("B", rod, slider, point=(3, 0))
     m.translational("guide", m.ground, slider, point=(3, 0))
-    m.spring("spring", m.ground, slider, stiffness=10, damping=1, point_a=(5, 0), point_b=(0, 0))
+    m.spring("spring", m.ground, slider, stiffness=10, damping=1, point_a=(5, 0), point_b=(0, 0.1))
     record = ["A.reaction", "guide.reaction", "slider.velocity", "energy"]
     run = m.freeze().simulate(np.linspace(0, 4, 401), "rk8", rtol=1e-8, record=record)
     return run, [rod.pose_of((0, 0.2))]
@@ -57,7 +61,98 @@ def many():
         body = m.planar_body(f"body {k}", mass=1, inertia=0.1, position=corner + (0.5, 0))
         m.revolute(f"joint {k}", before, body, point=corner)
         before, corner = body, corner + (1, 0)
-    return m.freeze().simulate(np.linspace(0, 1, 51), "rk4", step=1e-2), []
+    return m.freeze().simulate(np.linspace(0, 1, 51), "rk4", step=1e-2)
+
+
+def many_in_space():
+    m = baum.Mechanism(up="z")
+    before, corner = m.ground, np.zeros(3)
+    for k in range(50):
+        body = m.spatial_body(f"body {k}", mass=1, inertia=inertia.rod(1, 1, axis="x"), position=corner + (0.5, 0, 0))
+        m.spatial_revolute(f"joint {k}", before, body, point=corner, axis=(0, k % 2, 1 - k % 2))
+        before, corner = body, corner + (1, 0, 0)
+    return m.freeze().simulate(np.linspace(0, 1, 51), "rk4", step=1e-2)
+
+
+# ---- a scene of solids whose order no sorting by depth gets right ----
+
+HIGH = 0.3
+
+
+def shape(body, form, points, radius=0.0, **more):
+    """A shape at rest, in the colour of its body."""
+    return {"style": "body", "form": form, "body": body, "other": body, "element": f"{form} {body}",
+            "radius": radius, "points": points, **more}
+
+
+def bar_over(angle, body):
+    """A side of a triangle that passes over the next side and under the previous one."""
+    c, s = np.cos(angle), np.sin(angle)
+    ends = [(x * c + 0.5 * s, x * s - 0.5 * c, HIGH * np.sign(x)) for x in (-1.6, 1.6)]
+    return shape(body, "line", ends, 0.12)
+
+
+def solids():
+    """The description of a page, and for points in space the body that is seen there (0: none)."""
+    thirds = 2 * np.pi / 3 * np.arange(3)
+    corner = np.sqrt(3) / 2  # distance of two sides' crossing from the middle of a side
+    shapes = [bar_over(angle, k + 1) for k, angle in enumerate(thirds)]
+    seen = []
+    for k, angle in enumerate(thirds):
+        c, s = np.cos(angle), np.sin(angle)
+        height = HIGH * corner / 1.6
+        seen.append(((corner * c + 0.5 * s, corner * s - 0.5 * c, height), k + 1))
+    shapes += [  # a ring about a bar: above it at x = 4, and below it
+        shape(4, "line", [(4, -1.5, 0), (4, 1.5, 0)], 0.12),
+        shape(5, "line", [(3.5, 0, -0.6), (4.5, 0, -0.6), (4.5, 0, 0.6), (3.5, 0, 0.6), (3.5, 0, -0.6)], 0.12),
+        shape(6, "box", [(8, 0, 0), (0.5, 0.5, 0.5)]),  # a bar through a box
+        shape(7, "cylinder", [(6.5, 0, 0), (9.5, 0, 0)], 0.2),
+        shape(1, "area", [(11, -1, 0), (13, -1, 0), (13, 1, 0), (12, 0, 0), (11, 1, 0)]),  # concave
+        shape(2, "mesh", [(15, -1, 0), (17, -1, 0), (16, 1, 0), (16, -0.3, 1)],
+              triangles=[0, 1, 2, 0, 1, 3, 1, 2, 3, 2, 0, 3]),
+        shape(3, "ball", [(19, 0, 0)], 0.6),
+        shape(4, "disc", [(21, 0, 0), (0, 0, 1)], 0.7),
+    ]
+    seen += [((4, 0, 0.6), 5), ((4, 1, 0), 4), ((8, -0.2, 0.5), 6), ((6.7, 0, 0.2), 7), ((9.3, 0, 0.2), 7),
+             ((11.4, -0.6, 0), 1), ((12, 0.7, 0), 0), ((12.8, 0.5, 0), 1), ((16, -0.5, 0.3), 2), ((19, 0, 0.6), 3),
+             ((21, 0, 0), 4), ((10, 0, 0), 0)]
+    bodies = [{"name": f"body {k}", "kind": "none" if k else "ground", "q": 0} for k in range(9)]
+    drawing = {"version": 1, "spatial": True, "unit": 0.1, "gravity": [0, 0, -9.81], "bodies": bodies, "shapes": shapes}
+    kinds = ("warning", "singular", "event")
+    return {
+        "title": NAME, "drawing": drawing, "reactions": [], "plots": [], "traces": [], "frames": 2, "ranges": [[0, 1]],
+        "marks": [{"t": (k + 1) / 4, "kind": kind, "text": f"a {kind}"} for k, kind in enumerate(kinds)],
+        "values": base64.b64encode(np.array([0, 65534], "<u2").tobytes()).decode(),
+    }, seen
+
+
+def write_solids(template, path):
+    """Put the scene into a page that the library has written."""
+    data, seen = solids()
+    text = json.dumps(data).replace("<", "\\u003c")
+    with open(template, encoding="utf-8") as file:
+        page = re.sub(r'(?s)(id="data">).*?(</script>)', lambda found: found[1] + text + found[2], file.read(), count=1)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(page)
+    return seen
+
+
+# For each of these points, the body whose colour its pixel has in any light: 0 for the paper or the floor.
+BODIES_AT = """(points => {
+  const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+  [copy.canvas.width, copy.canvas.height] = [stage.width, stage.height];
+  draw();
+  copy.drawImage(stage, 0, 0);
+  return points.map(point => {
+    const [x, y] = project(point), ratio = stage.width / wide;
+    const pixel = Array.from(copy.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data.slice(0, 3));
+    const apart = (a, b) => Math.hypot(...normal(a).map((e, i) => e - normal(b)[i]));
+    const bodies = [1, 2, 3, 4, 5, 6, 7], all = [...bodies.map(k => 'fill' + (k - 1)), 'paper', 'shadow', 'rule'].map(name => rgb(colours[name]));
+    const found = all.map(tone => apart(pixel, tone));
+    const best = found.indexOf(Math.min(...found));
+    return best < bodies.length ? bodies[best] : 0;
+  });
+})"""
 
 
 class Checks:
@@ -76,10 +171,10 @@ def key(browser, name):
         browser.call("Input.dispatchKeyEvent", type=kind, key=name)
 
 
-def wait(browser):
-    """Wait until the page has drawn the requested frame."""
-    for _ in range(100):
-        if not browser.run("asked"):
+def wait(browser, until_not="asked"):
+    """Wait until the page has drawn the requested frame, or until something else does not hold."""
+    for _ in range(500):
+        if not browser.run(f"Boolean({until_not})"):
             return
         time.sleep(0.02)
 
@@ -153,6 +248,16 @@ def check_view(browser, spatial, checks):
     after = browser.run("[view.scale, view.azimuth, view.shift[0]]")
     moved = 1 if spatial else 2
     checks.expect(after[moved] != before[moved], "dragging does not turn" if spatial else "dragging does not move")
+    if spatial:  # what is near follows the hand
+        browser.run("window.near = view.centre.map((x, i) => x + 50 / view.scale * view.axes[6 + i])")
+        x, y, _ = browser.run("project(near)")
+        mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.52, 0.52), ("mouseReleased", 0.52, 0.52))
+        moved_x, moved_y, _ = browser.run("project(near)")
+        checks.expect(moved_x > x and moved_y > y, "the near side does not follow the hand")
+        before = browser.run("[...view.axes, ...view.shift]")
+        mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.6, 0.5), ("mouseReleased", 0.6, 0.5), modifiers=8)
+        after = browser.run("[...view.axes, ...view.shift]")
+        checks.expect(after[:9] == before[:9] and after[9] > before[9], "Shift does not move the picture")
     key(browser, "0")
     wait(browser)
     checks.expect(abs(browser.run("view.shift[0]")) < 1e-9, "0 does not fit")
@@ -164,6 +269,22 @@ def check_view(browser, spatial, checks):
         key(browser, name)
         wait(browser)
         checks.expect(browser.run(INK) == before, f"{name} is not undone")
+
+
+def check_names(browser, checks):
+    """Check that names are written inside the stage and do not overlap."""
+    browser.run("find('names').checked = true")
+    for share in (0, 0.3, 0.6, 1):
+        rooms, wide, high = browser.run(
+            f"(now = first + {share} * span, draw(), [drawNames(framesAt(at(now))), wide, high])")
+        checks.expect(len(rooms) > 3, f"only {len(rooms)} names are shown")
+        inside = all(a[0] >= 0 and a[1] >= 0 and a[2] <= wide and a[3] <= high for a in rooms)
+        checks.expect(inside, "a name is outside of the picture")
+        overlaps = [1 for k, a in enumerate(rooms) for b in rooms[:k]
+                    if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]]
+        checks.expect(not overlaps, f"{len(overlaps)} names overlap")
+    browser.run("find('names').checked = false, seek(first + span / 2)")
+    wait(browser)
 
 
 def check_video(browser, checks):
@@ -178,16 +299,79 @@ def check_video(browser, checks):
     checks.expect(browser.run("window.saved") == "mechanism.webm", "no video")
 
 
+def check_solids(browser, seen, checks):
+    checks.expect(browser.run("solids !== null"), "no WebGL")
+    for tilt in (1.2, 0.9):
+        browser.run(f"view.azimuth = 0, view.tilt = {tilt}, fit()")
+        all_found = browser.run(f"{BODIES_AT}({json.dumps([point for point, _ in seen])})")
+        for (point, body), found in zip(seen, all_found):
+            checks.expect(found == body, f"body {found} is seen at {np.round(point, 2)} in place of {body}")
+
+
+def check_lost_context(browser, seen, checks):
+    before = browser.run(INK)
+    browser.run("window.lost = solids.gl.getExtension('WEBGL_lose_context'), lost.loseContext()")
+    wait(browser, "solids")
+    checks.expect(browser.run("solids === null") and browser.run(INK) != before, "a lost context goes unnoticed")
+    browser.run("lost.restoreContext()")
+    wait(browser, "!solids")
+    check_solids(browser, seen, checks)
+
+
+def check_marks(browser, checks):
+    looks = browser.run("Array.from(document.querySelectorAll('#ticks button')).map(e => {"
+                        " const s = getComputedStyle(e, '::before'); return [s.backgroundColor, s.clipPath]; })")
+    for what, values in zip(("colour", "shape"), zip(*looks)):
+        checks.expect(len(set(values)) == 3, f"marks of different kinds have one {what}: {values}")
+
+
+def touch(browser, *moments):
+    """Two fingers at these positions, in units of the stage's width and height."""
+    left, top, width, height = browser.run("(() => { stage.scrollIntoView({block: 'center'});"
+                                           " const r = stage.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()")
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+    for k, fingers in enumerate(moments):
+        points = [{"x": left + x * width, "y": top + y * height, "id": i} for i, (x, y) in enumerate(fingers)]
+        browser.call("Input.dispatchTouchEvent", type="touchMove" if k else "touchStart", touchPoints=points)
+    browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    wait(browser)
+
+
+def check_two_fingers(browser, spatial, checks):
+    """Check that two fingers move, zoom and, in space, rotate the picture, and that what is below them stays there."""
+    place = "[view.scale, view.azimuth, view.tilt, ...view.shift]"
+    key(browser, "0")
+    wait(browser)
+    before = browser.run(place)
+    touch(browser, [(0.4, 0.5), (0.6, 0.5)], [(0.3, 0.5), (0.7, 0.5)])
+    after = browser.run(place)
+    checks.expect(abs(after[0] / before[0] - 2) < 0.02 and abs(after[1] - before[1]) < 1e-6, "two fingers do not zoom")
+    checks.expect(np.hypot(*np.subtract(after[3:], before[3:])) < 2, "zooming about the middle moves the picture")
+    touch(browser, [(0.4, 0.5), (0.6, 0.5)], [(0.4, 0.6), (0.6, 0.6)])
+    moved = browser.run(place)
+    height = browser.run("high")
+    checks.expect(abs(moved[4] - after[4] - 0.1 * height) < 2, "two fingers do not move the picture")
+    touch(browser, [(0.4, 0.5), (0.6, 0.5)], [(0.45, 0.42), (0.55, 0.58)])
+    turned = browser.run(place)[1] - moved[1]
+    checks.expect(turned > 0.5 if spatial else turned == 0, f"two fingers turn the picture by {turned}")
+    key(browser, "0")
+    wait(browser)
+
+
 def check_speed(browser, page, checks):
-    checks.where = "many"
+    """Measure the time to draw a frame. In space, it includes the wait for a graphics card, which
+    software replaces here: the limit is for the rest."""
     browser.size(1280, 900)
     browser.open(page)
-    took = browser.run("(() => { play(false); let least = Infinity;"  # others use the machine, too
-                       " for (let batch = 0; batch < 20; batch++) { const begin = performance.now();"
-                       " for (let k = 0; k < 20; k++) { now = first + span * k / 20; draw(); }"
-                       " least = Math.min(least, (performance.now() - begin) / 20); } return least; })()")
-    print(f"50 bodies: {took:.2f} ms a frame")
-    checks.expect(took <= FRAME, f"50 bodies take {took:.2f} ms a frame")
+    took, script = browser.run(
+        "(() => { play(false); const copy = pen.drawImage.bind(pen); let waited = 0, least = [Infinity, Infinity];"
+        " pen.drawImage = (...a) => { const begin = performance.now(); copy(...a); waited += performance.now() - begin; };"
+        " for (let batch = 0; batch < 20; batch++) { const begin = performance.now(); waited = 0;"  # others use the machine, too
+        " for (let k = 0; k < 5; k++) { now = first + span * k / 5; draw(); }"
+        " const took = performance.now() - begin;"
+        " least = [Math.min(least[0], took / 5), Math.min(least[1], (took - waited) / 5)]; } return least; })()")
+    print(f"{checks.where}, 50 bodies: {took:.2f} ms a frame, script {script:.2f} ms")
+    checks.expect(script <= FRAME, f"50 bodies take {script:.2f} ms a frame")
 
 
 def main():
@@ -208,14 +392,29 @@ def main():
                     check_layout(browser, checks)
                     check_time(browser, checks)
                     check_view(browser, name == "space", checks)
+                    check_two_fingers(browser, name == "space", checks)
                     browser.run("find('names').click(), find('centres').click()")
                     wait(browser)
                     browser.screenshot(os.path.join(folder, f"{name}_{width}_{scheme}.png"), not phone)
+                    check_names(browser, checks)
                     check_quiet(browser, checks)
             check_video(browser, checks)
-        page = os.path.join(folder, "many.html")
-        many()[0].page(page)
-        check_speed(browser, page, checks)
+        page = os.path.join(folder, "solids.html")
+        seen = write_solids(os.path.join(folder, "space.html"), page)
+        for width, height, phone in SIZES:
+            for scheme in ("light", "dark"):
+                checks.where = f"solids {width} {scheme}"
+                browser.size(width, height, phone, scheme)
+                browser.open(f"{page}?{width}{scheme}#t=0")
+                check_solids(browser, seen, checks)
+                check_lost_context(browser, seen, checks)
+                check_marks(browser, checks)
+                browser.screenshot(os.path.join(folder, f"solids_{width}_{scheme}.png"), not phone)
+                check_quiet(browser, checks)
+        for checks.where, make in (("plane", many), ("space", many_in_space)):
+            page = os.path.join(folder, f"many_in_{checks.where}.html")
+            make().page(page)
+            check_speed(browser, page, checks)
     print(f"pictures are in {folder}; {len(checks.wrong)} wrong")
     return 1 if checks.wrong else 0
 

@@ -26,6 +26,7 @@ LEAST_GAP = 6.0  # [px] between marks of one kind in a map
 SABOTAGE = {  # a part of the page, and what breaks it
     "  texts();\n": "  texts(); undefinedFunction();\n",
     "max-width: 1320px": "min-width: 1400px",
+    "#picture { float: right;": "#picture { position: absolute;",
     ".scroll { overflow-x: auto;": ".scroll { min-width: 1300px;",
     "find('rows').append(head(columns), make('tbody', null, ...rows));":
         "find('rows').append(head(columns), make('tbody', null, ...rows.slice(1)));",
@@ -102,6 +103,20 @@ BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map
     const at = element.getBoundingClientRect();
     return [at.left, at.top, at.right, at.bottom]; })))"""
 
+# Returns the width of the picture, how much of it the window shows, and how many lines of text of the
+# header it covers.
+PICTURE = """(() => {
+  const at = document.querySelector('#picture svg').getBoundingClientRect();
+  const texts = document.createRange();
+  const covered = Array.from(document.querySelectorAll('header > :not(figure)'), element => {
+    texts.selectNodeContents(element);
+    return Array.from(texts.getClientRects()).filter(line => line.left < at.right && at.left < line.right &&
+      line.top < at.bottom && at.top < line.bottom).length; });
+  const drawn = Array.from(document.querySelectorAll('#picture svg > *'), shape => shape.getBoundingClientRect())
+    .filter(shape => shape.left >= 0 && shape.right <= innerWidth && shape.width + shape.height > 1);
+  return [at.width, drawn.length, covered.reduce((sum, lines) => sum + lines, 0)];
+})()"""
+
 # Lists texts that are wider than their table cells, and numbers that take more than one line.
 BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
   const lines = document.createRange();
@@ -121,6 +136,9 @@ def check_layout(browser, checks):
     wide = browser.run("Array.from(document.querySelectorAll('.scroll'))"
                        ".filter(box => box.scrollWidth > box.clientWidth).map(box => box.ariaLabel)")
     checks.expect(wide == [], f"tables of {wide} are too wide")
+    wide, drawn, covered = browser.run(PICTURE)
+    checks.expect(wide >= 200 and drawn >= 8, f"a picture of {wide} px with {drawn} shapes")
+    checks.expect(covered == 0, f"the picture covers {covered} lines of the header")
     bad = browser.run(BAD_CELLS)
     checks.expect(bad == [], f"{len(bad)} cells are cut or wrap: {bad[:3]}")
     for boxes in browser.run(f"{BOXES}('text')"):

@@ -25,6 +25,7 @@ class Chromium:
             os.dup2(ends[1], 4)
 
         command = [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-extensions"]
+        command += ["--enable-unsafe-swiftshader"]  # WebGL without a graphics card
         command += ["--remote-debugging-pipe", f"--user-data-dir={self._folder}", "about:blank"]
         self._process = subprocess.Popen(
             command,
@@ -126,17 +127,19 @@ class Chromium:
             file.write(base64.b64decode(answer["data"]))
 
     def complaints(self):
-        """Return console messages, exceptions, and reports of blocked content."""
+        """Return console messages, exceptions, and reports of blocked content. The software that
+        replaces a graphics card reports that copying pictures takes time: that is left out."""
         out = []
         for event in self.events:
             details = event["params"]
             if event["method"] == "Runtime.exceptionThrown":
-                out.append(details["exceptionDetails"]["text"])
+                thrown = details["exceptionDetails"]
+                out.append(f"{thrown['text']} {thrown.get('exception', {}).get('description')}")
             elif event["method"] == "Log.entryAdded" and details["entry"]["level"] != "verbose":
                 out.append(details["entry"]["text"])
             elif event["method"] == "Runtime.consoleAPICalled":
                 out.append(str(details["args"]))
-        return out
+        return [text for text in out if "GPU stall due to ReadPixels" not in text]
 
     def requests(self):
         """Return the addresses that were requested, except the page's own."""

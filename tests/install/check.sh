@@ -101,6 +101,6 @@ for example in "$project"/examples/*.c; do
 done
 
 echo "no path of the build is installed"
-if grep -rF "$project" "$libraries/cmake" "$pc" "$prefix/include"; then
+if grep -rF "$project" "$libraries/cmake/baum" "$pc"/baum*.pc "$prefix/include/baum"; then
   fail "these lines name the folder of the build"
 fi

@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: fresh.sh ROOT CLONE [STAGE...]
-# As root: makes a bare Debian 12 in ROOT and runs the two commands of the README there, on the clone CLONE of the
-# project, with the STAGEs of tests/run.sh. Uses the mirror, proxy and certificates that apt and pip use here. Removes
-# ROOT at the end; after a failure it stays, without mounts.
+# usage: fresh.sh RELEASE ROOT CLONE COMMAND...
+# As root: makes a bare Debian RELEASE (bookworm, trixie) in ROOT and runs the COMMANDs there, in the clone CLONE of the
+# project. Uses the mirror, proxy and certificates that apt and pip use here. Removes ROOT at the end; after a failure
+# it stays, without mounts.
 set -eu
-root=$1
-clone=$2
-shift 2
-release=bookworm
+release=$1
+root=$2
+clone=$3
+shift 3
 
 . "$clone/tests/install/root.sh"
 
@@ -18,9 +18,9 @@ cp -R "$clone" "$root/root/baum"
 made=$(date +%s)
 echo "a bare Debian $release after $((made - begun)) s"
 
-inside "$root" /root/baum sh examples/run.sh
-examples=$(date +%s)
-echo "examples/run.sh after $((examples - made)) s"
-inside "$root" /root/baum sh tests/run.sh "$@"
-echo "tests/run.sh after $(($(date +%s) - examples)) s"
+for command in "$@"; do
+  begun=$(date +%s)
+  inside "$root" /root/baum sh -c "$command"
+  echo "$command: ok after $(($(date +%s) - begun)) s"
+done
 rm -rf "$root"

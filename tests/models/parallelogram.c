@@ -39,7 +39,7 @@ static baum_body_id add_crank(baum_i_parts *parts, const model_parallelogram_dat
   def.velocity[0] = -sin(angle) / 2 * rate;
   def.velocity[1] = cos(angle) / 2 * rate;
   def.angular_velocity = rate;
-  baum_body_id crank = baum_i_parts_body(parts, &def, NULL, NULL);
+  baum_body_id crank = baum_i_parts_body(parts, &def);
   baum_i_parts_pin(parts, NULL, (baum_i_spot){BAUM_GROUND, {x, y}},
                    (baum_i_spot){crank, {-0.5, 0.0}});
   return crank;
@@ -55,7 +55,7 @@ static baum_body_id add_coupler(baum_i_parts *parts, const model_parallelogram_d
   def.velocity[0] = -sin(angle) * rate;
   def.velocity[1] = cos(angle) * rate;
   def.angular_velocity = 0.0;
-  return baum_i_parts_body(parts, &def, NULL, NULL);
+  return baum_i_parts_body(parts, &def);
 }
 
 static void pin_tip(baum_i_parts *parts, baum_body_id crank, baum_body_id coupler, double along,
@@ -81,7 +81,7 @@ static void add_frame(baum_i_parts *parts)
   baum_planar_body_def def = rod("frame", 3.0, 2.0);
   baum_planar_fixed_def weld = baum_planar_fixed_def_default();
   weld.body_a = BAUM_GROUND;
-  weld.body_b = baum_i_parts_body(parts, &def, NULL, NULL);
+  weld.body_b = baum_i_parts_body(parts, &def);
   weld.point[0] = weld.point[1] = 0.0;
   if (parts->status == BAUM_OK) {
     parts->status = baum_mechanism_add_planar_fixed(parts->mechanism, &weld, NULL);

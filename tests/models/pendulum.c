@@ -22,10 +22,8 @@ baum_status model_pendulum_circle(const model_pendulum *data, model *out)
   baum_body_id id = baum_i_parts_particle(&parts, &bob);
   baum_user_constraint_def def = baum_user_constraint_def_default();
   def.name = "circle";
-  def.bodies = &id;
-  def.body_count = 1;
   def.row_count = 1;
   def.phi = circle;
-  baum_i_parts_constraint(&parts, &def);
+  baum_i_parts_constraint(&parts, id, def);
   return model_finish(&parts, NULL, out);
 }

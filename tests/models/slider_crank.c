@@ -50,12 +50,10 @@ static void change_body(baum_i_parts *parts, baum_body_id id, const double *q, c
 
 static void give_velocities(baum_i_parts *parts, const double *p, const crank_bodies *bodies)
 {
-  double q[3];
-  double v[3];
   for (int k = 0; k < 3; k++) {
-    baum_i_slider_crank_state(p, &p[BAUM_I_SLIDER_CRANK_ANGLE], &p[BAUM_I_SLIDER_CRANK_SPEED], k, q,
-                              v);
-    change_body(parts, bodies->id[k], NULL, v);
+    const baum_i_body_state at =
+      baum_i_slider_crank_state(p, &p[BAUM_I_SLIDER_CRANK_ANGLE], &p[BAUM_I_SLIDER_CRANK_SPEED], k);
+    change_body(parts, bodies->id[k], NULL, at.v);
   }
 }
 
@@ -83,7 +81,7 @@ static baum_body_id add_frames(baum_i_parts *parts, int count)
   weld.point_a[0] = weld.point_a[1] = weld.point_b[0] = weld.point_b[1] = 0.0;
   for (int k = 0; k < count && parts->status == BAUM_OK; k++) {
     weld.body_a = last;
-    last = baum_i_parts_body(parts, &def, NULL, NULL);
+    last = baum_i_parts_body(parts, &def);
     weld.body_b = last;
     if (parts->status == BAUM_OK) {
       parts->status = baum_mechanism_add_planar_fixed(parts->mechanism, &weld, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accuracy of accelerations and multipliers relative to a solution with the same M, J, g and gamma
- * in quadruple precision. Every case prints the worst errors of a and lambda, each relative to the
- * largest element. */
+/* The accuracy of accelerations and multipliers, compared with a solution in quadruple precision
+ * with the same M, J, g and gamma. Every case prints the largest errors of a and of lambda, each
+ * relative to its largest element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,14 +13,15 @@
 
 static const double PI = 3.14159265358979324;
 
-/* About ten roundings, times condition numbers of a few hundred after refinement. */
+/* About ten times rounding, amplified by condition numbers of a few hundred, after refinement. */
 static const double ORDINARY = 1e-12;
-/* At a distance d [rad] from a singular configuration, the error of lambda is that of J a over d^2.
- * A residual in double precision leaves 1e-16 / d^2. A residual in higher precision gives full
- * accuracy at 1e-4 rad, and seven digits at 1e-6 rad. */
+/* At a distance d [rad] from a singular configuration, lambda has the error of J a, divided by d^2.
+ * With refinement by residuals in double precision 1e-16 / d^2 would remain. The solvers compute
+ * residuals in higher precision, which gives full accuracy at 1e-4 rad and seven digits at 1e-6
+ * rad. */
 static const double NEAR = 1e-12;
 static const double NEAREST = 1e-7;
-/* Masses differ by 1e6, so six digits of a few roundings may be lost. */
+/* Masses differ by a factor of 1e6, so six digits could be lost; only about two are. */
 static const double UNEVEN = 1e-10;
 
 /* ---- table ---- */
@@ -44,7 +45,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* Prints a case and checks its limits; lambda_limit may be infinite. */
+/* Prints a case and checks its errors. lambda_limit may be infinite. */
 static void note(table *t, const char *name, errors found, double limit, double lambda_limit)
 {
   bool fine = found.a <= limit && (found.lambda <= lambda_limit || isinf(lambda_limit));
@@ -54,7 +55,7 @@ static void note(table *t, const char *name, errors found, double limit, double 
   t->failures += fine ? 0 : 1;
 }
 
-/* Measures the errors and frees p. */
+/* Measures the errors in the configuration p and frees p. */
 static errors measure(posed *p)
 {
   accelerate(p);
@@ -86,7 +87,7 @@ static posed driven_crank(uint64_t *seed, int size)
   return pose_model(status, m);
 }
 
-/* Rotates the crank by a random angle; assembly moves the other bodies. */
+/* Rotates the crank of Andrews' mechanism by a random angle. Assembly moves the other bodies. */
 static posed andrews(uint64_t *seed, int size)
 {
   (void)size;
@@ -113,7 +114,7 @@ static posed pose_n_four_bar(model_n_four_bar data)
   return pose_model(status, m);
 }
 
-/* At least 0.2 rad from the flat configuration. */
+/* Poses an N-four-bar at least 0.2 rad from its flat configuration. */
 static posed n_four_bar(uint64_t *seed, int size)
 {
   model_n_four_bar data = model_n_four_bar_a02(size);
@@ -146,7 +147,8 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* The oracle gives the acceleration of the equation of motion with one degree of freedom. */
+/* The oracle must give the acceleration that follows from the equation of motion in the crank
+ * angle, the only degree of freedom. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;
@@ -156,7 +158,7 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* M, J and g are rounded: a few roundings times the condition number at 0.2 rad. */
+    /* M, J and g are rounded, which the condition number at 0.2 rad amplifies. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);
@@ -266,7 +268,8 @@ static errors measure_alternating(int loops, double crank, double coupler)
 
 enum { LINKS = 100 };
 
-/* The last link has `tip` times its mass, every second link the mass `other`. */
+/* Measures a chain of 1 kg links in which every second link has the mass `other`; the mass of the
+ * last link is multiplied by `tip`. */
 static errors measure_uneven_chain(double tip, double other)
 {
   double mass[LINKS];
@@ -309,7 +312,8 @@ static void a_chain_of_100000_links_keeps_ten_digits_of_a(void **state)
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.want_a, p.want_lambda));
   errors found = {quad_error(p.nv, p.a, p.want_a), quad_error(p.nc, p.lambda, p.want_lambda)};
   unpose(&p);
-  /* Only a is tested, because the condition number grows with the square of the length. */
+  /* Only a is tested: the condition number, which amplifies errors of lambda, grows as the square
+   * of the length. */
   note(&t, "chain N = 100000", found, 1e-10, (double)INFINITY);
   assert_int_equal(t.failures, 0);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs every kind of joint (support/joint_scenes.c) with every integrator of this build in every
- * formulation that it offers, for half a second with large motions. Also tests reactions: they are
- * equal and opposite, explain the acceleration of every body, and do no work. */
+/* Runs a mechanism with every kind of joint (support/joint_scenes.c), with every integrator of this
+ * build in every formulation that it offers, for half a second with large motions. Also tests
+ * reactions: with them every body fulfils its equations of motion, and they do no work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +40,7 @@ static baum_simulation_options reference_options(double step)
   return options;
 }
 
-/* Options with h = 1e-3 s or rtol = 1e-7. */
+/* Returns options with h = 1e-3 s or rtol = 1e-7. */
 static baum_simulation_options method_options(step_mode mode, baum_formulation formulation)
 {
   baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-7);
@@ -97,17 +97,18 @@ typedef struct method {
   baum_formulation formulation;
 } method;
 
-/* Largest error, violation and relative energy change by order (0: variable step). Each limit is at
- * least three times the worst measured value. That is 3e-2 at order 1, where a double pendulum
- * takes 500 steps, and falls by about 200 with every order, down to the error of the reference. */
+/* Returns the limit of the error, of the violation and of the relative change of energy, by order
+ * (0: variable step). Each limit is at least three times the largest measured value. This value is
+ * 3e-2 at order 1, for 500 steps of a double pendulum. It falls by a factor of about 200 with every
+ * order, down to the error of the reference. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {5e-5, 1.5e-1, 4e-4, 3e-6, 3e-8, 3e-10, 3e-11, 3e-11, 3e-11};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 3e-3; /* IDA's tolerance refers to y, which is less accurate at index 3. */
+    return 3e-3; /* IDA controls the error of y only, which is less accurate at index 3. */
   }
-  /* Adams methods have the error constants 5/12, 3/8 and 251/720, Runge-Kutta methods about 1/k!.
-   * After a knot of a spline, the past of an Adams method belongs to another polynomial. */
+  /* Adams methods have larger error constants, 5/12, 3/8 and 251/720, than Runge-Kutta methods,
+   * about 1/k!. After a knot of a spline driver they also use derivatives from before the knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
@@ -158,7 +159,7 @@ static outcome find_reference(const joint_scene *scene)
   baum_simulation_options coarse = reference_options(2e-4);
   outcome out = run_scene(scene, &fine);
   outcome other = run_scene(scene, &coarse);
-  assert_true(difference(&out, other.q) <= 1e-11); /* the error of the finer run is 1/16 of this */
+  assert_true(difference(&out, other.q) <= 1e-11); /* the finer run has 1/16 of it */
   assert_true(out.max_phi <= 1e-14);
   assert_true(!scene->conservative || out.energy_change <= 1e-12);
   return out;
@@ -169,7 +170,7 @@ static void every_method_carries_every_joint(void **state)
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
     outcome reference = find_reference(&joint_scenes[k]);
-    /* Two Euler and three Runge-Kutta methods with three formulations each. */
+    /* At least two Euler and three Runge-Kutta methods, each with three formulations. */
     assert_true(try_methods(&joint_scenes[k], &reference) >= 15);
   }
 }
@@ -192,7 +193,8 @@ static void scenes_have_their_degrees_of_freedom_and_move_far(void **state)
 
 /* ---- without degrees of freedom ---- */
 
-/* Index of the first joint that has a coordinate and is not driven by the last joint, or -1. */
+/* Returns the index of the first joint that has a coordinate and that the last joint does not
+ * drive, or -1. */
 static int find_free_joint(const baum_mechanism *m)
 {
   for (int k = 0; k < m->joint_count; k++) {
@@ -205,7 +207,7 @@ static int find_free_joint(const baum_mechanism *m)
   return -1;
 }
 
-/* Reads value and rate of a joint's coordinate at the start. */
+/* Reads the initial value and velocity of a joint's coordinate. */
 static void read_start(const baum_mechanism *m, int joint, double out[2])
 {
   const baum_channel channel =
@@ -217,8 +219,8 @@ static void read_start(const baum_mechanism *m, int joint, double out[2])
   baum_simulation_destroy(run);
 }
 
-/* Adds a driver to a scene with one degree of freedom, with the joint's initial value and rate.
- * Returns NULL if no joint is suitable. */
+/* Makes a scene with one degree of freedom and adds a driver that starts with the joint's initial
+ * value and velocity. Returns NULL if no joint is suitable. */
 static baum_mechanism *make_driven(const joint_scene *scene)
 {
   baum_mechanism *free_one = joint_scene_make(scene);
@@ -253,7 +255,8 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
   return out;
 }
 
-/* Phi = 0 alone determines the positions, so kinematics and projection differ by rounding. */
+/* Without degrees of freedom Phi = 0 determines the positions, so the kinematics integrator and a
+ * run with projection may differ only by rounding. */
 static void kinematics_carries_every_joint(void **state)
 {
   (void)state;
@@ -276,12 +279,13 @@ static void kinematics_carries_every_joint(void **state)
     baum_mechanism_destroy(mechanism);
     tried++;
   }
-  assert_true(tried >= 8); /* drivers of at least eight kinds of joints */
+  assert_true(tried >= 8); /* at least eight kinds of joints */
 }
 
 /* ---- reactions ---- */
 
-/* A mechanism in motion, and the residual M a - g, from which the reactions are subtracted. */
+/* A mechanism in motion, and the residual M a - g. The test subtracts all reactions from it, after
+ * which it must be zero. */
 typedef struct balance {
   test_point p;
   baum_workspace *workspace;
@@ -323,7 +327,8 @@ static void close_balance(balance *b)
   test_point_close(&b->p);
 }
 
-/* Subtracts a force and moment at a point from one body; returns their power. */
+/* Subtracts sign times f, a force at a point and a moment, from the residual of one body. Returns
+ * its power. */
 static double apply(balance *b, int index, const double at[3], const double f[3], double sign)
 {
   const baum_i_frame *frame = &b->p.point.frames[index];
@@ -337,7 +342,7 @@ static double apply(balance *b, int index, const double at[3], const double f[3]
   return share[0] * frame->vx + share[1] * frame->vy + share[2] * frame->w;
 }
 
-/* Subtracts a joint's reaction from its bodies; returns its power. */
+/* Subtracts the reaction of a joint from the residuals of its bodies. Returns its power. */
 static double take_off(balance *b, int index)
 {
   const baum_mechanism *m = b->p.mechanism;
@@ -369,12 +374,12 @@ static void check_balance(const joint_scene *scene, double t)
   for (int k = 0; k < b.p.mechanism->joint_count; k++) {
     double power = take_off(&b, k);
     if (b.p.mechanism->joints[k]->type->scleronomic) {
-      /* Rounding of lambda and v. */
+      /* The power is zero except for rounding of lambda and v. */
       ASSERT_NEAR(power, 0.0, 0.0, 1e-12 * push * speed);
     }
   }
   for (int i = 0; i < b.p.nv; i++) {
-    ASSERT_NEAR(b.rest[i], 0.0, 0.0, 1e-12 * (push + 10.0)); /* rounding; weights are 8 to 15 N */
+    ASSERT_NEAR(b.rest[i], 0.0, 0.0, 1e-12 * (push + 10.0)); /* weights are 8 to 15 N */
   }
   close_balance(&b);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs both slider-cranks forward and then backward in time, with stabilization, and with IDA at
- * higher index. Violations decay in both directions, and the error at the start is comparable with
- * that at the far end. */
+/* Runs the free and the driven slider-crank forward and then backward in time, with stabilization,
+ * and with IDA at higher index. Violations must not grow in either direction, and the error back at
+ * the start must be comparable with that at the far end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,15 +17,16 @@
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
-/* Limit of the ratio of violations, backward over forward. Both are local errors, which differ by
- * some tenths with the direction and with the chosen steps. */
+/* Limit of the largest violation of the backward run divided by that of the forward run. Both are
+ * due to local errors, which depend somewhat on the direction and on the chosen steps. */
 static const double MOST_VIOLATION = 4.0;
-/* Limit of the ratio of errors, at the start over at the far end. In units of the
- * position error at the far end, the error back at the start is at most 4: 1 from the positions and
- * 2 from the velocities of the forward run, which act for twice the time, and 1 from the backward
- * run. The rest allows for an accidentally small error at the far end. */
+/* Limit of the error back at the start divided by the error at the far end. A ratio of 4 is
+ * expected: 1 from the position error at the far end, 2 from the velocity error there, which acts
+ * for twice the time, and 1 from the backward run. The rest allows for a far end whose error is
+ * small by chance. */
 static const double MOST_ERROR = 20.0;
-/* Rounding of about 1e4 steps, for the driven crank, whose q is a function of time alone. */
+/* Rounding in about 1e4 steps. Needed for the driven crank, whose other errors vanish because q is
+ * a function of time alone. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
@@ -36,8 +37,8 @@ typedef struct method {
 } method;
 
 typedef struct journey {
-  double error[2]; /* at the far end, and back at the start */
-  double phi[2];   /* largest violation forward, and backward */
+  double error[2]; /* at the far end; back at the start */
+  double phi[2];   /* largest violation forward; backward */
 } journey;
 
 static double scaled_error(const baum_mechanism *mechanism, const double *q, const double *want)
@@ -51,7 +52,7 @@ static double scaled_error(const baum_mechanism *mechanism, const double *q, con
   return error;
 }
 
-/* Advances and returns the largest violation seen. */
+/* Advances the run and returns the largest violation at the output times. */
 static double travel(const watched_run *watched, double from, double to)
 {
   double phi[PHYSICS_NC];
@@ -99,7 +100,8 @@ static void assert_returns(physics_mechanism which, const method *with)
          j.phi[0], j.phi[1]);
   (void)fflush(stdout);
   model_destroy(&m);
-  /* Without degrees of freedom, one of the two errors may by chance be far below the tolerance. */
+  /* Without degrees of freedom, the error at the far end may by chance be far below the
+   * tolerance. */
   double by_chance = which == DRIVEN_CRANK && !isnan(with->rtol) ? 0.1 * with->rtol : 0.0;
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
   assert_true(j.error[1] <= MOST_ERROR * j.error[0] + by_chance + ROUNDING);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared break times: a body on a pin without gravity is driven by a torque that jumps at three
- * times. The exact motion is a polynomial of degree 2 between the jumps. Every method of order 2
- * reproduces it to rounding if no step crosses a jump. */
+/* Declared break times. A torque that jumps at three times acts on a body on a pin, without
+ * gravity. Between the jumps the exact motion is a polynomial of degree 2. Methods of order 2 and
+ * higher, except generalized-alpha, reproduce it to rounding if no step crosses a jump. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,10 +19,11 @@
 
 enum { BREAKS = 3 };
 
-/* The first is a multiple of STEP, the others are not; the last two are less than a step apart. */
+/* The first time is a multiple of STEP, the others are not. The last two are less than a step
+ * apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
 static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0,
-                                          1.0}; /* [N m]; the inertia about the pin is 1 kg m^2 */
+                                          1.0}; /* [N m]; inertia about the pin: 1 kg m^2 */
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
@@ -46,7 +47,7 @@ static int torque(double t, const double *q, const double *v, const double *inpu
   return 0;
 }
 
-/* The motion from rest at t = 0. */
+/* Computes the exact motion from rest at t = 0. */
 static void exact(double t, double *angle, double *rate)
 {
   double from = 0.0;
@@ -114,9 +115,10 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Variable step: ten tolerances of angular velocities up to 6 rad/s. Euler methods: (h/2) |torque|
- * t in the angle. Generalized-alpha: h^2 times 50 N m, times 20, because its first acceleration has
- * a lower order. Other methods: rounding of about 200 steps. */
+/* Returns the allowed error. Variable steps: ten times rtol, for angular velocities of up to 6
+ * rad/s. Euler methods: (h/2) |torque| t in the angle. Generalized-alpha: h^2 times 50 N m, times
+ * 20, because its acceleration in the first step after a break has a lower order. Other methods:
+ * rounding in about 200 steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -141,7 +143,7 @@ static void motions_are_those_between_the_breaks(void **state)
     for (int i = 0; i < 2; i++) {
       baum_simulation *run = open_run(i == 0 ? declared : hidden, mode);
       baum_status status = baum_simulation_advance_to(run, 2.0);
-      /* With undeclared breaks fixed steps are inaccurate and give a warning. */
+      /* If the breaks are not declared, fixed steps are inaccurate and may give a warning. */
       assert_true(status == BAUM_OK || (i == 1 && mode.fixed && status == BAUM_WARNED));
       errors[i] = error_now(run);
       counters[i] = counters_of(run);
@@ -158,7 +160,7 @@ static void motions_are_those_between_the_breaks(void **state)
   baum_mechanism_destroy(hidden);
 }
 
-/* Forward and backward through all breaks, with a stop at each. */
+/* Runs forward and backward through all breaks, with an output at each of them. */
 static void breaks_are_met_forward_and_backward(void **state)
 {
   (void)state;
@@ -170,8 +172,7 @@ static void breaks_are_met_forward_and_backward(void **state)
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of the
-                                                                             * grid */
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of t */
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }
     baum_simulation_destroy(run);
@@ -179,7 +180,7 @@ static void breaks_are_met_forward_and_backward(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Outputs do not change the motion, not even at breaks. */
+/* Outputs do not change the motion, not even outputs at breaks. */
 static void outputs_change_nothing(void **state)
 {
   (void)state;
@@ -209,8 +210,8 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The work of the torque is the kinetic energy: nothing else does work, and no step averages over a
- * jump. */
+/* Only the torque does work, so its work must equal the kinetic energy. A step across a jump would
+ * cause an error. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -227,7 +228,7 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* The limits of angle and angular velocity, times up to 50 N m and 6 rad/s. */
+    /* The errors of angle and angular velocity are multiplied by up to 50 N m and 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
@@ -236,7 +237,7 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A law (s, s', s'') whose rate jumps at the first break and whose acceleration jumps at the
+/* A law (s, s', s'') whose velocity jumps at the first break and whose acceleration jumps at the
  * second. */
 static int kinked(double t, double s[3], void *user)
 {
@@ -283,7 +284,7 @@ static void kinematics_pass_breaks_in_both_directions(void **state)
     (void)kinked(targets[i], s, NULL);
     assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
     assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of angles and velocities up to 10 */
+    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of values up to 10 */
     ASSERT_NEAR(row[1], s[1], 0.0, 1e-12);
     ASSERT_NEAR(row[2], 2.0 * s[2], 0.0, 1e-11);
   }
@@ -291,7 +292,7 @@ static void kinematics_pass_breaks_in_both_directions(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Two breaks that are closer than the shortest step. */
+/* Breaks that are closer to each other than the shortest step count as one. */
 static void breaks_next_to_each_other_are_one(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The omitted rows change during the motion. Two bars locked by two pins make several revolutions
- * with every integrator, formulation and solver, and move as if they were welded. */
+/* The choice of omitted rows changes during the motion. Two bars that two pins join rigidly make
+ * several revolutions, with every integrator, formulation and solver, and must move as if they were
+ * welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +17,7 @@
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
-static const double END = 2.0;   /* [s] about three revolutions with several changes of rows */
+static const double END = 2.0;   /* [s] three revolutions; omitted rows change several times */
 static const double RATE = 10.0; /* [rad/s] */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
@@ -46,8 +47,8 @@ static void find_motion(double exact[LOCKED_NV])
   baum_mechanism_destroy(m);
 }
 
-/* The only warning is that multipliers are not unique. KLU, whose pivots are no accurate measure,
- * may also report near-singular intervals. */
+/* Runs to END. The only warning must be that multipliers are not unique. With KLU near-singular
+ * intervals are allowed too, because its pivots do not measure singularity accurately. */
 static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -63,8 +64,8 @@ static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulatio
   return run;
 }
 
-/* Excludes methods of low order, which give a warning at this step, and IDA at index 3, which
- * always does. */
+/* Excludes methods of order 1 and 2, which give a warning at this step, and IDA at index 3, which
+ * always gives one. */
 static bool is_asked(const baum_simulation_options *o)
 {
   int order = baum_integrator_order(o->integrator);
@@ -72,7 +73,7 @@ static bool is_asked(const baum_simulation_options *o)
          o->formulation != BAUM_FORMULATION_INDEX3;
 }
 
-/* Errors of order 3 at this step, and of this tolerance over some hundred steps. */
+/* Allowed error: that of order 3 at this step, or of several hundred steps at this tolerance. */
 static const double ERROR = 2e-4;
 
 static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
@@ -104,7 +105,8 @@ static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* RATTLE and generalized-alpha keep their pivots between steps, but not when rows change. */
+/* RATTLE and generalized-alpha reuse pivots from step to step, but must choose them again when the
+ * omitted rows change. */
 static void index_3_methods_make_several_revolutions(void **state)
 {
   (void)state;
@@ -117,7 +119,7 @@ static void index_3_methods_make_several_revolutions(void **state)
     o.integrator = methods[k];
     o.step = STEP;
     baum_simulation *run = run_to_end(m, &o);
-    assert_true(apart(baum_simulation_q(run), exact) < 1e-2); /* (omega h)^2 over 20 rad */
+    assert_true(apart(baum_simulation_q(run), exact) < 1e-2); /* order 2: (omega h)^2, 20 rad */
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
@@ -134,7 +136,8 @@ static void *save(baum_simulation *run, size_t *size)
   return buffer;
 }
 
-/* The restored run begins with the rows of its start and takes over those of the saved run. */
+/* The restored run has chosen its own rows at its start and must replace them by those of the saved
+ * run. */
 static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 {
   (void)state;
@@ -164,7 +167,7 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
     }
     baum_energy_account account;
     check(baum_simulation_energy_account(one, &account, sizeof account));
-    /* error of the method and of the corrections when rows change, at a kinetic energy of 100 J */
+    /* errors of the method and of the corrections when rows change; the kinetic energy is 100 J */
     assert_true(fabs(account.residual) < 1e-4);
     baum_simulation_destroy(one);
     baum_simulation_destroy(other);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The residual of the energy account is small: below 100 tolerances with variable steps, and of the
- * method's order with fixed steps. Mechanisms are without loads, driven, damped, initially
- * violated, and with M(q), each with every formulation. A residual is the largest at 8 times,
- * relative to the largest energy or work. */
+/* The residual of the energy account is below 100 rtol with variable steps, and has the order of
+ * the method with fixed steps. Tests all mechanisms of account_scenes.h with every formulation. The
+ * residual of a run is the largest at 8 times, relative to the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,8 +57,8 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- fixed steps ---- */
 
-/* Number of steps of the coarsest run. The residuals of the finest run are above 1e-13, and the
- * error terms of the next order are small. */
+/* Returns the number of steps of the coarsest run. The step is so short that error terms of the
+ * next order are small, and so long that the residuals of the finest run are above 1e-13. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -69,8 +68,8 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* A slope may exceed the order while terms of higher order dominate. It may be lower by at most
- * this, if they have the opposite sign. */
+/* A measured slope may exceed the order if terms of higher order dominate. It may be lower than the
+ * order by at most this, if such terms have the opposite sign. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -89,12 +88,12 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   double slope = log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  /* Below this limit the sums of some thousand works are rounding. */
+  /* Below 1e-12 the residual is the rounding of a sum of several thousand works. */
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
-/* At index 3 with a fixed step, a violated start jumps onto the constraints within the first step.
- * RATTLE supports neither dampers nor M(q). */
+/* Tells whether the order can be observed. Not at index 3 from a start that violates the
+ * constraints, because the first step jumps onto them. RATTLE supports neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -129,8 +128,8 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
 
 /* ---- variable steps ---- */
 
-/* Limit of the residual over rtol. IDA at index 3 does not control velocities and exceeds its
- * tolerance: measured 197, and 340 with other rounding. */
+/* Returns the limit of residual / rtol. IDA at index 3 does not control the error of velocities and
+ * exceeds its tolerance: 197 was measured, and 340 with another compiler's rounding. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
@@ -186,12 +185,12 @@ static void residuals_of_sundials_fall_with_the_tolerance(void **state)
 
 /* ---- what the residual is ---- */
 
-/* Largest values over a motion: the error of q against an exact motion, if given, and energies of
- * the account. */
+/* A motion at TIMES times, and its largest errors: that of q against an exact motion, if given, and
+ * those of the account. */
 typedef struct motion {
   double q[TIMES][WIDTH];
-  double error;    /* error of q, in m or rad; links are 1 m long */
-  double residual; /* residual and works are relative to the largest kinetic energy */
+  double error;    /* largest error of q, in m or rad; links are 1 m long */
+  double residual; /* this and `works` are relative to the largest kinetic energy */
   double works;    /* of violations and of projection */
 } motion;
 
@@ -222,9 +221,9 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   return out;
 }
 
-/* If almost nothing does work, the residual is the change of T + V, without sums of works. It is
- * comparable with the error of the motion: the residuals of BDF and IDA at tight tolerances are
- * their errors. */
+/* If almost no work is done, the residual is the change of T + V, without errors of summed works.
+ * It must then be comparable with the error of the motion. So the residuals of BDF and IDA at tight
+ * tolerances are due to the integrators, not to the account. */
 static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
 {
   (void)state;
@@ -251,7 +250,7 @@ static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* measured: 0.7 to 1.3 times */
+    assert_true(got.residual <= 2.0 * got.error); /* measured: 0.7 to 1.3 */
   }
   baum_mechanism_destroy(m);
 }

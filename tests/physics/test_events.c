@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a known motion: the swing of pendulum_events.h passes the lowest point at odd
- * multiples of a quarter period and is at rest at even ones. Every integrator with fixed and
- * variable steps. */
+/* Events of a known motion: the pendulum of pendulum_events.h passes its lowest point at odd
+ * multiples of a quarter period and is at rest at even multiples. Tests every integrator with fixed
+ * and with variable steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -47,7 +47,7 @@ static int32_t add_angle(baum_simulation *run, const swing *s, double value, int
   return index;
 }
 
-/* The angular velocity, which is zero at rest. */
+/* An event function: the angular velocity, which is zero where the pendulum reverses. */
 static int rate(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -77,16 +77,17 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
   return record;
 }
 
-/* Error of the motion itself at time t, as a time: events are located on the computed motion. */
+/* Returns the allowed error of an event time near t. Events are located on the computed motion, so
+ * this is the error of the motion, expressed as a time. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* Ten tolerances per radian at about 2.8 rad/s; the error of the period grows with time. */
+    /* Ten times rtol per radian at about 2.8 rad/s. The error grows with time, because the period
+     * has an error. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
-  /* Measured over 12 s at h = 1e-3, then doubled: explicit Euler 5.4e-2 (order 1 in h);
-   * semi-implicit Euler 5.3e-4 (order 2 at the events of a swing); rk2, RATTLE, generalized-alpha
-   * and ab2 below 1e-4 (order 2); all others below 1e-6. */
+  /* Twice the errors that were measured over 12 s at h = 1e-3 s: explicit Euler 5.4e-2 s,
+   * semi-implicit Euler 5.3e-4 s, methods of order 2 below 1e-4 s, all others below 1e-6 s. */
   const char *name = baum_integrator_name(mode.integrator);
   int order = baum_integrator_order(mode.integrator);
   double h = STEP / 1e-3;
@@ -98,7 +99,7 @@ static double motion_error(step_mode mode, double t)
 
 /* ---- a stop ---- */
 
-/* Reverses the velocities, as a user does at a stop. */
+/* Reverses the velocities, as a user program does to model a stop. */
 static void bounce(baum_simulation *run)
 {
   double q[3];
@@ -110,8 +111,9 @@ static void bounce(baum_simulation *run)
   assert_int_equal(baum_simulation_set_state(run, baum_simulation_time(run), q, v), BAUM_OK);
 }
 
-/* Bounces ten times at the bottom, forward or backward in time. The event has both directions, so
- * that leaving the stop would be noticed. Returns the largest error in time. */
+/* Bounces ten times at the lowest point, forward or backward in time. The event detects crossings
+ * in both directions, so the test would notice if the motion away from the stop were reported as
+ * another event. Returns the largest error of a time. */
 static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
@@ -126,7 +128,7 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* Rounding of the time, 4 eps t, times the speed of 2.7 rad/s, and rounding of positions. */
+    /* Rounding of the time, 4 eps t, times 2.7 rad/s, and rounding of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -158,7 +160,7 @@ typedef struct expected {
   int32_t direction;
 } expected;
 
-/* Compares all records in their order; times are in quarters of the period. */
+/* Compares all records in their order. `quarters` are times in quarter periods. */
 static void check_records(const baum_simulation *run, const swing *s, step_mode mode,
                           const expected *want, int count)
 {
@@ -176,7 +178,7 @@ static void directions_are_those_of_time(void **state)
   (void)state;
   static const expected forward[] = {{1, 0, -1}, {1, 2, -1}, {2, 3, 1}, {3, 0, 1}, {3, 1, 1},
                                      {5, 0, -1}, {5, 2, -1}, {6, 3, 1}, {7, 0, 1}, {7, 1, 1}};
-  /* The motion before the start mirrors the motion after it. */
+  /* Backward in time the motion is the mirror image of the motion forward in time. */
   static const expected backward[] = {{-1, 0, 1}, {-1, 1, 1}, {-2, 3, 1}, {-3, 0, -1}, {-3, 2, -1},
                                       {-5, 0, 1}, {-5, 1, 1}, {-6, 3, 1}, {-7, 0, -1}, {-7, 2, -1}};
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -209,20 +211,20 @@ static void simultaneous_events_are_all_reported(void **state)
     baum_simulation *run = open_run(&s, &o);
     (void)add_angle(run, &s, 0.0, 0, false);
     (void)add_angle(run, &s, 0.0, -1, true);
-    (void)add_angle(run, &s, 1e-15, 0, true); /* earlier by one rounding */
+    (void)add_angle(run, &s, 1e-15, 0, true); /* earlier by 1e-15 rad */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
     check_records(run, &s, mode, want, 3);
     assert_true(record_of(run, 0).t == baum_simulation_time(run));
     assert_true(record_of(run, 1).t == record_of(run, 0).t);
     assert_true(record_of(run, 2).t == record_of(run, 0).t);
-    /* The run is past the events and continues. */
+    /* The run continues after the events without reporting them again. */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_OK);
     assert_int_equal(baum_simulation_event_count(run), 3);
     close_all(run, &s);
   }
 }
 
-/* A swing and its mirror image, each on its own pin. */
+/* A pendulum and its mirror image, each on its own pin. */
 static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 {
   baum_mechanism *m = NULL;
@@ -246,8 +248,8 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
   return m;
 }
 
-/* Both events differ in time by rounding, and by 5e-13 s where IDA's iteration ends. The tolerance
- * of the event makes them simultaneous. */
+/* The two events differ in time by rounding, with IDA by up to 5e-13 s because of its iteration.
+ * The tolerance of the events must make them simultaneous. */
 static void two_bodies_at_their_stops_are_one_stop(void **state)
 {
   (void)state;
@@ -276,7 +278,7 @@ static void two_bodies_at_their_stops_are_one_stop(void **state)
   }
 }
 
-/* Time of the event in a run without outputs. */
+/* Returns the time of the event in a run without outputs. */
 static double event_time(step_mode mode)
 {
   swing s = swing_make(1.2);
@@ -308,9 +310,9 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
       assert_int_equal(status, terminal ? BAUM_STOP_EVENT : BAUM_OK);
       assert_int_equal(done, terminal ? 1 : 4);
       assert_int_equal(baum_simulation_event_count(run), 1);
-      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0); /* 4 eps t, the accuracy of the search */
+      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0); /* the search is accurate to 4 eps t */
       assert_true(baum_simulation_time(run) == (terminal ? record_of(run, 0).t : times[3]));
-      /* The remaining outputs, including the one at the event. */
+      /* Samples the remaining outputs, including the one at the event. */
       times[1] = baum_simulation_time(run);
       if (terminal) {
         status = baum_simulation_sample(run, times + 1, 3, &angle, 1, rows + 2, &done);
@@ -324,7 +326,8 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
   }
 }
 
-/* Methods of low order warn at steps that are too long for them. */
+/* Tells whether the target time was reached. Fixed-step methods of low order may warn that the step
+ * is too long. */
 static bool is_there(baum_status status, step_mode mode)
 {
   return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
@@ -339,7 +342,8 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
     baum_simulation *run = open_run(&s, &o);
-    /* Starts at the bottom, 1e-16 on the side from which the motion comes. */
+    /* Starts at the lowest point, but 1e-16 rad before it. This is rounding, so no event may be
+     * reported at the start. */
     double v = -2.0 * sqrt(9.81 / 1.25) * sin(0.6);
     double q0[3] = {1e-16, -1.0, 1e-16};
     double v0[3] = {v, 0.0, v};
@@ -352,7 +356,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
   }
 }
 
-/* A run that stops at an event and reverses does not report the event again. */
+/* A run that stops at an event and continues backward in time must not report the event again. */
 static void reversing_at_an_event_finds_it_once(void **state)
 {
   (void)state;
@@ -377,7 +381,7 @@ enum { CASES = 1000, FIXED_CASES = 100 };
 
 static const double RANDOM_RTOL = 1e-6;
 
-/* Makes one call of a random kind, which does not go beyond `end`. */
+/* Makes one call of a random kind, which advances up to `end` at most. */
 static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 {
   double t = baum_simulation_time(run);
@@ -398,14 +402,14 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* Runs a swing of random height with random calls and events at the bottom, terminal or not, and at
- * rest. Returns the number of wrong events. Raises `worst` to the largest relative error of a time,
- * if that is larger. */
+/* Runs a swing from a random angle with random calls. Events are at the lowest point, where they
+ * are terminal or not, and at rest. Returns the number of wrong events. Raises *worst to the
+ * largest relative error of an event time. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));
-  /* The amplitude grows with Euler methods; at this step the change is small against the distance
-   * of events. */
+  /* With Euler methods the amplitude grows. With this step the growth changes event times by much
+   * less than the time between events. */
   double h = baum_integrator_order(mode.integrator) == 1 ? 1e-4 : STEP;
   baum_simulation_options o = step_mode_options(mode, h, RANDOM_RTOL);
   baum_simulation *run = open_run(&s, &o);
@@ -429,8 +433,8 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
   return wrong;
 }
 
-/* Relative to the time. Variable steps: ten tolerances, measured up to 8, the more the higher the
- * swing. */
+/* Returns the allowed error of a time, relative to the time. Variable steps: ten times rtol; up to
+ * 8 was measured, for high swings. */
 static double random_error(step_mode mode)
 {
   return mode.fixed ? 0.1 : 10.0 * RANDOM_RTOL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IDA from many start configurations, with all tolerances and formulations: no run fails, and the
- * final configurations agree with those of CVODE. */
+/* Runs IDA from many initial configurations, with all formulations and tolerances. No run may fail,
+ * and the final configurations must agree with those of CVODE. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,14 +18,15 @@ static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
   BAUM_FORMULATION_GGL,       BAUM_FORMULATION_INDEX2,
 };
 
-/* Largest error at the end over rtol, lengths in metres and angles in radians. Without degrees of
- * freedom, stabilization corrects errors; otherwise they grow over two revolutions or a swing. At
- * index 3 the error test omits velocities. Measured, in the order of FORMULATIONS: 0.7, 460, 0.1,
- * 0.04, 13 (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits are four to ten times
- * larger, because results change with rounding. */
+/* Limits of final error / rtol (lengths in m, angles in rad), in the order of FORMULATIONS. Driven
+ * mechanisms have no degrees of freedom, so stabilization corrects errors. In free mechanisms
+ * errors grow during two revolutions or a swing. At index 3 the error test omits velocities.
+ * Measured: 0.7, 460, 0.1, 0.04, 13 (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits
+ * are four to ten times as large, because results change with rounding. */
 static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {5.0, 3e3, 1.0, 0.4, 1e2};
 static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e3, 5e3, 5e5, 2e4, 1e4};
-/* At tighter tolerances rounding and the error of the reference are no longer small. */
+/* Errors are judged for rtol >= 10^-TIGHTEST_JUDGED. At tighter tolerances rounding and the error
+ * of the reference matter. */
 static const int TIGHTEST_JUDGED = 10;
 
 typedef struct end {
@@ -68,13 +69,14 @@ static double largest_difference(const end *one, const end *other)
   return largest;
 }
 
-/* Sums over the configurations of a mechanism, for each formulation and rtol = 10^-k. */
+/* Sums over all initial configurations of a mechanism. There is one tally for each formulation and
+ * each rtol = 10^-k. */
 typedef struct tally {
   int runs;
   int64_t steps;
   int64_t iterations;
   int64_t rejected;
-  double error; /* largest error over rtol */
+  double error; /* largest error / rtol */
 } tally;
 
 typedef struct table {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of 100000 links: time and memory of its setup, and Newton's and Euler's equations for
- * every link. The chain is shorter under instruments such as sanitizers, and then memory is not
- * tested. */
+/* A chain of 100000 links: time and memory for its setup, and Newton's and Euler's equations of
+ * every link. In builds with instrumentation such as sanitizers the chain is shorter, and memory is
+ * not tested. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,8 @@
 
 enum { LINKS = 100000 / BAUM_TEST_PATIENCE, PER_LINK = 3 };
 
-/* [s] A step of the setup that takes longer does not scale linearly with the number of links. */
+/* [s] If one part of the setup takes longer, its time does not grow linearly with the number of
+ * links. */
 static const double HANGING = 30.0 * BAUM_TEST_PATIENCE;
 static const double GRAVITY = 9.81;
 
@@ -28,7 +29,7 @@ static double now(void)
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Peak memory of the process [MB]. */
+/* Returns the peak memory of the process [MB]. */
 static double most_memory(void)
 {
   struct rusage usage;
@@ -36,7 +37,7 @@ static double most_memory(void)
   return (double)usage.ru_maxrss / 1e3;
 }
 
-/* Prints the time of a step and the peak memory; returns the present time. */
+/* Prints the time since `since` and the peak memory. Returns the present time. */
 static double lap(const char *what, double since)
 {
   double seconds = now() - since;
@@ -96,7 +97,8 @@ static void freezing_and_starting_a_run_take_linear_time(void **state)
   baum_simulation_destroy(run);
 }
 
-/* A straight horizontal chain; rounding of its joints accumulates in the last links. */
+/* In a straight horizontal chain the rounding of all joints adds up at the last links. Projection
+ * must cope with this. */
 static void a_straight_chain_is_projected(void **state)
 {
   (void)state;
@@ -135,20 +137,21 @@ static void degrees_of_freedom_are_counted(void **state)
 
 /* ---- mechanics ---- */
 
-/* The pin at the beginning of each link carries the weight and inertia of all following links: F_k
- * = sum of m (a_j - g) for j >= k, and J alpha_k = -p x F_k - p x F_(k+1), with p half of the link.
- * Adjacent link ends have the same acceleration. */
+/* Each link must fulfil Newton's and Euler's equations. The pin at the start of link k carries this
+ * and all following links: F_k = sum of m (a_j - g) over j >= k. Then J alpha_k = -p x F_k - p x
+ * F_(k+1), where p points from the centre to the end of the link. The ends of adjacent links must
+ * have the same acceleration. */
 typedef struct worst {
   double force;
   double moment; /* [N m] largest residual */
-  double gap;    /* [m/s^2] largest difference of adjacent link ends */
+  double gap;    /* [m/s^2] largest difference between adjacent ends */
 } worst;
 
 static worst compare_links(const double *a)
 {
   worst out = {0};
   double force[2] = {0.0, 0.0};
-  double next[2] = {NAN, NAN}; /* acceleration at the beginning of the next link */
+  double next[2] = {NAN, NAN}; /* acceleration at the start of the next link */
   for (int k = LINKS - 1; k >= 0; k--) {
     const double *at = a + (size_t)(PER_LINK * k);
     double p[2] = {0.5 * cos(angle_of(k)), 0.5 * sin(angle_of(k))};
@@ -198,9 +201,9 @@ static void every_link_obeys_newton_and_euler(void **state)
   worst off = compare_links(a);
   printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
          off.moment, off.gap);
-  /* F_k is a sum of up to 1e5 terms, each with a rounding of 1e-16. */
+  /* F_k is a sum of up to 1e5 terms, each with a rounding error of 1e-16. */
   assert_true(off.moment <= 1e-11 * off.force);
-  /* Refinement reduces the residual of a row to rounding of accelerations of about g. */
+  /* Refinement reduces the residuals of rows to the rounding of accelerations of about g. */
   assert_true(off.gap <= 1e-12 * GRAVITY);
   free(a);
   model_destroy(&m);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs mechanisms whose positions are not a vector (support/manifold_scenes.c) with every
- * integrator of this build in every formulation that it offers. Results are compared with an
- * equivalent mechanism of ordinary bodies (the twin), or with the known motion about a fixed
+/* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c) with every
+ * integrator of this build in every formulation that it offers. Compares the results with those of
+ * the twin, the same mechanism of the library's planar bodies, or with a known motion about a fixed
  * point. */
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +23,7 @@ enum { SIZE = MANIFOLD_SIZE };
 
 static const double END = 0.5;
 
-/* Rounding of rows after a projection; points are up to 2 m away and have three coordinates. */
+/* Rounding of Phi after a projection. Points have three coordinates of up to 2 m. */
 static const double ROUNDING = 3e-14;
 
 /* An integrator and its settings. */
@@ -34,7 +34,7 @@ typedef struct method {
 
 typedef void try_fn(const manifold_scene *scene, const method *with, const void *context);
 
-/* Tries every method of this build; returns their number. */
+/* Tries every method of this build and returns their number. */
 static int for_each_method(const manifold_scene *scene, try_fn *try, const void *context)
 {
   int tried = 0;
@@ -51,7 +51,7 @@ static int for_each_method(const manifold_scene *scene, try_fn *try, const void 
   return tried;
 }
 
-/* Options with h = 1e-3 s or rtol = 1e-7. */
+/* Returns options with h = 1e-3 s or rtol = 1e-7. */
 static baum_simulation_options options_of(const method *with)
 {
   baum_simulation_options options = step_mode_options(with->mode, 1e-3, 1e-7);
@@ -103,12 +103,13 @@ static void expect(const char *what, double got, double most, const manifold_sce
 
 /* ---- every method ---- */
 
-/* As in test_all_joints.c, but three times as much, because the tops rotate by 3 rad. */
+/* Returns the limit of errors. It is three times that in test_all_joints.c, because the tops rotate
+ * by 3 rad. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 1e-2; /* IDA's tolerance refers to y, which is less accurate at index 3. */
+    return 1e-2; /* IDA controls the error of y only, which is less accurate at index 3. */
   }
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
@@ -173,8 +174,9 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
   return q;
 }
 
-/* Rotations are exact, so methods that only move q take the same steps as their twins. Of
- * quaternions both Euler methods add rates. */
+/* For angles as (cos, sin), move() is exact. So methods that change q only by move() must take the
+ * same steps as their twins. For quaternions the Euler methods add h q' instead, so only the first
+ * two methods are tested. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
@@ -219,7 +221,8 @@ static double estimate_of(const baum_mechanism *mechanism)
   return counters.error_estimate;
 }
 
-/* Errors are in radians, as displacements, not as differences of q. */
+/* Error estimates are displacements, here angles in rad, and not differences of q. So they must be
+ * those of the twin. */
 static void errors_are_displacements(void **state)
 {
   (void)state;
@@ -279,7 +282,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   advance(other, scene, with, 0.2);
   expect("a restored run", apart(baum_simulation_q(run), baum_simulation_q(other), nq), 0.0, scene,
          with);
-  /* Setting the state restores it too. */
+  /* Setting the saved state restores it too. */
   double q[SIZE];
   double v[SIZE];
   int32_t nv;
@@ -306,7 +309,7 @@ static void runs_are_saved_and_restored(void **state)
 
 /* ---- events ---- */
 
-/* An event function: the first element of q minus *user. */
+/* An event function: q[0] - *user. */
 static int first_position(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user)
 {
@@ -317,7 +320,7 @@ static int first_position(double t, const double *q, const double *v, const doub
   return 0;
 }
 
-/* Returns the time when the first element of q passes a value. */
+/* Returns the time at which q[0] passes a value. */
 static double find_event(baum_simulation *run, double *value)
 {
   baum_event_def def = baum_event_def_default();
@@ -377,15 +380,15 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
   return fabs(account.residual);
 }
 
-/* The residual is the error of the method. It is comparable with that of the twin, because other
- * components of q only change the steps. */
+/* The residual of the account is the error of the method. It must be comparable with that of the
+ * twin, because other components of q change only the choice of steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {
   (void)state;
   static const struct {
     const baum_integrator *(*integrator)(void);
     double step;
-    double most; /* [J] limit without a twin; the energies of the tops are about 10 J */
+    double most; /* [J] limit without a twin; energies of tops are 10 J */
   } WAYS[] = {{baum_rk4, 1e-3, 1e-7}, {baum_rk8, 5e-3, 1e-7}, {baum_dp5, (double)NAN, 1e-5}};
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
     for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {
@@ -421,13 +424,13 @@ static void kinematics_follows_the_driver(void **state)
   options.integrator = baum_kinematics();
   baum_simulation *run = NULL;
   check(baum_simulation_create(mechanism, &options, &run));
-  for (int k = 1; k <= 40; k++) { /* 2.5 turns */
+  for (int k = 1; k <= 40; k++) { /* 2.5 revolutions */
     double want[SIZE];
     check(baum_simulation_advance_to(run, 0.1 * k));
     scene->solve(0.1 * k, want);
     assert_true(apart(baum_simulation_q(run), want, 12) <= 1e-13);
     assert_true(off_manifold(scene, baum_simulation_q(run)) <= 1e-15);
-    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12); /* by differences */
+    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12); /* by differences of Phi */
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
@@ -454,7 +457,8 @@ static crossed cross(const baum_mechanism *mechanism, const baum_simulation_opti
   return out;
 }
 
-/* The slider passes the main pin, where a second branch crosses, on which the slider is at rest. */
+/* The slider passes the main pin. This is a bifurcation: on the other branch the slider stays at
+ * the pin. */
 static void singular_configurations_are_crossed(void **state)
 {
   (void)state;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank with a nearly duplicate joint: a second pin, guide or rod that is off by 1e-14 to
- * 1e-6 in place or direction. With every solver, accelerations are those of quadruple precision
- * from the same M, J, g and gamma, where rows less than 1e-10 apart are treated as one; or the run
- * is refused with a message that names a joint. The same with initial velocities, which are first
- * projected onto the rows. */
+/* A slider-crank with a nearly duplicate joint: a second pin, guide or rod whose position or
+ * direction is off by 1e-14 to 1e-6. With every solver a run is either refused, with a message that
+ * names a joint, or its accelerations agree with a solution in quadruple precision for the same M,
+ * J, g and gamma, which treats rows less than 1e-10 apart as one. With initial velocities the
+ * reference first projects these onto the rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,12 +25,12 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE,  /* pin with both points moved along the rod: locks rod and crank together */
-  PIN_APART,  /* pin with one point moved: contradicts the crank pin */
-  FOOT_ASIDE, /* pin with both points moved at the foot: locks the crank */
+  PIN_ASIDE,  /* pin with both points moved along the rod: locks crank and rod */
+  PIN_APART,  /* pin with only one point moved: contradicts the crank pin */
+  FOOT_ASIDE, /* pin at the foot with both points moved: locks the crank */
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod along the rod, compatible in this configuration only */
+  ROD_ASIDE, /* massless rod along the rod, compatible only in this configuration */
   ROD_LONGER,
   AGAIN_COUNT
 } again;
@@ -46,7 +46,7 @@ typedef struct pose {
   baum_body_id slider;
 } pose;
 
-/* v: velocities of x, y and the angle. */
+/* v are the velocities of x, y and the angle. */
 static baum_body_id add_body(baum_i_parts *parts, const double centre[2], double angle,
                              double inertia, const double v[3])
 {
@@ -56,10 +56,10 @@ static baum_body_id add_body(baum_i_parts *parts, const double centre[2], double
   def.angle = angle;
   memcpy(def.velocity, v, sizeof def.velocity);
   def.angular_velocity = v[2];
-  return baum_i_parts_body(parts, &def, NULL, NULL);
+  return baum_i_parts_body(parts, &def);
 }
 
-/* rate: [rad/s] of the crank */
+/* `rate` is the angular velocity of the crank [rad/s]. */
 static pose add_slider_crank(baum_i_parts *parts, double rate)
 {
   pose p = {.turn = -asin(sin(ANGLE) / ROD)};
@@ -98,7 +98,7 @@ static void turn_guide(baum_i_parts *parts, const pose *p, double off)
   }
 }
 
-/* The point of the crank at a distance `off` along the rod from the crank pin. */
+/* Returns the point of the crank at the distance `off`, along the rod, from the crank pin. */
 static baum_i_spot beside_pin(const pose *p, double off)
 {
   double between = p->turn - ANGLE;
@@ -162,7 +162,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Error of the accelerations relative to the size that the ill-conditioned rows allow. */
+/* Returns the error of the accelerations, relative to the largest acceleration with or without
+ * constraints. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -183,17 +184,19 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   assert_true(quad_rows_accelerate(w, nv, nc, 0.0, q, v, want, &rows));
   for (int i = 0; i < NV; i++) {
     double apart = fabs(a[i] - want[i]);
-    most = apart <= most ? most : apart; /* NaN stays */
+    most = apart <= most ? most : apart; /* keeps NaN */
   }
   baum_workspace_destroy(w);
   return most / rows.size;
 }
 
-/* With motion, velocities may violate rows by OPEN of start.c without a message, and accelerations
- * by more than twice that, because they depend on the square of velocities. */
+/* Returns the allowed error. A moving mechanism may violate Phi' by up to OPEN of start.c without a
+ * message. Accelerations depend on the square of velocities, so their error may be more than twice
+ * as large. */
 static double allowed(double rate)
 {
-  /* Rows 1e-10 apart are treated as one; a guide rotated by this angle changes a by as much. */
+  /* Rows that are 1e-10 apart may be treated as one; rotating a guide by this angle changes a by as
+   * much. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
@@ -291,7 +294,7 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
   baum_counters counters;
   baum_warning warning;
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  assert_int_equal(counters.warnings, 2); /* the second: one row of the lock is redundant */
+  assert_int_equal(counters.warnings, 2); /* the second: one row is redundant */
   check(baum_simulation_warning(run, 0, &warning, sizeof warning));
   assert_int_equal(warning.code, BAUM_WARNING_LOOSE_VELOCITIES);
   assert_true(names_a_joint(warning.text));
@@ -308,8 +311,8 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
   baum_mechanism_destroy(m);
 }
 
-/* Velocities of rounding size, as projection leaves them, where nothing can move; with gravity and
- * without. */
+/* A rod with both ends pinned cannot move. Its initial velocities are rounding errors, as
+ * projection leaves them, and must be accepted as rest, with gravity and without. */
 static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observed order of every fixed-step integrator with every formulation: errors against references
- * for repeatedly halved steps, on a pendulum, a free slider-crank and a four-bar. Gains are those
- * of the rule `auto`, which does not depend on the step here. */
+/* The observed order of every fixed-step integrator with every formulation: errors for repeatedly
+ * halved steps, compared with references, of a pendulum, a free slider-crank and a four-bar. Gains
+ * are those of the rule `auto`, which are the same for all these steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,12 +19,12 @@
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
-/* Limit of the difference between slope and order. The steps of the 4 runs differ by a factor of 8.
- * A term of the next order that is 1/4 of the error at the largest step changes the mean slope by
- * less than 0.11. */
+/* Limit of the difference between slope and order. From the first to the last of the 4 runs the
+ * step changes by a factor of 8. If a term of the next order is 1/4 of the error at the largest
+ * step, it changes the mean slope by less than 0.11. */
 static const double TOLERANCE = 0.2;
 
-/* Until the last sample used, the crank rotates by 2 rad and the pendulum by 3. */
+/* `samples` ends the runs after 2 rad of the crank, or 3 rad of the pendulum. */
 static const reference REFERENCES[] = {
   [PENDULUM] = {.samples = 3,
                 .width = A01_PENDULUM_WIDTH,
@@ -40,22 +40,22 @@ static const reference REFERENCES[] = {
     {.samples = 5, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Number of steps of the coarsest run, by order. Order 4 needs more, because with gains and fewer
- * than 128 steps its error term of order 5 dominates. Errors of the finest run are between 1e-3
- * (order 1) and 1e-12; rounding is below 1e-13. Adams methods have larger terms of the next order
- * and begin with 4 times as many steps. */
+/* Number of steps of the coarsest run, by order. At order 4 with gains the error term of order 5
+ * would dominate with fewer than 128 steps. Errors of the finest run are between 1e-3 (order 1) and
+ * 1e-12, and rounding is below 1e-13. Adams methods have larger terms of the next order, so their
+ * coarsest run has 4 times as many steps. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
-/* Orders 5 and 8 reach rounding before terms of the next order are small, in particular with gains.
- * Their series of runs end there, and a slope that such a term increases is accepted. */
+/* Series of runs of orders 5 and 8. Their errors reach rounding before terms of the next order are
+ * small, in particular with gains. So these series have fewer runs, and the slope may be too
+ * large. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;
   int samples;
   int coarsest;
   int rungs;
-  double too_steep; /* limit above the order; measured without projection: up to 0.55 (order 5) and
-                     * 0.25 (order 8) */
+  double too_steep; /* limit of slope - order */
 } high_ladder;
 
 static const high_ladder HIGH[] = {
@@ -80,7 +80,7 @@ static double error_at(const model *m, const reference *with, baum_simulation_op
   return run.error;
 }
 
-/* Prints the errors of a series of runs; returns the mean slope. */
+/* Prints the errors of a series of runs and returns their mean slope. */
 static double observe_order(const model *m, const reference *with, baum_simulation_options *options)
 {
   bool multistep = strncmp(baum_integrator_name(options->integrator), "ab", 2) == 0;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks that are not in line rotate freely, like the wheels of a locomotive. One
- * row is redundant in every configuration, but whichever row is omitted, the remaining rows have
- * singular configurations. With every integrator and formulation the cranks move like a pendulum of
- * the same inertia, without a singular configuration being reported. */
+/* Three parallel cranks with feet that are not in line rotate freely, like the wheels of a
+ * locomotive. One row is redundant in every configuration. But whichever row is omitted, the
+ * remaining rows are singular in some configurations, so the choice must change. With every
+ * integrator and formulation the cranks must move like a pendulum of the same inertia, and no
+ * singular configuration may be reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +20,7 @@
 enum { NV = 12 };
 
 static const double ANGLE = 0.3;
-static const double RATE = 8.0; /* [rad/s] enough to pass the top */
+static const double RATE = 8.0; /* [rad/s] enough for full revolutions */
 static const double END = 4.0;  /* [s] about five revolutions */
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
@@ -35,8 +36,8 @@ static model make(bool framed)
 
 /* ---- the pendulum ---- */
 
-/* All cranks have the angle x[0] and the angular velocity x[1]; the coupler's centre moves on a
- * circle of 1 m. */
+/* Computes the derivatives of the common angle x[0] and the common angular velocity x[1] of the
+ * cranks. The centre of the coupler moves on a circle of 1 m. */
 static void fall(const double x[2], double dx[2])
 {
   double inertia = 3.0 / 3.0 + 2.0;
@@ -45,7 +46,8 @@ static void fall(const double x[2], double dx[2])
   dx[1] = -weight * cos(x[0]) / inertia;
 }
 
-/* By the classical Runge-Kutta method with steps of 1e-4 s; accurate to 1e-13. */
+/* Returns the angle after `span`, by the classical Runge-Kutta method with steps of 1e-4 s. The
+ * result is accurate to 1e-13. */
 static double swing(double span)
 {
   double x[2] = {ANGLE, RATE};
@@ -79,10 +81,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
   return run;
 }
 
-/* Methods of order 1 are too inaccurate at this step, and semi-implicit Euler keeps its order 2
- * only without projection. Errors of other fixed-step methods are (omega h)^p, growing with the
- * revolutions, or rounding. BDF and IDA restart with every change of rows and have errors of 1e4
- * rtol, other variable-step methods 10 rtol. */
+/* Returns the allowed error. Methods of order 1 are too inaccurate at this step to be judged. Other
+ * fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and rounding.
+ * Variable steps: BDF and IDA restart with every change of rows and have errors of 1e4 rtol; other
+ * methods have 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -104,13 +106,14 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
          counters.max_phi);
   assert_true(error <= allowed(mode));
-  assert_true(counters.max_phi <= 1e-2); /* a drift would have reached 1 m by now */
+  assert_true(counters.max_phi <= 1e-2); /* unstabilized drift would be 1 m */
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
 
-/* Without stabilization the violation grows with every change of rows (docs/limits.md). */
+/* UNSTABILIZED is tested too, although its violation grows with every change of rows
+ * (docs/limits.md). */
 static void every_stabilized_method_goes_round(void **state)
 {
   (void)state;
@@ -152,7 +155,7 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* The rows of a fixed body are not among the rows to choose from. */
+/* One crank is on a body that is welded to ground. The rows that fix this body must all be kept. */
 static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;
@@ -161,8 +164,8 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
   model_destroy(&m);
 }
 
-/* Sets states of up to 0.8 s, and continues from each for 0.2 s: there, the rows chosen at the
- * start of the run may be nearly dependent. */
+/* Sets states of another run at times up to 0.8 s and continues from each for 0.2 s. In these
+ * states the rows that were chosen at the start of the run may be nearly dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {
   (void)state;
@@ -186,7 +189,7 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
   model_destroy(&here);
 }
 
-/* A given violation is not projected when rows change. */
+/* When rows change, the run must not project a violation that the user has given. */
 static void a_violation_that_was_given_stays(void **state)
 {
   (void)state;
@@ -203,7 +206,7 @@ static void a_violation_that_was_given_stays(void **state)
   memcpy(q, baum_simulation_q(run), sizeof q);
   q[0] += 1e-6;
   check(baum_simulation_set_state(run, 0.0, q, baum_simulation_v(run)));
-  check(baum_simulation_advance_to(run, 0.3)); /* about a third of a revolution */
+  check(baum_simulation_advance_to(run, 0.3)); /* a third of a revolution */
   check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(fabs(baum_simulation_q(run)[0] - cos(baum_simulation_q(run)[2]) / 2) > 1e-7);
   assert_true(fabs(baum_simulation_q(run)[2] - swing(0.3)) <= 1e-3);
@@ -222,7 +225,8 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return run;
 }
 
-/* Restores into a run that still omits the rows of its start. */
+/* Restores a run with other omitted rows than those of the saved run. It must take over the saved
+ * choice. */
 static void a_restored_run_leaves_out_the_same_rows(void **state)
 {
   (void)state;
@@ -258,8 +262,8 @@ static void the_energy_account_closes(void **state)
   model_destroy(&m);
 }
 
-/* In a flat configuration two of the cranks alone do not determine the motion of the third. All
- * have the angular acceleration -weight cos(angle) / inertia. */
+/* At all angles the cranks have the angular acceleration -weight cos(angle) / inertia. If two
+ * cranks are in line with the coupler, the rows without the third crank are singular. */
 static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
 {
   (void)state;

@@ -25,7 +25,7 @@
 enum { WIDEST = 21, STEPS = 400, PARTS = 4000, SAMPLES = 37 };
 
 static const double KEPT = 1e-13;
-/* Some roundings. */
+/* A few rounding errors. */
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 
 /* ---- one state ---- */

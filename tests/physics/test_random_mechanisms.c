@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random mechanisms: accelerations and projections of the block solver and of the solver of the
- * whole system are compared with each other, and accelerations with quadruple precision. */
+/* Random mechanisms: compares accelerations and projections by the block solver with those by the
+ * solver of the whole system, and accelerations with quadruple precision. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,16 +14,16 @@
 #include "quad_saddle.h"
 #include "random_judge.h"
 
-/* Limits of errors relative to the largest element. A few random configurations in a thousand have
- * a large condition number and lose several digits; there an error may be AS_OTHERS times that of
- * the other solver. */
+/* An error, relative to the largest element, may be at most ERROR or AS_OTHERS times that of the
+ * other solver. The latter applies to a few configurations in a thousand, which are ill-conditioned
+ * and lose several digits. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
-/* Phi, Phi' and gamma are sums of a dozen terms of size 10. */
+/* Rounding of Phi, Phi' and gamma, which are sums of about twelve terms of size 10. */
 static const double ROUNDING = 1e-11;
 
-/* Kinds that cover every structure; of the two hubs, blocks are suitable for the smaller and
- * unsuitable for the larger. */
+/* Kinds of mechanisms with every structure. The last two have a hub, a body with most joints: the
+ * block solver can handle the smaller hub but not the larger. */
 static const random_kind kinds[] = {
   {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
   {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},
@@ -52,7 +52,7 @@ static const random_kind kinds[] = {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds, SEEDS = 25, LARGE_SEEDS = 6, SIZE = 512 };
 
-/* The workspaces of both solvers for one mechanism, and their results. */
+/* The workspaces of both solvers for one mechanism, and results. */
 typedef struct pair {
   random_mechanism *random;
   baum_workspace *blocks;
@@ -63,10 +63,10 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* configurations */
+  int solved; /* number of configurations; so are the next two */
   int singular;
   int projected;
-  int by_blocks; /* mechanisms */
+  int by_blocks; /* number of mechanisms */
 } pair;
 
 static baum_workspace *make_workspace(const baum_mechanism *m, bool blocks)
@@ -154,7 +154,7 @@ static void check_acceleration(pair *p, double t)
   p->solved++;
 }
 
-/* Largest violation of the rows that are not omitted, at (q, v). */
+/* Returns the largest violation, at (q, v), of the rows that are not omitted. */
 static double violation(pair *p, const double *q, const double *v)
 {
   baum_workspace *w = p->whole;
@@ -179,7 +179,7 @@ static void check_projection(pair *p)
   if (status != BAUM_OK) {
     return;
   }
-  /* Near a singular configuration too, both must give the same change. */
+  /* Both solvers must give the same change, also near a singular configuration. */
   for (int i = 0; i < p->nv; i++) {
     assert_true(fabs(p->q[i] - q[i]) <= 1e-8 * (1.0 + fabs(q[i])));
     assert_true(fabs(p->v[i] - v[i]) <= 1e-8 * (3.0 + fabs(v[i])));
@@ -205,7 +205,7 @@ static void blocks_agree_with_the_whole_system(void **state)
       finish(p);
     }
   }
-  /* Many random structures cannot move and are not used. */
+  /* Projection is impossible for many random structures, because they cannot move. */
   print_message("%d poses, %d singular, %d projections, %d mechanisms by blocks\n", p->solved,
                 p->singular, p->projected, p->by_blocks);
   assert_true(p->solved > 2 * p->singular);
@@ -215,7 +215,7 @@ static void blocks_agree_with_the_whole_system(void **state)
 
 /* ---- after a failure ---- */
 
-/* Lets the call number `call` of the first user constraint return NaN. */
+/* Makes call number `call` of the first user constraint set NaN. */
 static void spoil(pair *p, int call)
 {
   random_rows *rows = &p->random->rows[0];
@@ -225,7 +225,8 @@ static void spoil(pair *p, int call)
   assert_int_equal(rows->fail_at, 0);
 }
 
-/* A failed evaluation does not change the next one, to the last digit. */
+/* After a failed evaluation the next one must give the same result as without the failure, to the
+ * last digit. */
 static void failed_evaluations_leave_no_trace(void **state)
 {
   pair *p = *state;
@@ -259,7 +260,7 @@ static void failed_evaluations_leave_no_trace(void **state)
 
 /* ---- a light body with a load on it ---- */
 
-/* A light body welded to a pendulum of 1 kg. */
+/* A light body that is welded to a pendulum of 1 kg. */
 static baum_mechanism *make_light(double mass)
 {
   baum_mechanism *m = NULL;
@@ -298,8 +299,8 @@ static baum_mechanism *make_light(double mass)
   return m;
 }
 
-/* The free acceleration of the light body is 5 N over its mass. The weld cancels nearly all of
- * it. */
+/* Without the weld, the light body would have the acceleration 5 N / mass. The weld cancels nearly
+ * all of it, which must not cost digits. */
 static void loaded_light_bodies_keep_all_digits(void **state)
 {
   (void)state;
@@ -312,7 +313,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
     assert_non_null(w->path);
     assert_true(quad_acceleration(w, 0.0, m->design_q, v, NULL, a, lambda));
     assert_int_equal(baum_i_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0), BAUM_OK);
-    /* At mass ratios up to 1e3 three digits may be lost unnoticed. */
+    /* The solver notices lost digits only at mass ratios above 1e3; below, three digits may be
+     * lost. */
     assert_true(quad_error(6, w->a, a) <= (mass > 0.5e-3 ? 1e-11 : 1e-14));
     assert_true(quad_error(5, w->lambda, lambda) <= 1e-14);
     baum_workspace_destroy(w);
@@ -322,7 +324,7 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* ---- random kinds ---- */
 
-/* bench_random tests more mechanisms. */
+/* Also compares with random_judge(). bench_random tests more mechanisms. */
 static void accelerations_are_met_or_rightly_refused(void **state)
 {
   pair *p = *state;
@@ -331,19 +333,19 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   for (uint64_t seed = 0; seed < MECHANISMS; seed++) {
     random_judge(p->random, seed, &tally);
   }
-  /* the first of its dependent rows are nearly dependent without the last */
+  /* here the earlier ones of several dependent rows are nearly dependent among themselves */
   random_judge(p->random, 3070, &tally);
   assert_int_equal(tally.counts[RANDOM_WRONG], 0);
   assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
   assert_int_equal(tally.counts[RANDOM_CONFLICT], 0);
-  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* each has three configurations */
+  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* of up to three configurations each */
   assert_true(tally.counts[RANDOM_REFUSED] > 0);
   assert_true(tally.dependent > MECHANISMS / 10);
 }
 
-/* Nearly dependent kept rows where better ones exist (39374); omitted rows that no acceleration
- * fulfils (10325, 15203, 23760, 33361); contradictions that were divided by rounding (32478,
- * 36235). */
+/* Seeds of difficult cases. 39374: a poor choice of rows would keep nearly dependent ones. 10325,
+ * 15203, 23760 and 33361: no acceleration fulfils the omitted rows. 32478 and 36235: a
+ * contradiction is divided by a pivot that is only rounding. */
 static void nearly_dependent_and_contradicting_rows_are_not_silent(void **state)
 {
   static const uint64_t seeds[] = {39374, 10325, 15203, 23760, 33361, 32478, 36235};

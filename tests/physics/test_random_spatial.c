@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random spatial mechanisms against an oracle in quadruple precision; bench_random_spatial tests
- * more of them. */
+/* Compares random spatial mechanisms with an oracle in quadruple precision. bench_random_spatial
+ * tests more of them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,12 +19,12 @@ static void accelerations_and_reactions_are_met(void **state)
     spatial_judge(&room, seed, &tally);
   }
   assert_int_equal(spatial_bad(&tally), 0);
-  assert_true(tally.counts[SPATIAL_MET] > MECHANISMS); /* each has two configurations */
+  assert_true(tally.counts[SPATIAL_MET] > MECHANISMS); /* of up to two configurations each */
   assert_true(tally.dependent > MECHANISMS / 10);
   assert_true(tally.reactions > MECHANISMS);
 }
 
-/* Every design configuration of these seeds is rightly refused. */
+/* Checks that the design configuration of every seed is refused, and rightly so. */
 static void check_refused(const uint64_t *seeds, int count)
 {
   static random_spatial room;
@@ -36,8 +36,9 @@ static void check_refused(const uint64_t *seeds, int count)
   assert_int_equal(tally.counts[SPATIAL_REFUSED], count);
 }
 
-/* In these design configurations dependent rows contradict each other, and rounding leaves a pivot
- * of 2e-15. LU would give accelerations of 1e14 m/s^2 with a small residual. */
+/* In these design configurations dependent rows contradict each other, but rounding leaves a pivot
+ * of 2e-15 instead of zero. LU factorization alone would give accelerations of 1e14 m/s^2 with a
+ * small residual. */
 static void contradictions_that_rounding_hides_are_refused(void **state)
 {
   static const uint64_t seeds[] = {1993, 2454, 2990, 3741, 5094};
@@ -45,7 +46,7 @@ static void contradictions_that_rounding_hides_are_refused(void **state)
   check_refused(seeds, 5);
 }
 
-/* In their design configurations no acceleration fulfils the omitted rows, too. */
+/* In these design configurations no acceleration fulfils both the kept and the omitted rows. */
 static void contradictions_of_omitted_rows_are_refused(void **state)
 {
   static const uint64_t seeds[] = {2161, 7114, 7849, 8244};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE for rigid bodies in space: its order, what it conserves, and what it refuses. */
+/* RATTLE for rigid bodies in space: its order, its symmetry, what it conserves, and its solvers. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,13 +19,14 @@
 
 /* ---- mechanisms ---- */
 
-/* Precession of the gyroscope below, whose axis is horizontal: m g a / (I w) [rad/s]. */
+/* Angular velocity of the precession of the gyroscope below, whose axis is horizontal: m g a / (I
+ * w) [rad/s]. */
 static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 
 /* A heavy top on a spherical joint at the origin. */
 static const double MASS = 1.2;
 static const double INERTIA[6] = {0.3, 0.5, 0.4, 0.05, -0.03, 0.02};
-static const double ARM[3] = {0.1, -0.2, -0.6}; /* from the centre of mass to the joint */
+static const double ARM[3] = {0.1, -0.2, -0.6}; /* from centre of mass to joint, body axes */
 static const double START_P[4] = {0.6, 0.0, 0.8, 0.0};
 static const double START_W[3] = {2.0, -1.0, 6.0};
 
@@ -111,7 +112,7 @@ static double error_at(build_fn *build, int nq, const double *want, double step)
   check(baum_simulation_advance_to(run, 0.5));
   double error = apart(baum_simulation_q(run), want, nq);
   baum_counters c = counters_of(run);
-  /* A few rounding errors of coordinates below 1 m and of velocities below 20 rad/s. */
+  /* Rounding of coordinates below 1 m and of velocities below 20 rad/s. */
   assert_true(c.max_phi <= 4e-15);
   assert_true(c.max_phi_rate <= 2e-13);
 
@@ -143,7 +144,8 @@ static void the_order_is_two_and_constraints_hold_to_rounding(void **state)
 
 /* ---- symmetry ---- */
 
-/* With the velocities reversed, the same steps lead back to the start except for rounding. */
+/* RATTLE is symmetric: after the velocities are reversed, the same number of steps leads back to
+ * the start, except for rounding. */
 static void check_reversal(build_fn *build, int nq, int nv)
 {
   double q[2][SPATIAL_RSSR_NQ];
@@ -180,7 +182,8 @@ typedef struct variation {
   double m[3];
 } variation;
 
-/* eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x eta_2) */
+/* Returns the symplectic form of two variations, eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x
+ * eta_2). */
 static double form_of(const double m[3], const variation *a, const variation *b)
 {
   double turned[3];
@@ -208,7 +211,7 @@ static void momentum_of(const double w[3], double out[3])
   }
 }
 
-/* Computes coordinates and angular momentum of the top 2 s later. */
+/* Computes the coordinates and the angular momentum of the top after 40 steps, 2 s. */
 static void map_top(baum_simulation *run, const double p[4], const double w[3], double q[TOP_NQ],
                     double m[3])
 {
@@ -220,7 +223,8 @@ static void map_top(baum_simulation *run, const double p[4], const double w[3], 
   momentum_of(baum_simulation_v(run) + 3, m);
 }
 
-/* Differentiates the map by the k-th of three rotations and three angular velocities. */
+/* Differentiates map_top() with respect to the k-th of three rotations and three angular
+ * velocities. */
 static variation vary_top(baum_simulation *run, int k, double d)
 {
   double q[2][TOP_NQ];
@@ -250,7 +254,8 @@ static variation vary_top(baum_simulation *run, int k, double d)
   return out;
 }
 
-/* Returns the largest change of the symplectic form by the map, over all pairs of directions. */
+/* Returns the largest change of the symplectic form by map_top(), over all pairs of directions. A
+ * symplectic method keeps the form. */
 static double form_error(const baum_integrator *integrator)
 {
   const double d = 1e-4; /* the truncation error is d^2 times third derivatives */
@@ -334,7 +339,7 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
 
 /* ---- other mechanisms ---- */
 
-/* A second body, which is welded to ground or moves freely. */
+/* Returns the definition of an additional body, which is welded to ground or moves freely. */
 static baum_spatial_body_def other_body(void)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();
@@ -376,7 +381,8 @@ static void expect_same_end(build_fn *build, baum_solver solver, const double *w
   assert_true(apart(got, want, SPATIAL_RSSR_NQ) <= 1e-11);
 }
 
-/* The results differ by rounding only. The four-bar of parallel axes has three redundant rows. */
+/* The results must differ by rounding only. The four-bar with parallel axes has three redundant
+ * rows. */
 static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
   (void)state;
@@ -390,7 +396,7 @@ static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   expect_same_end(spatial_build_four_bar, BAUM_SOLVER_KLU, want);
 }
 
-/* A ball, which has no gyroscopic moment, flies beside the top. They do not affect each other. */
+/* The top and a free ball, which has no gyroscopic moment. They must not affect each other. */
 static void build_top_and_ball(baum_mechanism *m)
 {
   baum_spatial_body_def ball = other_body();
@@ -420,7 +426,8 @@ static void bodies_without_gyroscopic_moments_move_as_before(void **state)
   baum_simulation_destroy(alone);
 }
 
-/* A disc with a horizontal axis. It spins by 17 degrees in a step, and precesses at 0.33 rad/s. */
+/* A disc with a horizontal axis, which rotates about it by 17 degrees per step and precesses at
+ * 0.33 rad/s. */
 static void build_gyroscope(baum_mechanism *m)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();

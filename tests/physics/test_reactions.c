@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reactions balance the forces with redundant rows and with uneven masses. Joints that share forces
- * are named. */
+/* With redundant rows and very different masses, reactions must balance the forces, and warnings
+ * must name the joints that share forces. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
-/* In these mechanisms the removal of null vectors could leave rounding of large forces on light
- * bodies. */
+/* Seeds of mechanisms in which making multipliers of least norm could leave the rounding of large
+ * forces on light bodies. */
 static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 
 static baum_simulation *run_bracket(const baum_mechanism *m)
@@ -29,8 +29,8 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* Expects the weight m g of the heavy body and its moment about the joint 0.4 m beside its
- * centre. */
+/* Expects the weight of the heavy body, 9.81 N, and its moment about the joint, which is 0.4 m
+ * beside its centre. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);
@@ -76,7 +76,7 @@ static void only_joints_that_share_forces_are_named(void **state)
     assert_int_equal(warning.code, BAUM_WARNING_REDUNDANT_ROWS);
     assert_non_null(strstr(warning.text, "among \"joint1\", \"joint2\":"));
     check(baum_simulation_unique_multipliers(run, unique));
-    for (int i = 0; i < 8; i++) { /* the weld's moment, the third joint */
+    for (int i = 0; i < 8; i++) { /* unique: the moment of the weld, the third joint */
       assert_true(unique[i] == (i >= 4));
     }
     baum_simulation_destroy(run);
@@ -84,8 +84,8 @@ static void only_joints_that_share_forces_are_named(void **state)
   }
 }
 
-/* The multipliers have the least norm in rows scaled by M, so joints on the same body take half
- * each. */
+/* The multipliers have the least norm in rows that are scaled by M. So two joints on the same body
+ * each take half of the force, whatever its mass. */
 static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
 {
   (void)state;
@@ -116,15 +116,16 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
     redundant_judge(HARD_SEEDS[k], &tally);
   }
   printf("largest imbalance %.2g\n", tally.worst);
-  for (int k = 0; k < REDUNDANT_STATES; k++) { /* nothing is refused */
+  for (int k = 0; k < REDUNDANT_STATES; k++) { /* all are right, none refused */
     assert_int_equal(tally.workspace[k][REDUNDANT_MET], MECHANISMS + HARD);
     assert_int_equal(tally.run[k][REDUNDANT_MET], MECHANISMS + HARD);
   }
   assert_int_equal(tally.wrong_unique, 0);
 }
 
-/* A spatial body of 2 kg is welded to a planar body, which its plane supports. The weld carries the
- * weight across the plane, although the planar body has no velocity in that direction. */
+/* A spatial body of 2 kg is welded to a planar body, which stays in its plane. The reaction of the
+ * weld must contain the weight normal to the plane, although the planar body has no velocity in
+ * that direction. */
 static void planar_bodies_bear_forces_across_their_plane(void **state)
 {
   (void)state;

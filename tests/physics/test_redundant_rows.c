@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows change nothing: a third parallel crank, or a second guide on the same line,
- * compared with the same bodies without these rows. */
+/* Redundant rows change nothing. Compares mechanisms with a third parallel crank, or a second guide
+ * on the same line, with the same bodies without these rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,20 +13,20 @@
 
 enum { POSES = 8 };
 
-/* Two computations of the same numbers, both with the accuracy of an ordinary configuration, which
- * fulfils redundant rows to rounding only. */
+/* Limit of the difference of two results, which both have the accuracy of ordinary configurations.
+ * These fulfil redundant rows only up to rounding. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs ---- */
 
-/* Returns a mechanism in its k-th configuration, with redundant rows or without. */
+/* Returns a mechanism in its k-th configuration, with or without redundant rows. */
 typedef posed pair_fn(int k, bool redundant);
 
 static posed cranks(int k, bool redundant)
 {
   model m;
   model_parallelogram which = redundant ? MODEL_THREE_CRANKS : MODEL_THIRD_BY_A_ROD;
-  /* 0.3 to 2.4 rad: not flat, where branches cross. */
+  /* Crank angles from 0.3 to 2.4 rad avoid the flat configurations, which are singular. */
   baum_status status = model_parallelogram_build(which, 0.3 + 0.3 * k, &m);
   return pose_model(status, m);
 }
@@ -96,7 +96,7 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* Agrees with the oracle, which omits the same rows as the workspace. */
+/* Compares with an oracle that omits the same rows as the workspace. */
 static void accelerations_are_those_of_quadruple_precision(void **state)
 {
   (void)state;
@@ -107,7 +107,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
                                   p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
-    assert_true(error <= 1e-12); /* ordinary configuration, see test_acceleration_accuracy.c */
+    assert_true(error <= 1e-12); /* as in test_acceleration_accuracy.c */
     unpose(&p);
   }
 }
@@ -148,7 +148,7 @@ static void motions_are_those_without_redundant_rows(void **state)
     double apart = compare_runs(k / 2, &options);
     printf("%-34s %-20s 200 steps: %.1e\n", PAIRS[k / 2].name,
            baum_integrator_name(options.integrator), apart);
-    assert_true(apart <= LIMIT); /* rounding of 200 steps; lengths are in m, angles in rad */
+    assert_true(apart <= LIMIT); /* rounding in 200 steps, in m and rad */
   }
 }
 
@@ -176,8 +176,8 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
   model_destroy(&m);
 }
 
-/* A duplicated pin and the original each carry half of the force; all other multipliers are
- * unchanged. */
+/* A duplicated pin and the original must each carry half of the force. All other multipliers must
+ * be unchanged and unique. */
 static void multipliers_that_are_not_unique_are_marked(void **state)
 {
   (void)state;
@@ -202,9 +202,9 @@ static void multipliers_that_are_not_unique_are_marked(void **state)
 
 /* ---- redundant everywhere, or singular in one configuration ---- */
 
-/* Rows of a duplicated pin, 1e-10 off, are redundant. Rows that are dependent in a flat
- * configuration only are not redundant, neither 1e-8 rad nor 1 rad from it. Some cases have
- * both. */
+/* Mechanisms with redundant rows, with rows that are dependent only in a flat configuration, or
+ * with both. The two rows of a duplicated pin are redundant, even if it is off by 1e-10 m. Rows
+ * that become dependent in a flat configuration are not redundant, even 1e-8 rad from it. */
 static const struct {
   const char *name;
   model_parallelogram_data data;
@@ -264,8 +264,8 @@ static void permanent_and_momentary_redundancy_are_distinguished_in_any_unit(voi
   }
 }
 
-/* The cranks continue to rotate together, th'' = -k cos th, if rows are redundant, singular or both
- * at the start. */
+/* The runs start with redundant rows, near a singular configuration, or with both. The cranks must
+ * rotate together, with th'' = -k cos th. */
 static void a_run_may_start_next_to_a_singular_configuration(void **state)
 {
   (void)state;
@@ -285,12 +285,12 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* v^2 / 2 + k sin th is constant; the first accelerations in the flat configuration itself are
-     * not unique, which changes the energy by 3e-6 */
+    /* th'^2 / 2 + k sin th is constant. In a flat configuration the first accelerations are not
+     * unique, which changes this by 3e-6 */
     double energy = v[2] * v[2] / 2.0 + pull * (sin(q[2]) - sin(data->angle));
     printf("%-34s angle %.9f, energy off by %.1e\n", TELL_APART[k].name, q[2], energy - 2.0);
     assert_true(fabs(energy - 2.0) <= 1e-5);
-    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* no crank is on another branch */
+    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* the cranks are on the same branch */
     assert_int_equal(counters.branch_warnings, 0);
     assert_true((counters.warnings > 0) ==
                 (TELL_APART[k].redundant > 0 || TELL_APART[k].near_singular));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A parallelogram with three cranks and a duplicated pin, which has three redundant rows, with
- * every integrator, formulation and solver. The motion is that of the mechanism without these rows,
- * and a warning names the joints whose multipliers are not unique. */
+/* Runs a parallelogram with three cranks and a duplicated pin, which has three redundant rows, with
+ * every integrator, formulation and solver. The motion must be that of the mechanism without these
+ * rows, and a warning must name the joints whose multipliers are not unique. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ enum { NV = 12 };
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-7;
-static const double END = 0.3; /* [s] before the configuration is flat */
+static const double END = 0.3; /* [s] before the mechanism is flat */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
                                       BAUM_SOLVER_QR};
@@ -63,7 +63,7 @@ static void expect(bool fine, const method *with, const char *what, double value
   }
 }
 
-/* Whether one of the run's warnings contains both words. */
+/* Tells whether one of the run's warnings contains both texts. */
 static bool warns(const baum_simulation *run, int64_t count, const char *word, const char *other)
 {
   bool found = false;
@@ -117,8 +117,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Different choices of rows differ in drift or in the result of IDA's iteration by a fraction of
- * the method's error. With a variable step this error is about the tolerance. */
+/* Returns the allowed difference. With another choice of rows the drift, or the result of IDA's
+ * iteration, differs by a fraction of the method's error. With a variable step this error is about
+ * the tolerance. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -166,8 +167,8 @@ static void redundant_rows_change_no_motion(void **state)
 
 /* ---- omitted rows are monitored ---- */
 
-/* A link with two drivers at its pin to the ground, with the rates 2 and 2 + acceleration t, and a
- * second link that hangs on it. */
+/* A link with two drivers on its pin to ground, which prescribe the angular velocities 2 and 2 +
+ * acceleration t, and a second link that hangs on the first. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -197,9 +198,10 @@ static baum_mechanism *driven_twice(double acceleration)
   return m;
 }
 
-static const double ANGLE = 1.0; /* [rad] between the motors at END */
+static const double ANGLE = 1.0; /* [rad] by which the motors differ at END */
 
-/* If the motors contradict each other, the counters and a warning report it. */
+/* The counters and a warning must report the violation if, and only if, the motors contradict each
+ * other. */
 static void part(const method *with, void *context)
 {
   const baum_mechanism *const *mechanisms = context;
@@ -213,7 +215,8 @@ static void part(const method *with, void *context)
     bool warned =
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "motors that part are told of", k);
-    /* the method's own violation is up to 1e-2 at order 1; a variable step may end beyond END */
+    /* methods of order 1 have violations of up to 1e-2 themselves; a variable step may end beyond
+     * END */
     expect(k == 1 ? counters.max_phi >= ANGLE - 2e-2 : counters.max_phi <= 2e-2, with,
            "largest violation", counters.max_phi);
     baum_simulation_destroy(run);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs through singular configurations report what happened; runs away from such configurations
- * report nothing. This is a small version of bench_singular with two starts of each mechanism. */
+/* Runs through singular configurations must report what happened, and other runs must report
+ * nothing. This is a small version of bench_singular, with two initial configurations of each
+ * mechanism. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +13,8 @@
 
 #include "singular_scenes.h"
 
-/* [rad] The other branch differs by radians; the errors of the loosest tolerance here are below
- * this. */
+/* [rad] A run whose error is larger is on another branch, which differs by radians. Errors on the
+ * right branch are smaller, even at the loosest tolerance here. */
 static const double WRONG = 0.1;
 
 static const struct {
@@ -63,12 +64,12 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
     singular_close(&scene);
   }
   printf("%d right, %d of them with a branch warning; %d wrong\n", right, alarmed, wrong);
-  assert_true(right > 0 && wrong > 0); /* otherwise the test has shown nothing */
+  assert_true(right > 0 && wrong > 0); /* else nothing was tested */
   assert_true(20 * alarmed <= right);
 }
 
-/* The setting that docs/theory/singular.md recommends. Measured errors are at most 1e-8; this bound
- * is the documented one. */
+/* Tests the setting that docs/theory/singular.md recommends. It documents errors of at most 1e-7;
+ * at most 1e-8 was measured. */
 static void recommended_setting_is_accurate(void **state)
 {
   (void)state;
@@ -85,9 +86,9 @@ static void recommended_setting_is_accurate(void **state)
   }
 }
 
-/* In the first case a flat configuration is 5e-7 rad from the end of a step, where the acceleration
- * from the equations has no correct digit. In the second case an ordinary projection does not
- * converge at such a configuration. Other runs have errors of 4e-6. */
+/* Two cases in which a step ends next to a flat configuration. In the first it ends 5e-7 rad from
+ * it, where the acceleration by the equations has no correct digit. In the second an ordinary
+ * projection does not converge there. Runs without such a coincidence have errors of 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
@@ -111,7 +112,8 @@ static void fixed_steps_may_end_in_a_singular_configuration(void **state)
   }
 }
 
-/* Time, joint and branch of the interval at the first flat configuration of a four-bar. */
+/* Checks the time, the joint and the branch that are reported at the first flat configuration of a
+ * four-bar. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
   (void)state;
@@ -133,10 +135,10 @@ static void intervals_have_times_joints_and_branches(void **state)
   assert_int_equal(baum_simulation_near_singular(run, 0, &entry, sizeof entry), BAUM_OK);
   assert_int_equal(entry.struct_size, sizeof entry);
   assert_true(entry.begin < entry.t && entry.t < entry.end);
-  /* The mechanism is flat when the crank has rotated by a right angle. The reference time is from
-   * the equation of motion for the angle (mpmath, 25 digits). The search finds the time
-   * to a millionth of two steps, 1e-8 s; the method itself errs by 3e-9 s. The pivot grows as the
-   * square of the distance, so it is found to about 1e-12. */
+  /* The mechanism is flat after 90 degrees of the crank. The reference time was computed from the
+   * equation of motion in the angle (mpmath, 25 digits). The search is accurate to a millionth of
+   * two steps, 1e-8 s, and the method has an error of 3e-9 s. The pivot grows as the square of the
+   * distance, so the smallest pivot found is about 1e-12. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -151,7 +153,8 @@ static void intervals_have_times_joints_and_branches(void **state)
 
 /* ---- away from singular configurations ---- */
 
-/* Gives the angle at 10 s; returns false if the run has stopped or doubts the motion. */
+/* Sets the angle at 10 s. Returns false if the run has stopped or has given a warning that its
+ * motion is doubtful. */
 static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
                    double rtol, double *angle)
 {
@@ -170,8 +173,8 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
   return status >= BAUM_OK && c.doubts == 0;
 }
 
-/* A small error at a singular configuration leaves a violation, because of which the mechanism
- * cannot reach the next one: it turns back on the other branch. */
+/* A small error at a singular configuration causes a violation. Because of it the mechanism cannot
+ * reach the next singular configuration, but reverses and continues on the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
@@ -211,7 +214,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
     options.rtol = 1e-6;
   }
   assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
-  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* may warn of its error */
+  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* or a warning */
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   assert_int_equal(c.near_singular_intervals, 0);
   assert_int_equal(c.branch_warnings, 0);
@@ -220,7 +223,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
   model_destroy(m);
 }
 
-/* 1 kg at the end of a rod of 1 m, with nearly no moment of inertia. */
+/* A body of 1 kg with nearly no moment of inertia, pinned 1 m from its centre. */
 static baum_status build_light_rotation(model *out)
 {
   *out = (model){0};
@@ -240,7 +243,8 @@ static baum_status build_light_rotation(model *out)
   return status == BAUM_OK ? baum_mechanism_freeze(out->mechanism) : status;
 }
 
-/* A light rod, guided by a slot at the origin, that comes taut under a bob of 1 kg. */
+/* A light rod that joins a bob of 1 kg to a pin in a slot at the origin. When the rod becomes
+ * perpendicular to the slot, it suddenly stops the bob. */
 static baum_mechanism *build_taut_rod(double mass, double direction)
 {
   baum_mechanism *m = NULL;
@@ -290,8 +294,9 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
   return c;
 }
 
-/* Pivots fall to the mass ratio when the slot holds the bob by the light rod, but J keeps its rank.
- * A step must not pass over this configuration as it does over a singular one. */
+/* When the rod is perpendicular to the slot, the slot holds the bob only through the light rod.
+ * Pivots become as small as the ratio of the masses, but J keeps its rank. A step must not pass
+ * over this configuration as over a singular one. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;
@@ -306,8 +311,8 @@ static void a_light_rod_that_comes_taut_is_not_singular(void **state)
   }
 }
 
-/* The same rod without stabilization: the violation grows during the run, and must not be taken for
- * a singular configuration either. */
+/* The same rod without stabilization. The violation grows during the run, which must not be
+ * mistaken for a singular configuration either. */
 static void a_light_rod_that_drifts_is_not_singular(void **state)
 {
   (void)state;

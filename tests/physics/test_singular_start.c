@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs that start in a singular configuration or very near to one. Variable-step methods continue
- * with a warning or end with a message, both after few steps. */
+/* Runs that start in a singular configuration or very close to one. Variable-step methods must
+ * continue with a warning or end with a message, in either case after few steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,12 +12,12 @@
 
 #include "models.h"
 
-/* Limit of accepted and rejected steps. A run leaves the configuration in a few steps, or ends
- * after 10 unsuccessful tries; the largest number measured was 34, which depends on rounding. A run
- * without progress would take more than a hundred thousand. */
+/* Limit of the number of accepted and rejected steps. A run leaves the configuration in a few
+ * steps, or ends after 10 unsuccessful attempts. The largest measured number is 34, which depends
+ * on rounding. A run that makes no progress would need more than a hundred thousand. */
 enum { MOST_TRIES = 1000 };
 
-static const double END = 0.3; /* [s] nearly a radian at 3 rad/s */
+static const double END = 0.3; /* [s] nearly 1 rad at 3 rad/s */
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
@@ -31,7 +31,7 @@ static baum_simulation *create(const model *m, const baum_integrator *integrator
   return run;
 }
 
-/* Advances to `end`; checks that the run ends there or with a message after few steps. */
+/* Advances to `end`. Checks that the run ends there, or with a message, after few steps. */
 static baum_status run_to(baum_simulation *run, double end)
 {
   baum_counters c;
@@ -46,7 +46,8 @@ static baum_status run_to(baum_simulation *run, double end)
 
 /* ---- four-bars ---- */
 
-/* want: [rad] angle of the cranks at END, or NaN if a message is accepted instead. */
+/* `want` is the angle of the cranks at END [rad], or NaN if a run that ends with a message is
+ * accepted too. */
 static void run_all(int loops, double angle, double rate, double want)
 {
   model m;
@@ -59,7 +60,7 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* On another branch the cranks differ by radians; dp5 at the loosest tolerance has an error
+      /* On another branch the angles differ by radians. dp5 at the loosest tolerance has an error
        * of 2e-5. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
@@ -68,8 +69,8 @@ static void run_all(int loops, double angle, double rate, double want)
   model_destroy(&m);
 }
 
-/* Solutions of [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th with N windows, from th = 0 and
- * 3 rad/s, by the classical Runge-Kutta method with steps of 1e-5 s. */
+/* Solutions of [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th, where N is `loops`, from th =
+ * 0 and 3 rad/s. Computed by the classical Runge-Kutta method with steps of 1e-5 s. */
 static const struct {
   int loops;
   double want; /* [rad] angle at END */
@@ -93,9 +94,9 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* ---- slider-crank of equal links ---- */
 
-/* Sets the crank angle pi/2 + off at 150 rad/s, with the rod rotating in the opposite direction.
- * The angle of the rod is given, because computed from the sine of the crank angle it would lose
- * half of its digits here. */
+/* Sets the state with the crank angle pi/2 + off, the crank rotating at 150 rad/s and the rod in
+ * the opposite direction. The angle of the rod is set directly: assembly would compute it from the
+ * sine of the crank angle, which loses half of the digits here. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;
@@ -122,7 +123,7 @@ static void leave_fold(const model *m, const baum_integrator *integrator, double
   fold(run, off);
   baum_status status = run_to(run, 0.01);
   if (status >= BAUM_OK) {
-    /* On the other branch the rod would rotate with the crank: a difference of 3 rad. */
+    /* On the other branch the rod would rotate with the crank, a difference of 3 rad. */
     assert_true(fabs(baum_simulation_q(run)[2] + baum_simulation_q(run)[5]) <= 1e-3);
   }
   baum_simulation_destroy(run);

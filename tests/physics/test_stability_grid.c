@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Predicted and simulated stability of a pendulum, and Taylor's gains. */
+/* Compares predicted and simulated stability of a pendulum, and tests the Taylor gains. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,8 +14,8 @@ EVERY_INTEGRATOR(DEFINE)
 
 enum { TAYLOR_STEPS = 400 };
 
-/* With Taylor's gains z^2 = -1, so that Phi(n + 2) = -Phi(n), and Phi(1) = Phi(0) for Phi' = 0 at
- * the start. */
+/* The Taylor gains give z^2 = -1, so the violations must repeat with Phi(n + 2) = -Phi(n). Phi' = 0
+ * at the start gives Phi(1) = Phi(0). */
 static void watch_circle(physics_mechanism which)
 {
   model m = build_mechanism(which);
@@ -39,8 +39,8 @@ static void watch_circle(physics_mechanism which)
   }
   printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", watched.nc,
          TAYLOR_STEPS, worst);
-  /* The motion adds h^2 |gamma| per step, 1e-10 of the scale, to initial violations of at least
-   * 1e-7 of the scale. */
+  /* Relative to the scale, initial violations are at least 1e-7, and the motion adds h^2 |gamma|
+   * per step, about 1e-10. */
   assert_true(worst < 1e-2);
   unwatch(&watched);
   unwatch(&consistent);

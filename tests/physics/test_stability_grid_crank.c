@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Predicted and simulated stability of the free slider-crank. */
+/* Compares predicted and simulated stability of the free slider-crank. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

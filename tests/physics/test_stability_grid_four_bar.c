@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Predicted and simulated stability of the four-bar. */
+/* Compares predicted and simulated stability of the four-bar. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stress grid as a study: every entry meets its tolerance, or has a warning or a message. */
+/* Runs the stress grid as a study. Every entry must meet its tolerance, or have a warning or a
+ * message. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +28,8 @@ static baum_study *stress_of(const baum_mechanism *mechanism, const baum_integra
   return study;
 }
 
-/* Largest error of an entry without a warning: ten tolerances per step, and rounding; 0.1 with a
- * fixed step. */
+/* Returns the largest allowed error of an entry without a warning: 0.1 with a fixed step, otherwise
+ * 10 rtol per step, and rounding. */
 static double promise(const baum_study_entry *entry)
 {
   const double rounding = 1e-12;
@@ -67,7 +68,7 @@ static void no_entry_is_silently_wrong(void **state)
     baum_study_destroy(study);
   }
   assert_true(seen[BAUM_STUDY_DONE] > 0);
-  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* rk4 with gains outside of its stable region */
+  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* rk4 with unstable gains */
   assert_true(seen[BAUM_STUDY_TIMED_OUT] > 0);
 }
 

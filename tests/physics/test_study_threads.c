@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies with many threads on one mechanism, and several such studies at once. Their entries are
- * those of one thread, to the last bit. Also run under the thread sanitizer.
+/* Runs studies with many threads on one mechanism, and several such studies at once. Their entries
+ * must equal those of one thread to the last bit. This test also runs under the thread sanitizer.
  *
  * Only the main thread may use cmocka's checks; the other threads return their results.
  */
@@ -22,10 +22,10 @@
 
 enum { THREADS = 8, STUDIES = 3 };
 
-/* Counts the calls of a progress function, which must not overlap. */
+/* Counts the calls of a progress function. Calls must not overlap. */
 typedef struct seen {
   atomic_int inside;
-  atomic_int together; /* calls that began during another call */
+  atomic_int together; /* number of calls during another call */
   int calls;
   int cancel_at; /* 0: never */
 } seen;
@@ -129,7 +129,7 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
 
 /* ---- cancelling ---- */
 
-/* Another thread cancels the study repeatedly while it runs; then the study is completed. */
+/* Another thread cancels the study repeatedly while it runs. Afterwards the study is completed. */
 static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 {
   (void)state;
@@ -147,7 +147,7 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
   }
   assert_int_equal(pthread_join(thread, NULL), 0);
   check(j.status);
-  for (int k = 1; k <= 3; k++) { /* cancelled by progress, at an entry */
+  for (int k = 1; k <= 3; k++) { /* the progress function cancels after an entry */
     j.seen.calls = 0;
     j.seen.cancel_at = 3 * k;
     check(baum_study_run(j.study));

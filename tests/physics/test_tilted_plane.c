@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares planar mechanisms of the catalogue, built of spatial elements in a tilted plane, with
- * their planar references. */
+/* Builds planar mechanisms of the catalogue from spatial elements in a tilted plane (twins), and
+ * compares them with their planar references. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@
 
 enum { MOST_BODIES = 7 };
 
-/* A planar entry, and the number of closed loops of its spatial twin. */
+/* An entry of the catalogue, and the number of closed loops of its spatial twin. */
 typedef struct tilted {
   const char *entry;
   int loops;
@@ -50,8 +50,8 @@ static void loops_have_three_redundant_rows(void **state)
   }
 }
 
-/* Returns the largest error of all bodies: lengths relative to `length`, angles in radians modulo
- * revolutions. */
+/* Returns the largest error of all bodies: of positions relative to `length`, of angles in rad
+ * modulo 2 pi. */
 static double error_at(const baum_catalog_choice *choice, const baum_simulation *run, int bodies,
                        double t, double length)
 {
@@ -99,7 +99,8 @@ static void tilted_mechanisms_move_as_planar_ones(void **state)
   }
 }
 
-/* The multipliers of the rows that hold the bodies in the plane are amplified rounding errors. */
+/* The rows that hold the bodies in the plane contain only rounding errors, so their multipliers are
+ * amplified rounding errors. QR must accept this. */
 static void qr_solves_rows_that_contain_only_rounding(void **state)
 {
   (void)state;
@@ -111,7 +112,7 @@ static void qr_solves_rows_that_contain_only_rounding(void **state)
   o.solver = BAUM_SOLVER_QR;
   o.step = 1e-3;
   check(baum_simulation_create(m, &o, &run));
-  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* redundant rows */
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* of redundant rows */
   assert_true(baum_simulation_time(run) == 2.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -140,8 +141,9 @@ static baum_counters counters_of(const baum_catalog_choice *choice,
   return counters;
 }
 
-/* The rod is longer than the crank by 1e-12. One step of rk8 passes over the singular
- * configuration, near which other rows are omitted than elsewhere. */
+/* The rod is longer than the crank by 1e-12, so the folded configuration is nearly singular. One
+ * step of rk8 passes over it. Near it other rows are omitted than elsewhere; the crossing must be
+ * reported nevertheless. */
 static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 {
   (void)state;
@@ -161,8 +163,9 @@ static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 }
 
 #if BAUM_HAVE_SUNDIALS
-/* Five cranks fall through the horizontal twice. The second time the run takes a branch that has
- * only singular configurations, so the second near-singular interval does not end. */
+/* Five cranks fall through the horizontal, where they are singular, twice. The second time the run
+ * continues on a branch whose configurations are all singular, so the second near-singular interval
+ * does not end. */
 static void branches_of_singular_configurations_are_told(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tighter tolerance gives a smaller error: variable-step integrators on the index-1 equations
- * against references, with rtol from 1e-4 to 1e-10. */
+/* A tighter tolerance must give a smaller error. Compares variable-step integrators for the index-1
+ * equations with references, with rtol from 1e-4 to 1e-10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,18 +18,18 @@
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
 
-/* Least reduction of the error per decade of rtol, as the geometric mean of all mechanisms. An
- * error proportional to rtol falls tenfold. */
+/* Least factor by which the error must fall per decade of rtol, as the geometric mean over all
+ * mechanisms. An error proportional to rtol falls tenfold. */
 static const double LEAST_FALL = 7.0;
-/* At order p the error is proportional to rtol^(p / (p + 1)). BDF at its highest order 5 has 6.8.
- * Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA); in the mean over 40 starts or ends of each mechanism
- * 6.5 and 6.4. Order 3 would have 5.6. */
+/* The same for BDF. At order p the error is proportional to rtol^(p / (p + 1)), so at the highest
+ * order 5 it falls by 6.8, at order 3 by 5.6. Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA). The means
+ * over 40 initial configurations or end times of each mechanism are 6.5 and 6.4. */
 static const double LEAST_FALL_OF_BDF = 6.0;
-/* For a single mechanism, where an accidentally small error has more influence. */
+/* The same for a single mechanism, where an error that is small by chance has more influence. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
-/* Uses nine samples: 1 to 2 revolutions of the crank, 2 swings. Later the errors at rtol 1e-4 reach
- * 1 rad and no longer grow. */
+/* Uses nine samples: 1 to 2 revolutions of the crank, or 2 swings of the pendulum. In longer runs
+ * the errors at rtol 1e-4 would reach 1 rad and stop growing. */
 static const reference REFERENCES[REFERENCE_COUNT] = {
   [PENDULUM] = {.samples = 9,
                 .width = A01_PENDULUM_WIDTH,
@@ -50,8 +50,9 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
     {.samples = 9, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Reduction of the error per decade: the slope of a line fitted to the logarithms, which single
- * small errors influence less than a slope between the ends. */
+/* Returns the factor by which the error falls per decade, from a line fitted to the logarithms.
+ * Single small errors influence it less than the factor between the first and the last
+ * tolerance. */
 static double fit_fall(const double error[TOLERANCES])
 {
   double sum = 0.0;
@@ -105,7 +106,7 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
   int fits = 0;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
-    /* Without degrees of freedom, projection gives errors of rounding at any tolerance. */
+    /* Without degrees of freedom, projection leaves only rounding at any tolerance. */
     if (which == DRIVEN_CRANK && formulation == BAUM_FORMULATION_PROJECTION) {
       continue;
     }

@@ -36,7 +36,7 @@ typedef struct series {
   long double p[TERMS + 1][4];
 } series;
 
-/* These return the Taylor coefficient n of the products p_i w_j and w_i w_j. */
+/* Return the Taylor coefficient n of the products p_i w_j and w_i w_j. */
 static long double of_p_w(const series *s, int i, int j, int n)
 {
   long double sum = 0.0L;
@@ -136,7 +136,7 @@ static void momentum_of(const double p[4], const double w[3], double out[3])
 typedef struct errors {
   double angle; /* [rad] */
   double energy;
-  double momentum; /* energy and momentum: relative */
+  double momentum; /* this and energy: relative errors */
 } errors;
 
 static errors run(const baum_integrator *integrator, double step, double rtol,
@@ -216,8 +216,8 @@ static void cvode_bdf_keeps_the_orientation_for_a_thousand_revolutions(void **st
 #endif
 }
 
-/* The error of the orientation is of order 2, and large after 100 000 steps of 4 degrees. It does
- * not affect the momentum and the bound of the energy. */
+/* RATTLE has order 2, so the error of the orientation is large after 100 000 steps of 4 degrees.
+ * The momentum is kept to rounding nevertheless, and the error of the energy is bounded. */
 static void rattle_keeps_the_angular_momentum_to_rounding(void **state)
 {
   (void)state;

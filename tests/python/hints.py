@@ -20,6 +20,9 @@ def right() -> None:
     m = baum.Mechanism(gravity=(0, 0, -9.81))
     body = assert_type(m.planar_body("a", mass=1, position=(0, 1)), baum.Body)
     pin = assert_type(m.revolute("pin", m.ground, "a", point=(0, 0)), baum.Joint)
+    body.outline = [(0, 0), (1, 0), (0, 1)]
+    m.planar_body("c", outline=["M 0 0 1 0 1 1 z", baum.Circle(1, (0, 1)), [(0, 0), (1, 0), (0, 1)]])
+    assert_type(body.outline, "list[baum.Outline]")
     m.force("drag", [body], lambda t, q, v: -0.1 * v)
     assert_type(pin.set(point_a=(0, 1)), baum.Joint)
     options: SimulationOptions = {"step": 1e-3, "formulation": "baumgarte", "gains": baum.auto()}
@@ -42,6 +45,7 @@ def right() -> None:
 
 def wrong(m: baum.Mechanism, study: baum.Study) -> None:
     m.planar_body("b", mass="heavy")  # type: ignore[arg-type]
+    m.planar_body("b", outline=baum.Circle("1"))  # type: ignore[arg-type]
     m.planar_body("b", weight=1)  # type: ignore[call-arg]
     m.driver("motor", m.ground)  # type: ignore[arg-type]
     m.simulate([0, 1], "rk4", steps=1e-3)  # type: ignore[call-arg]

@@ -34,6 +34,11 @@ class Drawings(unittest.TestCase):
         self.assertEqual(str(m.freeze().draw()), before)
         self.assertEqual(m.draw()._repr_svg_(), before)
 
+    def test_notebooks_show_a_mechanism_with_its_drawing(self):
+        m = slider_crank()
+        self.assertTrue(m._repr_html_().startswith(str(m.draw()) + "<table>"))
+        self.assertTrue(baum.Mechanism()._repr_html_().startswith("<table>"))
+
     def test_positions_are_drawn(self):
         m = slider_crank()
         q = m.simulate([0, 0.1], "rk4", step=1e-3).q
@@ -103,13 +108,54 @@ class Pages(unittest.TestCase):
             run.page(path)
             with open(path, encoding="utf-8") as file:
                 marks = data_of(file.read())["marks"]
-        self.assertTrue(any("singular" in mark["text"] for mark in marks))
+        self.assertEqual({mark["kind"] for mark in marks}, {"warning", "singular"})
+        for mark in marks:
+            self.assertEqual(mark["kind"] == "singular", mark["text"].startswith("near a singular configuration"))
 
     def test_notebooks_show_it_in_a_frame(self):
         with mock.patch("baum.drawings.is_notebook", return_value=True):
             frame = self.run_.show()._repr_html_()
         self.assertTrue(frame.startswith('<iframe srcdoc="&lt;!DOCTYPE html&gt;'))
         self.assertEqual(frame.count("<"), 2)
+
+    def test_it_says_where_the_page_is_without_a_browser(self):
+        with mock.patch("webbrowser.open", return_value=False) as opened:
+            with self.assertWarnsRegex(UserWarning, r"the page is .*\.html") as caught:
+                self.run_.show()
+        self.assertEqual(caught.filename, __file__)
+        os.remove(opened.call_args[0][0].removeprefix("file://"))
+
+
+class Motions(unittest.TestCase):
+    """Pages of motions that are given as arrays."""
+
+    def setUp(self):
+        self.m = slider_crank()
+        self.t = np.linspace(0, 1, 11)
+        self.q = np.tile(self.m.simulate([0], "rk4", step=1e-3).q[0], (11, 1))
+        self.q[:, 0] = 3 * self.t
+
+    def test_it_shows_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.html")
+            page = self.m.page(self.t, self.q, path, title="T", traces=["rod.pose"],
+                               plots={"x [m]": self.q[:, 0]}, marks=[(0.5, "half")])
+            with open(path, encoding="utf-8") as file:
+                self.assertEqual(file.read(), str(page))
+        data = data_of(page)
+        self.assertEqual((data["title"], data["frames"], len(data["traces"])), ("T", 11, 1))
+        self.assertEqual([plot["label"] for plot in data["plots"]], ["x [m]"])
+        self.assertEqual(data["ranges"][data["plots"][0]["column"]], [0, 3])
+        self.assertEqual(data["marks"], [{"t": 0.5, "kind": "event", "text": "half"}])
+
+    def test_wrong_arrays_are_refused(self):
+        for t, q in ((self.t[1:], self.q), (self.t, self.q[:, 1:]), (0 * self.t, self.q)):
+            with self.assertRaises(ValueError):
+                self.m.page(t, q)
+        with self.assertRaises(ValueError):
+            self.m.page(self.t, self.q, plots={"x": [1]})
+        with self.assertRaises(TypeError):
+            self.m.page(self.t, self.q, marks=[("now", "text")])
 
 
 if __name__ == "__main__":

@@ -315,7 +315,7 @@ static baum_body_id add_body(baum_i_parts *parts, const scene *s, int body)
   def.angle = turn_[0];
   def.angular_velocity = turn_[1];
   def.held = body == 0 && scene_bodies(s) > 1 && !s->driven;
-  return baum_i_parts_body(parts, &def, NULL, NULL);
+  return baum_i_parts_body(parts, &def);
 }
 
 static void add_rod(baum_i_parts *parts, baum_body_id bob, double length)
@@ -386,7 +386,7 @@ static void drive(baum_i_parts *parts, const scene *s, baum_joint_id joint)
   def.rate = s->rate;
   def.value = motor_offset(s);
   if (s->driven) {
-    baum_i_parts_driver(parts, &def);
+    BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &def, NULL));
   }
 }
 

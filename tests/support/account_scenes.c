@@ -13,7 +13,7 @@ const account_scene account_scenes[ACCOUNT_SCENES] = {
 
 /* ---- functions of the user ---- */
 
-/* A spring that stiffens, with damping. */
+/* The law of a stiffening spring with a damper. */
 static int spring_law(double length, double rate, double *out, void *user)
 {
   (void)user;
@@ -24,7 +24,7 @@ static int spring_law(double length, double rate, double *out, void *user)
   return 0;
 }
 
-/* Starts with velocity 0, since the link is at rest. */
+/* The law of the driver. It starts with the velocity 0, because the link is at rest. */
 static int drive_law(double t, double s[3], void *user)
 {
   (void)user;
@@ -34,7 +34,7 @@ static int drive_law(double t, double s[3], void *user)
   return 0;
 }
 
-/* Drag on a planar body, and a force with the potential x^4 / 4. */
+/* A user force on a planar body: drag, and -x^3 along x, which has the potential x^4 / 4. */
 static int drag(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -55,7 +55,7 @@ static int pull(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Mass matrix of a particle of 2 kg in polar coordinates (r, angle). */
+/* Computes the mass matrix of a particle of 2 kg in polar coordinates (r, angle). */
 static int polar_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -65,7 +65,8 @@ static int polar_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A spring towards the centre, and damping of 0.5 N s/m along the radius. */
+/* Computes the velocity-dependent inertia forces of that particle, and adds a radial spring of 30
+ * N/m and a radial damper of 0.5 N s/m. */
 static int polar_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {
@@ -87,7 +88,7 @@ static int polar_potential(double t, const double *q, double *out, void *user)
 
 /* ---- parts ---- */
 
-/* Keeps the first failure of the calls that add parts. */
+/* Builds a mechanism. `status` keeps the first failure of all calls. */
 typedef struct maker {
   baum_mechanism *m;
   baum_status status;
@@ -100,7 +101,8 @@ static void keep(maker *make, baum_status status)
   make->status = make->status == BAUM_OK ? status : make->status;
 }
 
-/* Adds two links of 1 m along x; the second rotates at 2 rad/s. */
+/* Adds a double pendulum of two links of 1 m along x, of which the second rotates at 2 rad/s. `off`
+ * moves the links off their constraints. */
 static void add_links(maker *make, double off)
 {
   keep(make, baum_mechanism_set_gravity(make->m, 0.0, -9.81, 0.0));

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms that together have every kind of work that an energy account distinguishes. */
+/* Mechanisms for tests of the energy account. Together they have every kind of work that it
+ * distinguishes. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
 
 #include <baum/baum.h>
 
 typedef enum account_kind {
-  ACCOUNT_QUIET,    /* two links under gravity: constant energy */
-  ACCOUNT_DRIVEN,   /* a driver rotates the first link by a law */
+  ACCOUNT_QUIET,    /* only gravity acts on two links: constant energy */
+  ACCOUNT_DRIVEN,   /* a driver with a user law rotates the first link */
   ACCOUNT_DAMPED,   /* springs, dampers, a user law, loads, an input, a user force */
-  ACCOUNT_VIOLATED, /* starts off its constraints */
-  ACCOUNT_POLAR,    /* a body in polar coordinates, M(q), with friction */
+  ACCOUNT_VIOLATED, /* the initial state violates the constraints */
+  ACCOUNT_POLAR,    /* user coordinates with M(q) and a damper */
   ACCOUNT_SCENES
 } account_kind;
 
@@ -23,7 +24,7 @@ typedef struct account_scene {
 
 extern const account_scene account_scenes[ACCOUNT_SCENES];
 
-/* Frozen. NULL on failure, with the message. */
+/* Builds and freezes the mechanism. On failure returns NULL and sets the message. */
 baum_mechanism *account_build(const account_scene *scene);
 
 #endif

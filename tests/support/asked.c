@@ -120,7 +120,7 @@ static int weight(double t, const double *q, double *out, void *user)
   return visit(user, ASKED_WEIGHT, out);
 }
 
-/* A tension or torque and its derivatives. */
+/* Sets a tension or torque and its derivatives. */
 static int spring(double length, double rate, double out[3])
 {
   out[0] = 3.0 * length + 0.1 * rate;
@@ -153,7 +153,7 @@ static int motor(double t, double s[3], void *user)
   return visit(user, ASKED_MOTOR, s);
 }
 
-/* y = x^2 / 10 */
+/* The curve y = x^2 / 10. */
 static int track(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] - 0.1 * xy[0] * xy[0];
@@ -163,7 +163,7 @@ static int track(const double xy[2], double out[6], void *user)
   return visit(user, ASKED_TRACK, out);
 }
 
-/* Never zero. */
+/* An event function that is never zero. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user)
 {

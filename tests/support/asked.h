@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism with every kind of user function. One kind can be made to fail, to return NaN or to
- * call the library.
+/* A mechanism with every kind of user function. The functions of one kind can be made to fail, to
+ * return NaN or to call the library.
  *
- *   masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling, torsion
- *   spring, user force), a driven crank, a pea on a curve with a spring; one input, the stiffness
- *   of the masses
+ * It consists of masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling,
+ * torsion spring, user force), a driven crank, and a pea on a curve with a spring. Its only input
+ * is the stiffness of the masses.
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H
@@ -33,7 +33,7 @@ typedef enum asked_kind {
   ASKED_PROGRESS = ASKED_KINDS
 } asked_kind;
 
-/* The element and the function as named in messages. */
+/* The names of the element and of the function in messages. */
 typedef struct asked_name {
   const char *element;
   const char *function;
@@ -43,19 +43,19 @@ extern const asked_name asked_names[ASKED_KINDS];
 
 typedef enum asked_fault { ASKED_FINE, ASKED_STOPS, ASKED_GIVES_NAN, ASKED_CALLS_BACK } asked_fault;
 
-/* `user` of all functions. */
+/* The `user` of all functions. */
 typedef struct asked asked;
 
 struct asked {
-  asked_kind kind; /* the kind that fails */
+  asked_kind kind; /* the kind of functions that fails */
   asked_fault fault;
-  int64_t calls; /* of that kind, while it fails */
+  int64_t calls; /* calls of that kind while it fails */
   bool inside;   /* prevents recursion */
   baum_mechanism *mechanism;
   baum_joint_id motor;
   baum_input_id input;
   baum_simulation *run;
-  const baum_simulation *other; /* a run to continue from */
+  const baum_simulation *other; /* another run, for calls that need two */
   baum_workspace *w;
   void (*back)(asked *user); /* called instead of failing, if the fault is ASKED_CALLS_BACK */
 };
@@ -64,7 +64,7 @@ struct asked {
  * failure. */
 void asked_make(asked *b);
 
-/* An event function that is never zero, and a progress function; `user` is the asked. */
+/* An event function that is never zero, and a progress function. Their `user` is the asked. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user);
 int asked_progress(const baum_simulation *run, double t, void *user);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Comparison of doubles; that of cmocka uses float. Include after cmocka.h. */
+/* Compares doubles, because cmocka compares floats. Include after cmocka.h. */
 #ifndef BAUM_TEST_ASSERT_NEAR_H
 #define BAUM_TEST_ASSERT_NEAR_H
 
 #include <math.h>
 
-/* |got - want| <= atol + rtol |want|, in double; prints both sides. NaN fails; equal infinities
- * pass. */
+/* Asserts |got - want| <= atol + rtol |want|, and prints both values otherwise. NaN fails; equal
+ * infinities pass. */
 #define ASSERT_NEAR(got, want, rtol, atol) \
   assert_near_((got), (want), (rtol), (atol), #got, __FILE__, __LINE__)
 

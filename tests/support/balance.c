@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The force of a row on body k is -lambda times the row's columns of that body, so that
+/* The force of a row on body k is -lambda times the columns of that body in the row. So the sums of
+ * forces and moments over all bodies of a joint are zero if
  *
  *   force x: J [1 0 0 ...],   force y: J [0 1 0 ...],   moment about the origin: J [-y x 1 ...]
  *
- * must be zero, where each body contributes its three columns (a particle: two).
+ * are zero for every row, summed over the bodies. Each body contributes its three columns, a
+ * particle two.
  */
 #include "balance.h"
 
@@ -30,7 +32,7 @@ static bool has_ground(const baum_i_joint *joint)
   return false;
 }
 
-/* Adds the contribution of one column to the sums, and its absolute value to the size. */
+/* Adds the contribution of one column to the three sums, and its absolute value to *size. */
 static void add_column(const baum_i_frame *frame, int coordinate, double value, double sums[SUMS],
                        double *size)
 {

@@ -5,9 +5,9 @@
 
 #include "point.h"
 
-/* Checks that forces and moments add up to zero for every joint that has one row and does not
- * involve ground: such a joint does not resist a rigid motion of all its bodies. (A pin is not
- * checked: its rows are in ground axes, and their moments balance only if the points coincide.) */
+/* Checks that forces and moments add up to zero for every joint with one row that does not involve
+ * ground, because such a joint does not resist a rigid motion of all its bodies. Pins are not
+ * checked: the moments of their rows balance only if both points coincide. */
 void check_rows_balance(test_point *p);
 
 #endif

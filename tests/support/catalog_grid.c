@@ -28,8 +28,8 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies of one entry ---- */
 
-/* An entry of the catalogue and two studies of it, up to the last sample with equal spacing,
- * because the samples of a study are equally spaced. */
+/* An entry of the catalogue and two studies of it. The samples of a study are equally spaced, so
+ * the studies end where the equal spacing of the catalogue's samples ends. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* samples of the catalogue */
@@ -55,7 +55,8 @@ static baum_status take_times(pair *p)
   return status;
 }
 
-/* Stops after the first half of the stages: errors are measured then, and times are not needed. */
+/* Stops the study after the first half of its stages, which measures errors. The second half would
+ * measure times, which are not needed. */
 static int stop_before_times(const baum_study *study, int32_t done, int32_t total, void *user)
 {
   (void)study;
@@ -92,7 +93,8 @@ static baum_status add_same_entries(const baum_study *from, baum_study *to)
   return status;
 }
 
-/* Number of correct digits of the stored positions, relative to the scales of the mechanism. */
+/* Returns the number of correct digits of the stored positions, relative to the scales of the
+ * mechanism. */
 static double digits_of(const pair *p, const baum_catalog_choice *choice, const double *q)
 {
   baum_catalog_error error;
@@ -134,7 +136,7 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 
 /* ---- checks ---- */
 
-/* Whether the method has constant gains for which violations do not decay. */
+/* Tells whether the entry has fixed gains for which violations do not decay. */
 static bool has_unstable_constants(const baum_study_entry *entry)
 {
   baum_amplification a;
@@ -199,7 +201,7 @@ static void judge_entry(const pair *p, int32_t k, catalog_tally *t)
   catalog_tally_add(t, &one);
 }
 
-/* Number of entries of an integrator with a formulation. */
+/* Returns the number of entries of an integrator with a formulation. */
 static int count_entries(const baum_study *study, const baum_integrator *integrator,
                          baum_formulation formulation)
 {
@@ -214,8 +216,8 @@ static int count_entries(const baum_study *study, const baum_integrator *integra
   return count;
 }
 
-/* Counts the missing methods: every integrator has each of its formulations with all settings, and
- * BAUMGARTE with one rule and all constants. */
+/* Counts the methods without all their entries. Every integrator must have each of its formulations
+ * with all settings, and BAUMGARTE with the default rule and with all constant gains. */
 static int count_missing(const baum_study *study, const baum_study_grid *grid)
 {
   int missing = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Preconditions of a test: calls that must not fail, a build with SUNDIALS. Include after
- * cmocka.h. */
+/* Checks preconditions of a test: calls that must not fail, and a build with SUNDIALS. Include
+ * after cmocka.h. */
 #ifndef BAUM_TEST_CHECK_H
 #define BAUM_TEST_CHECK_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks of definitions that must be refused, and of definitions that are read back. */
+/* Checks that wrong definitions are refused, and that definitions are read back unchanged. */
 #ifndef BAUM_TEST_DEFINITIONS_H
 #define BAUM_TEST_DEFINITIONS_H
 
@@ -8,17 +8,18 @@
 
 #include <baum/mechanism.h>
 
-/* The macros of math.h are floats, and clang warns of the conversion. */
+/* As doubles, because the macros of math.h are floats and clang warns of the conversion. */
 #define TEST_NAN      ((double)NAN)
 #define TEST_INFINITY ((double)INFINITY)
 
-/* The add function of a kind, without the id. */
+/* Adds an element of one kind without returning its id. */
 typedef baum_status add_fn(baum_mechanism *mechanism, const void *def);
 
-/* Adding the definition fails with BAUM_ERR_ARGUMENT and this message, and adds nothing. */
+/* Checks that adding the definition fails with BAUM_ERR_ARGUMENT and this message, and adds
+ * nothing. */
 void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *message);
 
-/* One number of a good definition is replaced by a bad value. */
+/* A bad value that replaces one number of a good definition. */
 typedef struct bad_number {
   size_t offset;
   double value;
@@ -28,15 +29,15 @@ typedef struct bad_number {
 void check_bad_numbers(baum_mechanism *mechanism, add_fn *add, const void *good, size_t size,
                        const bad_number *numbers, int count);
 
-/* Compares two definitions; names are compared as text. */
+/* Compares two definitions byte by byte, but their names as text. */
 void check_same_definition(const void *got, const void *want, size_t size);
 
 /* Size of a definition up to its last member, without padding at its end. */
 #define FILLED_SIZE(NAME, LAST) \
   (offsetof(baum_##NAME##_def, LAST) + sizeof(((baum_##NAME##_def *)0)->LAST))
 
-/* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY: body, joint, force;
- * NAME as in baum_NAME_def, LAST its last member. */
+/* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY is body, joint or
+ * force; NAME is that of baum_NAME_def, and LAST its last member. */
 #define CHECK_ROUND_TRIP(FAMILY, NAME, LAST, mechanism, first, second)                          \
   do {                                                                                          \
     baum_##FAMILY##_id id_;                                                                     \

@@ -23,7 +23,7 @@ static struct {
   baum_integrator ida;
 } dense;
 
-/* Clones a vector without memory for its numbers. */
+/* Clones a vector without allocating memory for its numbers. */
 static N_Vector clone_empty(N_Vector like)
 {
   N_Vector vector = N_VCloneEmpty_Serial(like);

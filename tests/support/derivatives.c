@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives are compared with differences of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h
- * with h = 1e-3. The truncation error h^4 f''''' / 30 is 3e-14 times the fifth derivative, rounding
- * about 1e-12 times f. Both f and its fifth derivative may be some thousands at the states that
- * test_point_random() makes, hence the tolerance of 1e-8, absolute and relative. */
+/* Compares derivatives with differences of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with
+ * h = 1e-3. The truncation error is h^4 f''''' / 30, 3e-14 times the fifth derivative; rounding
+ * errors are about 1e-12 f. At the states of test_point_random() f and its fifth derivative may be
+ * several thousand, hence the tolerance of 1e-8, absolute and relative. */
 #include "derivatives.h"
 
 #include <setjmp.h>
@@ -20,11 +20,11 @@ static const double TOLERANCE = 1e-8;
 
 enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
 
-/* Fixed arguments of the functions below, so that these are functions of the state only. */
+/* Fixed arguments of the functions below, which are then functions of the state only. */
 typedef struct directions {
   double w[TEST_SIZE_MAX];
   double lambda[TEST_SIZE_MAX];
-  int coordinate; /* number of it, of the first joint */
+  int coordinate; /* number of the coordinate of the first joint */
 } directions;
 
 typedef void state_fn(test_point *p, const directions *d, double *out);
@@ -87,7 +87,7 @@ static void spread_force_squares(const test_point *p, const double *blocks, doub
 
 /* ---- functions of the state ---- */
 
-/* Fills with NaN, so that a function that adds to old values, or leaves one out, is noticed. */
+/* Fills with NaN, to detect functions that add to old values or do not set a value. */
 static void spoil(double *values, int count)
 {
   for (int i = 0; i < count; i++) {
@@ -153,7 +153,7 @@ static void jtl_of(test_point *p, const directions *d, double *out)
   }
 }
 
-/* Phi' */
+/* Computes Phi' = J v - nu. */
 static void rate_of(test_point *p, const directions *d, double *out)
 {
   double nu[TEST_SIZE_MAX];
@@ -186,7 +186,7 @@ static baum_i_coordinate coordinate_at(const test_point *p, const directions *d)
   return c;
 }
 
-/* Copies columns of the joint's bodies to all nv columns, and back. */
+/* Copies the columns of the first joint's bodies to all nv columns. wide_of() does the reverse. */
 static void spread_wide(const test_point *p, const double *wide, double *full)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
@@ -245,7 +245,7 @@ static void evaluate_at(test_point *p, const test_point *from, double step,
   fn(p, d, out);
 }
 
-/* Derivative of a function of (t, q, v) along a direction. */
+/* Computes the derivative of fn(t, q, v) along a direction. */
 static void slope(test_point *p, const double direction[1 + 2 * TEST_SIZE_MAX], state_fn *fn,
                   const directions *d, int count, double *out)
 {
@@ -285,7 +285,8 @@ static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *f
   }
 }
 
-/* sign * values is the derivative of fn in time, the positions moving with v if asked, v held. */
+/* Checks that sign * values is the time derivative of fn at constant v: with q' = v if `moving`,
+ * else at constant q. */
 static void check_in_time(test_point *p, const char *what, bool moving, state_fn *fn,
                           const directions *d, int count, double sign, const double *values)
 {
@@ -328,7 +329,7 @@ static void linearize_joints(test_point *p, const directions *d, const baum_i_jo
   assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, d->w, d->lambda, blocks), BAUM_OK);
 }
 
-/* A block is the same whether it is requested alone or with the others. */
+/* Checks that every block is the same whether it is requested alone or with the others. */
 static void check_blocks_alone(test_point *p, const directions *d, const joint_arrays *all)
 {
   size_t rows = (size_t)p->mechanism->jacobian_size * sizeof(double);

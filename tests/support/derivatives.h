@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the derivatives of a mechanism's elements with differences at the present state. */
+/* Compares derivatives of the elements of a mechanism with differences, at the present state. */
 #ifndef BAUM_TEST_DERIVATIVES_H
 #define BAUM_TEST_DERIVATIVES_H
 
 #include "point.h"
 
-/* J, nu, gamma and the blocks of linearize of all joints. */
+/* Checks J, nu, gamma and the blocks of linearize() of all joints. */
 void check_joint_derivatives(test_point *p);
 
-/* Gradient, rate, gamma and the blocks of all coordinates of the joint that was added first. */
+/* Checks gradient, rate, gamma and the blocks of all coordinates of the first joint. */
 void check_coordinate_derivatives(test_point *p);
 
-/* force_q and force_v of all forces. */
+/* Checks force_q and force_v of all forces. */
 void check_force_derivatives(test_point *p);
 
-/* The gradient of the potential is minus the force at rest. */
+/* Checks that the force at rest is minus the gradient of the potential. */
 void check_potential_gradient(test_point *p);
 
 #endif

@@ -26,7 +26,7 @@ static baum_mechanism *begin(void)
   return mechanism;
 }
 
-/* A rod that begins at a point and has a length and an angle; its origin is its middle. */
+/* Adds a rod from a point, with a length and an angle. Its centre of mass is its middle. */
 static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
                             double length, double angle)
 {
@@ -121,7 +121,7 @@ baum_mechanism *slider_crank_make(const slider_crank *data)
   return freeze(mechanism);
 }
 
-/* x = r cos + branch D, D = sqrt(l^2 - u^2), u = r sin - e */
+/* x = r cos(angle) + branch D with D = sqrt(l^2 - u^2), u = r sin(angle) - e. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3])
 {
   double rate = data->drive.rate;
@@ -164,8 +164,8 @@ static const double COUPLER = 3.0;
 static const double ROCKER = 2.5;
 static const double FRAME = 2.8;
 
-/* Finds the joint of coupler and rocker that is above the line from the crank's tip to the rocker's
- * foot. */
+/* Finds the tip of the crank and the joint of coupler and rocker (knee). Of the two possible knees
+ * it takes the one above the line from the tip to the rocker's foot. */
 static void find_knee(double angle, double tip[2], double knee[2])
 {
   tip[0] = CRANK * cos(angle);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose driver leaves no degree of freedom, with their motion in closed form. Public
- * interface only. */
+/* Mechanisms whose driver leaves no degree of freedom, and their motion in closed form. Uses the
+ * public interface only. */
 #ifndef BAUM_TEST_DRIVEN_H
 #define BAUM_TEST_DRIVEN_H
 
 #include <baum/baum.h>
 
-/* Drives the crank to angle + rate t, or by a law. */
+/* What drives the crank: angle + rate t, or a law. */
 typedef struct drive {
-  double angle; /* [rad] at the design configuration */
+  double angle; /* [rad] in the design configuration */
   double rate;  /* [rad/s] */
   baum_law_fn *law;
   void *user;
@@ -16,7 +16,8 @@ typedef struct drive {
 
 /* ---- slider-crank: crank r from the origin, rod l, slider on y = e ----
  *
- * q = (x, y, angle) of crank, rod, slider. Branch 1: the rod points towards +x, -1: towards -x. */
+ * q = (x, y, angle) of crank, rod and slider. On branch 1 the rod points towards +x, on branch -1
+ * towards -x. */
 
 enum { SLIDER_X = 6, SLIDER_NV = 9 };
 
@@ -31,28 +32,28 @@ typedef struct slider_crank {
 baum_mechanism *slider_crank_make(const slider_crank *data);
 /* Adds a slider-crank to an open mechanism. */
 void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
-/* x of the slider, its velocity and acceleration at a crank angle with constant angular
- * velocity. */
+/* Computes x of the slider, its velocity and its acceleration, at a crank angle and the constant
+ * angular velocity data->drive.rate. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
-/* Smallest difference between this crank angle and one at which the rod is perpendicular to the
- * guide; INFINITY if there is none. There the crank locks if the rod is too short. */
+/* Returns the smallest difference between this crank angle and one at which the rod is
+ * perpendicular to the guide, where the crank locks if the rod is too short. INFINITY if there is
+ * no such angle. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----
  *
- * q = (x, y, angle) of crank, coupler, rocker. A crank-rocker, whose crank can make full
- * revolutions. */
+ * q = (x, y, angle) of crank, coupler and rocker. The crank can make full revolutions. */
 
 enum { ROCKER_ANGLE = 8 };
 
 baum_mechanism *four_bar_make(const drive *motor);
-/* Angle of the rocker, up to revolutions. */
+/* Returns the angle of the rocker, up to multiples of 2 pi. */
 double four_bar_rocker(double angle);
 
 /* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a
  * redundant row ----
  *
- * q = (x, y, angle) of coupler and cranks. */
+ * q = (x, y, angle) of the coupler and of the three cranks. */
 
 enum { PARALLELOGRAM_NV = 12 };
 

@@ -16,9 +16,9 @@
 
 static const double CIRCLE_RADIUS = 0.3;
 static const double CRANK_ANGLE = 0.5;
-static const double BLOCK_ANGLE = 0.1; /* of all blocks, so that none is horizontal */
+static const double BLOCK_ANGLE = 0.1; /* of all blocks: none is horizontal */
 
-/* Counts a call; if it has to fail, puts a NaN into `out` or returns the answer of the fault. */
+/* Counts a call. If the call has to fail, puts a NaN into `out` or returns fault->answer. */
 static int answer(void *user, double t, double *out)
 {
   every_fault *fault = user;
@@ -36,7 +36,8 @@ static int answer(void *user, double t, double *out)
   return fault->answer;
 }
 
-/* q: slider (x, y, angle) and bob (x, y). */
+/* Keeps the bob on a circle about the slider. q is (x, y, angle) of the slider, then (x, y) of the
+ * bob. */
 static int circle_phi(double t, const double *q, double *out, void *user)
 {
   double x = q[3] - q[0];
@@ -123,7 +124,8 @@ static int drag_force_v(double t, const double *q, const double *v, const double
   return answer(user, t, out);
 }
 
-/* Position of the bead in the slot of the disc; the law has no time argument. */
+/* The position of the bead in the slot of the disc, as a function of the crank's angle. The law has
+ * no time argument, so it ignores fault->after. */
 static int lead_law(double x, double f[3], void *user)
 {
   f[0] = 0.05 + 0.02 * sin(x - CRANK_ANGLE);
@@ -132,7 +134,7 @@ static int lead_law(double x, double f[3], void *user)
   return answer(user, -(double)INFINITY, f);
 }
 
-/* The curve y = 2 x^2 - 0.1; without time argument either. */
+/* The curve y = 2 x^2 - 0.1. Ignores fault->after too, because it has no time argument. */
 static int track_curve(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];
@@ -420,7 +422,7 @@ static baum_status add_bead(every_element *parts, const char *name, const double
   return baum_mechanism_add_planar_particle(parts->mechanism, &def, id);
 }
 
-/* Adds disc, bar, bead and pea with axle and rail. */
+/* Adds disc, bar, bead and pea, and the joints axle and rail. */
 static baum_status add_train(every_element *parts)
 {
   baum_planar_revolute_def axle = baum_planar_revolute_def_default();
@@ -457,7 +459,7 @@ static baum_status add_train(every_element *parts)
            : status;
 }
 
-/* Adds the wheel and its hinge, which the spline drives. */
+/* Adds the wheel and its hinge, which the spline driver moves. */
 static baum_status add_wheel(every_element *parts)
 {
   baum_planar_revolute_def hinge = baum_planar_revolute_def_default();
@@ -487,7 +489,8 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
-/* Indices of kinds: the first joint of the train, the spline driver, the first one in space. */
+/* Indices of kinds that need additional bodies: the first joint of the train, the spline driver,
+ * and the first kind in space. */
 enum { EVERY_WITHOUT_TRAIN = 13, EVERY_WITHOUT_WHEEL = 18, EVERY_WITHOUT_SPACE = 19 };
 
 /* Adds the first `count` kinds, and the bodies that they need. */

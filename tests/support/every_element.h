@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism with an element of every kind, and a table of the kinds for tests of the interface.
+/* One mechanism with an element of every kind, and a table of all kinds, for tests of the
+ * interface.
  *
- *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
- *   a circle about the slider (user constraint); two masses in a row (user coordinates);
- *   spring, load, drag (user force), torsion spring; disc on an axle, geared with the crank; bar
- *   on a rail, a rack on the disc; bead in a slot of the disc, where the crank's angle puts it
- *   (coupling); pea on a curve of the bar; a wheel on a hinge that is driven along a spline
- *   (cam);
- *   in space: shaft in a bearing; yoke on a cross of it, with a shoe on a plane; ram on a slide;
- *   top in a socket of the shaft and on a table of the ram; tube in a sleeve, cap clamped to it;
- *   ball on a wire of the yoke, on a strut of the cap; coil (spring), push (load),
- *   winding (joint spring of the sleeve).
+ * Planar: a driven crank with a rod and a slider on a guide, and a tool welded to the slider; a bob
+ * on a circle about the slider (user constraint); two masses in a row (user coordinates); a spring,
+ * a load, a drag (user force), a torsion spring; a disc on an axle, geared with the crank; a bar on
+ * a rail, whose rack is in mesh with the disc; a bead in a slot of the disc, positioned by the
+ * crank's angle (coupling); a pea on a curve of the bar; a wheel on a hinge that is driven along a
+ * spline (cam).
  *
- * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes first
- * and has 26, 26, 22 and 4 of them. The design configuration fulfils all rows except that of cam.
+ * In space: a shaft in a bearing; a yoke on a universal joint of the shaft, with a shoe on a plane;
+ * a ram on a slide; a top in a socket of the shaft and on a table of the ram; a tube in a sleeve,
+ * with a cap clamped to it; a ball on a wire of the yoke and on a strut of the cap; coil (spring),
+ * push (load), winding (joint spring of the sleeve).
+ *
+ * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes
+ * first; its numbers are 26, 26, 22 and 4. The design configuration fulfils all rows except that of
+ * cam.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -22,18 +25,19 @@
 
 #include "mechanism/kinds.h"
 
-/* An id of any kind. */
+/* The id of an element of any kind. */
 typedef struct any_id {
   int32_t index1;
   uint32_t tag;
 } any_id;
 
-/* Makes the functions of the elements fail, and counts their calls. All zero: they do not fail. */
+/* Makes the functions of the elements fail, and counts their calls. If all fields are zero they do
+ * not fail. */
 typedef struct every_fault {
-  int answer;    /* return value of a failing call; 0: it gives NaN instead */
+  int answer;    /* return value of a failing call; 0: it sets NaN instead */
   bool fails;    /* whether calls fail */
   double after;  /* a call fails if t is above this */
-  int64_t from;  /* if > 0, calls fail from this one on, whatever t is */
+  int64_t from;  /* if > 0, calls fail from this number on, at any t */
   int64_t calls; /* number of calls of all functions */
 } every_fault;
 
@@ -88,7 +92,7 @@ typedef struct every_element {
   baum_force_id coil;
   baum_force_id push;
   baum_force_id winding;
-  baum_input_id throttle;        /* of load and push, 1 at first */
+  baum_input_id throttle;        /* of load and push, initially 1 */
   every_fault *fault;            /* `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* arrays for the definitions */
   baum_body_id drag_bodies[1];
@@ -127,16 +131,16 @@ typedef struct element_field {
 
 typedef struct element_kind {
   const char *name;  /* baum_<name>_def */
-  const char *title; /* in messages */
+  const char *title; /* its name in messages */
   const char *family;
   size_t size;
   void (*init)(any_def *def, size_t caller_size);
   baum_status (*add)(baum_mechanism *mechanism, const any_def *def, any_id *id);
   baum_status (*get)(const baum_mechanism *mechanism, any_id id, any_def *out, size_t caller_size);
   baum_status (*set)(baum_mechanism *mechanism, any_id id, const any_def *def);
-  /* The definition that every_element_build() uses; the parts that it refers to must exist. */
+  /* Sets the definition that every_element_build() uses. The parts that it refers to must exist. */
   void (*good)(const every_element *parts, any_def *def);
-  size_t id; /* offset in every_element */
+  size_t id; /* offset of the id in every_element */
   const baum_i_definition *const *definition;
 } element_kind;
 
@@ -157,17 +161,17 @@ extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_o
 
 any_id every_element_id(const every_element *parts, const element_kind *kind);
 
-/* Builds the mechanism without freezing it; on failure there is none. Reads parts->fault and writes
- * the rest. */
+/* Builds the mechanism without freezing it; on failure leaves no mechanism. Reads parts->fault and
+ * writes all other fields. */
 baum_status every_element_build(every_element *parts);
 
-/* The frozen mechanism; fails the test on failure. */
+/* Builds and freezes the mechanism. Any failure fails the test. */
 every_element every_element_make(every_fault *fault);
 
-/* Only the planar part, for which nq = nv. */
+/* Likewise with the planar part only, for which nq = nv. */
 every_element every_element_make_planar(void);
 
-/* Whether an integrator supports the mechanism, which has dampers and a variable mass. */
+/* Tells whether an integrator supports the mechanism, which has dampers and a variable mass. */
 static inline bool every_element_suits(const baum_integrator *integrator)
 {
   return integrator != baum_rattle();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The definitions of every_element.c, for the table of kinds in every_element_kinds.c. */
+/* The definitions of every_element.c, which the table of kinds in every_element_kinds.c uses. */
 #ifndef BAUM_TEST_EVERY_ELEMENT_GOOD_H
 #define BAUM_TEST_EVERY_ELEMENT_GOOD_H
 
@@ -42,10 +42,10 @@ void good_spatial_spring(const every_element *parts, any_def *to);
 void good_spatial_load(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
 
-/* Adds the spatial bodies that are not an example of a kind; in every_element_spatial.c. */
+/* Adds the spatial bodies that are not the example of their kind. In every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 
-/* Use: GOOD(name) { return the definition, made with `parts`; } */
+/* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */
 #define GOOD(NAME)                                                 \
   static baum_##NAME##_def NAME##_def(const every_element *parts); \
   void good_##NAME(const every_element *parts, any_def *to)        \

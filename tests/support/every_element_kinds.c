@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fields of the options, and the table of all kinds with the fields of their definitions. */
+/* The fields of the simulation options, and the table of all kinds with the fields of their
+ * definitions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

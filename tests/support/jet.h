@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The value of a function of time and its first two derivatives, and vectors of these. */
+/* A jet is the value of a function of time and its first two derivatives. Also vectors of jets. */
 #ifndef BAUM_TEST_JET_H
 #define BAUM_TEST_JET_H
 
@@ -39,7 +39,7 @@ static inline jet jet_root(jet a)
   return (jet){{root, rate, (a.d[2] / 2 - rate * rate) / root}};
 }
 
-/* The angle of (c, s); its value is in double precision. */
+/* Returns the angle of (c, s). Its value has only double precision. */
 static inline jet jet_angle(jet c, jet s)
 {
   wide square = c.d[0] * c.d[0] + s.d[0] * s.d[0];

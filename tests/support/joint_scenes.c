@@ -18,7 +18,7 @@ static void need(baum_status status)
   }
 }
 
-/* Design pose of a body, and its initial angular velocity (NaN: free). */
+/* Design pose of a body, and its initial angular velocity (NaN: not given). */
 typedef struct placed {
   double x, y, angle, w;
 } placed;
@@ -97,7 +97,7 @@ static baum_joint_id slot(baum_mechanism *m, baum_body_id a, baum_body_id b, con
 
 /* ---- scenes ---- */
 
-/* Double pendulum. */
+/* A double pendulum. */
 static void revolute(baum_mechanism *m)
 {
   baum_body_id upper = body(m, "upper", (placed){0.2, 0.0, 0.0, 1.0});
@@ -175,7 +175,7 @@ static void spline_driver(baum_mechanism *m)
   need(baum_mechanism_add_spline_driver(m, &def, NULL));
 }
 
-/* y = 2 x^2 */
+/* The wire y = 2 x^2. */
 static int parabola(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -193,7 +193,7 @@ static int parabola_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Bead on a wire. */
+/* A bead on a wire. */
 static void user_constraint(baum_mechanism *m)
 {
   baum_body_id bead = particle(m, "bead", -0.3, 0.18);
@@ -206,7 +206,7 @@ static void user_constraint(baum_mechanism *m)
   need(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
-/* Quick return: the pin of a crank in the slot of a swinging arm. */
+/* A quick-return mechanism: the pin of a crank slides in the slot of a swinging arm. */
 static void pin_in_slot(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.0};
@@ -233,7 +233,7 @@ static void driver_in_slot(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-/* An unbalanced pinion above a sliding rack. */
+/* A pinion whose centre of mass is off its axis, above a sliding rack. */
 static void rack_and_pinion(baum_mechanism *m)
 {
   const double at[2] = {0.0, 0.0};
@@ -251,7 +251,7 @@ static void rack_and_pinion(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* A pinion that rolls down a slope, with its centre in a slot beside the rack. */
+/* A pinion that rolls down a sloping rack, with its centre in a slot parallel to the rack. */
 static void rolling(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.2};
@@ -269,7 +269,7 @@ static void rolling(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* Sun and planet gears on an arm, all unbalanced. */
+/* Sun and planet gears on an arm, all with their centres of mass off the axes. */
 static void gear(baum_mechanism *m)
 {
   baum_body_id sun = body(m, "sun", (placed){0.05, 0.0, 0.0, 4.0});
@@ -287,7 +287,7 @@ static void gear(baum_mechanism *m)
   need(baum_mechanism_add_planar_gear(m, &def, NULL));
 }
 
-/* A crank and a weight that slides vertically; the caller couples them. */
+/* Adds a crank and a weight that slides vertically, and returns a definition that couples them. */
 static baum_coupling_def crank_and_weight(baum_mechanism *m)
 {
   const double at[2] = {0.3, 0.0};
@@ -300,7 +300,7 @@ static baum_coupling_def crank_and_weight(baum_mechanism *m)
   return def;
 }
 
-/* A rope on a drum. */
+/* A weight on a rope that is wound on a drum. */
 static void coupling(baum_mechanism *m)
 {
   baum_coupling_def def = crank_and_weight(m);
@@ -317,7 +317,7 @@ static int lift(double x, double f[3], void *user)
   return 0;
 }
 
-/* A cam with two lobes. */
+/* A weight that a cam with two lobes lifts. */
 static void cam(baum_mechanism *m)
 {
   static double height = 0.03;
@@ -327,7 +327,8 @@ static void cam(baum_mechanism *m)
   need(baum_mechanism_add_coupling(m, &def, NULL));
 }
 
-/* ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20, whose gradient is between 0.5 and 1 on the ellipse. */
+/* The ellipse ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20 = 0. On it, the gradient has a length between
+ * 0.5 and 1. */
 static int ellipse(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -339,7 +340,7 @@ static int ellipse(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* A particle on the track of a swinging body. */
+/* A particle on the elliptic track of a swinging body. */
 static void curve(baum_mechanism *m)
 {
   baum_body_id track = body(m, "track", (placed){0.0, -0.2, 0.0, 1.0});

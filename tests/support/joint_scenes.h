@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small mechanism for each kind of joint: under gravity, in motion, with one or two degrees of
- * freedom. Tests of all joints use all of them. */
+/* A small mechanism for each kind of joint, with gravity, initial velocities and one or two degrees
+ * of freedom. Tests of all joints use them. */
 #ifndef BAUM_TEST_JOINT_SCENES_H
 #define BAUM_TEST_JOINT_SCENES_H
 
@@ -10,13 +10,13 @@ typedef struct joint_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism); /* fails the test on failure */
   int degrees_of_freedom;
-  bool conservative; /* energy is constant: nothing is driven */
+  bool conservative; /* energy is constant: no drivers */
 } joint_scene;
 
-enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* nv, nc */
+enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* of nv and nc */
 extern const joint_scene joint_scenes[JOINT_SCENES];
 
-/* Frozen; the caller destroys it. */
+/* Returns the frozen mechanism, which the caller destroys. */
 baum_mechanism *joint_scene_make(const joint_scene *scene);
 
 #endif

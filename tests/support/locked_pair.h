@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A bar on a pin to the ground, and a second bar that two pins hold to the first. Three of the four
- * rows of these pins suffice; which three changes twice per revolution. Include after cmocka.h. */
+/* A bar that is pinned to ground, and a second bar that two pins join rigidly to the first. One of
+ * the four rows of these pins is redundant; the best choice of the omitted row changes twice per
+ * revolution. Include after cmocka.h. */
 #ifndef BAUM_TEST_LOCKED_PAIR_H
 #define BAUM_TEST_LOCKED_PAIR_H
 
@@ -11,14 +12,12 @@ enum { LOCKED_NV = 6 };
 
 static inline baum_body_id locked_pair_bar(baum_i_parts *parts, double x, double y, double rate)
 {
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.inertia = 0.1;
-  return baum_i_parts_body(parts, &def, (const double[3]){x, y, 0.0},
-                           (const double[3]){-rate * y, rate * x, rate});
+  const baum_i_body_state at = {{x, y, 0.0}, {-rate * y, rate * x, rate}};
+  return baum_i_parts_body_at(parts, NULL, 1.0, 0.1, at, BAUM_I_GIVE_ALL);
 }
 
-/* With a rate [rad/s] above 6 the bars pass the top. welded: with a weld instead of the two
- * pins. */
+/* With an initial angular velocity `rate` above 6 rad/s the bars make full revolutions. `welded`
+ * replaces the two pins by a weld. */
 static inline baum_mechanism *locked_pair_make(double rate, bool welded)
 {
   baum_mechanism *m = NULL;

@@ -20,7 +20,7 @@ enum { SIZE = MANIFOLD_SIZE };
 
 /* ---- pins between turned bodies ---- */
 
-/* A pin that holds point b of the last body at point a of the first body, or of the ground. */
+/* A pin that joins point b of the last body to point a of the first body, or of ground. */
 typedef struct pin {
   bool to_ground;
   bool to_ordinary; /* the last body has an angle instead of (cos, sin) */
@@ -65,7 +65,7 @@ static void put_side(const double *c, const double s[2], double sign, int first,
   out[columns + first + 2] = sign * arm[0];
 }
 
-/* The Jacobian with respect to velocities, of turned bodies only. */
+/* Computes the Jacobian with respect to velocities. For pins between turned bodies only. */
 static int pin_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -185,7 +185,8 @@ static void translate_angle(const double *twin_q, double *q)
 
 static manifold_body rod = {.mass = 1.5, .inertia = {0.2}};
 static pin hinge = {.to_ground = true, .b = {-0.5, 0.1}};
-/* Puts the rod at the angle 0.4 with its point b at the origin; v corresponds to -4 rad/s. */
+/* Places the rod at the angle 0.4 rad with its point b at the origin. v are the velocities for -4
+ * rad/s. */
 static void place_rod(double *x, double *y, double v[3])
 {
   double arm[2] = {0.0, 0.0};
@@ -231,7 +232,8 @@ static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
 static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
 static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
 static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
-/* Pins of a coupler as long as the crank: branches cross where the slider is at the main pin. */
+/* Pins of a coupler that is as long as the crank. The configurations in which the slider is at the
+ * main pin are bifurcations. */
 static pin short_crank_pin = {.a = {0.5, 0.0}, .b = {-0.5, 0.0}};
 static pin short_slider_pin = {.a = {0.5, 0.0}, .b = {0.0, 0.0}};
 /* The crank starts at 1 rad with 4 rad/s. */
@@ -244,7 +246,8 @@ typedef struct crank_place {
   double slider;
 } crank_place;
 
-/* Places the bodies for a crank angle; `half` is half the length of the coupler. */
+/* Computes the positions of the bodies for a crank angle. `half` is half the length of the
+ * coupler. */
 static crank_place place_crank(double angle, double half)
 {
   crank_place p = {.crank = {0.5 * cos(angle), 0.5 * sin(angle)}};
@@ -255,7 +258,7 @@ static crank_place place_crank(double angle, double half)
   return p;
 }
 
-/* The slider's rows: y = 0 and sin = 0. */
+/* The two rows of the slider: y = 0 and sin(angle) = 0. */
 static int rail_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -275,7 +278,7 @@ static void add_rail(baum_mechanism *mechanism, const baum_body_id *body)
   check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
 }
 
-/* Into ids. */
+/* Builds the slider-crank and sets ids. */
 static void build_crank_of(baum_mechanism *mechanism, double half, baum_body_id ids[3])
 {
   crank_place p = place_crank(CRANK, half);
@@ -300,7 +303,7 @@ static void build_short_crank(baum_mechanism *mechanism)
   build_crank_of(mechanism, 0.5, ids);
 }
 
-/* sin(crank - CRANK - 4 t) */
+/* Drives the crank by sin(angle - CRANK - 4 t) = 0. */
 static int driver_phi(double t, const double *q, double *out, void *user)
 {
   (void)user;

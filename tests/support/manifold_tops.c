@@ -14,7 +14,7 @@
 #include "manifold_bodies.h"
 #include "rotation.h"
 
-/* A body that rotates about a fixed point at the origin. */
+/* A body that rotates about a fixed point, the origin. */
 typedef struct top {
   manifold_body body;
   double point[3]; /* fixed point relative to the centre of mass, in body axes */
@@ -45,7 +45,7 @@ static int point_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The columns are A (w x s) = -A [s]x w. */
+/* The velocity of the fixed point is r' + A (w x s), so its columns for w are A (e_j x s). */
 static int point_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -126,8 +126,8 @@ void manifold_build_ball(baum_mechanism *mechanism)
   build_top(mechanism, &ball, true);
 }
 
-/* (J0 w)' = (J0 w) x w + moment of the weight about the fixed point, with J0 = I + m (s.s - s
- * s^T). */
+/* Euler's equations about the fixed point: J0 w' = (J0 w) x w + moment of the weight, with J0 = I +
+ * m (s.s - s s^T). */
 static void top_rates(const top *of, const double y[7], double dy[7])
 {
   const double *s = of->point;
@@ -172,7 +172,7 @@ static void top_rates(const top *of, const double y[7], double dy[7])
   quaternion_product(y, z, dy);
 }
 
-/* The classical Runge-Kutta method with steps of 1/20000 s. */
+/* Integrates to t by the classical Runge-Kutta method with steps of 1/20000 s. */
 static void solve_top(const top *of, double t, double y[7])
 {
   static const double SHARE[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies with a unit quaternion that rotate about a fixed point: a free top, a heavy top held
- * by three user constraints, with and without their Jacobian, and a ball. Their solutions are
- * integrated here. */
+/* Rigid bodies with a unit quaternion that rotate about a fixed point: a free top, a heavy top that
+ * three user constraints hold (with or without their Jacobian), and a ball. The solve functions
+ * integrate the reference motions. */
 #ifndef BAUM_TEST_MANIFOLD_TOPS_H
 #define BAUM_TEST_MANIFOLD_TOPS_H
 
@@ -12,7 +12,7 @@ void manifold_solve_free_top(double t, double *q);
 void manifold_build_heavy_top(baum_mechanism *mechanism);
 void manifold_build_given_top(baum_mechanism *mechanism);
 void manifold_solve_heavy_top(double t, double *q);
-/* The heavy top as a spatial body on a spherical joint. */
+/* Builds the heavy top as a spatial body on a spherical joint. */
 void manifold_build_spatial_top(baum_mechanism *mechanism);
 void manifold_build_ball(baum_mechanism *mechanism);
 void manifold_solve_ball(double t, double *q);

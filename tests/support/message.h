@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares status and message of a refused call. Include after cmocka.h. */
+/* Checks the status and the message of a refused call. Include after cmocka.h. */
 #ifndef BAUM_TEST_SENTENCE_H
 #define BAUM_TEST_SENTENCE_H
 
@@ -7,7 +7,8 @@
 
 #include <baum/status.h>
 
-/* The status is `want`, and this thread's message contains all parts, which '|' separates. */
+/* Asserts that the status is `want` and that this thread's message contains all parts, which '|'
+ * separates. */
 #define ASSERT_SAYS(status, want, parts) \
   assert_says_((status), (want), (parts), baum_message(), #status, __FILE__, __LINE__)
 

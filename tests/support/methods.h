@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed-step methods as src/stabilization represents them, and reproducible random numbers. */
+/* Fixed-step methods as src/stabilization describes them, and reproducible random numbers. */
 #ifndef BAUM_TEST_METHODS_H
 #define BAUM_TEST_METHODS_H
 
@@ -58,7 +58,8 @@ static inline baum_amplification amplification_at(int method, double alpha_h, do
   return out;
 }
 
-/* A uniform random number in [low, high): linear congruential generator (Knuth, MMIX). */
+/* Returns a uniform random number in [low, high), by a linear congruential generator (Knuth,
+ * MMIX). */
 static inline double uniform(uint64_t *seed, double low, double high)
 {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;

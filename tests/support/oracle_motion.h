@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluates joints of the oracle (spatial_oracle.h) along motions, with time derivatives. */
+/* Evaluates joints of the oracle (spatial_oracle.h) along a motion, with time derivatives. */
 #ifndef BAUM_TEST_ORACLE_MOTION_H
 #define BAUM_TEST_ORACLE_MOTION_H
 
 #include "jet.h"
 #include "spatial_oracle.h"
 
-/* Position of a body and the columns of A, with time derivatives. */
+/* The position of a body and the columns of its rotation matrix A, with time derivatives. */
 typedef struct motion {
   jet r[3];
   jet axes[3][3];
@@ -26,19 +26,20 @@ static inline void cross3(const wide a[3], const wide b[3], wide out[3])
   }
 }
 
-/* Index of a body's k-th velocity among the six velocities of a spatial body. */
+/* Returns the index of a body's k-th velocity among the six velocities of a spatial body. */
 int oracle_six_of(const oracle_body *body, int k);
 
 /* Returns the motion of a body at constant velocities. */
 motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6]);
 
-/* A s */
+/* Computes A s. */
 void oracle_turned(const motion *m, const wide s[3], jet out[3]);
 
 /* Evaluates a coordinate of a joint. */
 jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bodies);
 
-/* Evaluates all rows of a joint and returns their number. With flow 0, drivers stand still. */
+/* Evaluates all rows of a joint and returns their number. With flow = 0 the prescribed values of
+ * drivers are constant in time. */
 int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
                    double t, int flow, jet out[ORACLE_ROWS]);
 

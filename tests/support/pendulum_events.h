@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body on a pin whose motion between events is known in closed form. It hangs at angle 0, is
- * released at rest at an angle below pi, and passes 0 at odd multiples of a quarter period. Include
- * after cmocka.h. */
+/* A pendulum whose event times are known in closed form. It hangs down at angle 0, starts at rest
+ * at an angle below pi, and passes angle 0 at odd multiples of a quarter period. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_PENDULUM_EVENTS_H
 #define BAUM_TEST_PENDULUM_EVENTS_H
 
@@ -15,7 +15,8 @@ typedef struct swing {
   double quarter; /* [s] */
 } swing;
 
-/* K(sin(angle / 2)) = pi / (2 agm(1, cos(angle / 2))) (Abramowitz, Stegun 1964, 17.6.3). */
+/* Returns the quarter period K(sin(angle / 2)) / rate, where `rate` is the angular frequency of
+ * small swings and K = pi / (2 agm(1, cos(angle / 2))) (Abramowitz, Stegun 1964, 17.6.3). */
 static inline double quarter_of(double angle, double rate)
 {
   double a = 1.0;
@@ -28,8 +29,8 @@ static inline double quarter_of(double angle, double rate)
   return acos(-1.0) / (2.0 * a * rate);
 }
 
-/* A body of 1 kg, 1 m below the pin, with 0.25 kg m^2: small swings have sqrt(9.81 / 1.25)
- * rad/s. */
+/* Makes a body of 1 kg and 0.25 kg m^2, whose centre is 1 m from the pin. The angular frequency of
+ * small swings is sqrt(9.81 / 1.25) rad/s. */
 static inline swing swing_make(double angle)
 {
   swing s = {.mechanism = NULL};

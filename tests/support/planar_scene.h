@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two planar bodies and two particles at different places, to be connected by joints and forces. */
+/* A mechanism of two planar bodies and two particles at different places, between which tests add
+ * joints and forces. */
 #ifndef BAUM_TEST_PLANAR_SCENE_H
 #define BAUM_TEST_PLANAR_SCENE_H
 
@@ -18,18 +19,20 @@ typedef struct planar_scene {
 
 planar_scene planar_scene_make(void);
 
-/* A point of a body or of ground in its own axes, away from the origin unless it is a particle. */
+/* Returns a point in the axes of a body or of ground. It is not the origin, except for
+ * particles. */
 void planar_scene_arm(const planar_scene *scene, baum_body_id body, double arm[2]);
 
 /* Adds the element to test between two bodies. */
 typedef void planar_add_fn(planar_scene *scene, baum_body_id a, baum_body_id b);
 typedef void planar_check_fn(test_point *p);
 
-/* For every pair of bodies, ground, and particles if allowed, at 20 random states. Each mechanism
- * has the element twice: first between the pair, then between crank and ground. */
+/* Runs `check` for every pair of bodies, including ground and, if allowed, particles, at 20 random
+ * states. Each mechanism has the element twice: first between the pair, then between crank and
+ * ground. */
 void for_each_planar_pair(planar_add_fn *add, bool particles, planar_check_fn *check);
 
-/* Sets the two points of a definition. */
+/* Sets the two bodies and the two points of a definition. */
 #define PLANAR_BETWEEN(scene, def, a, b)            \
   do {                                              \
     (def)->body_a = (a);                            \

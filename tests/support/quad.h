@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of quadruple precision, or the longest available. */
+/* Numbers in quadruple precision, or in the longest type available. */
 #ifndef BAUM_TEST_QUAD_H
 #define BAUM_TEST_QUAD_H
 
@@ -14,8 +14,8 @@ static inline wide wide_size(wide x)
   return x < 0 ? -x : x;
 }
 
-/* Square root: Newton's iteration from the root in double precision, which has at least a quarter
- * of the digits. */
+/* Returns the square root, by Newton's iteration from the root in double precision, which has at
+ * least a quarter of the digits. */
 static inline wide wide_root(wide x)
 {
   wide root = (wide)__builtin_sqrt((double)x);

@@ -63,7 +63,7 @@ static bool factor_mass(const quad_equations *s)
   return true;
 }
 
-/* x := L^-1 x */
+/* Replaces x by L^-1 x. */
 static void solve_lower(const quad_equations *s, wide *x)
 {
   for (int i = 0; i < s->nv; i++) {
@@ -72,7 +72,7 @@ static void solve_lower(const quad_equations *s, wide *x)
   }
 }
 
-/* x := L^-T x */
+/* Replaces x by L^-T x. */
 static void solve_upper(const quad_equations *s, wide *x)
 {
   for (int i = s->nv - 1; i >= 0; i--) {
@@ -135,8 +135,8 @@ static void bring_up(const quad_equations *s, int k, int best)
   s->order[best] = kept;
 }
 
-/* Subtracts from all later columns their part along column k, which has unit length; twice, because
- * rounding of the first pass leaves a part. */
+/* Subtracts from all later columns their component along column k, which has unit length. Does this
+ * twice, because rounding leaves a component in the first pass. */
 static void take_out(const quad_equations *s, int k)
 {
   const wide *q = column(s, k);
@@ -152,7 +152,8 @@ static void take_out(const quad_equations *s, int k)
   }
 }
 
-/* Returns the length of the column that is too short to continue, or 0 if all columns are used. */
+/* Computes Q and R with pivoting. Stops if the remaining columns are dependent, and returns the
+ * length of the longest of them; returns 0 if all columns are independent. */
 static wide factor_rows(const quad_equations *s, int *rank)
 {
   for (int k = 0; k < s->nc; k++) {
@@ -181,7 +182,7 @@ static wide factor_rows(const quad_equations *s, int *rank)
 
 /* ---- solution ---- */
 
-/* Solves with R^T of the first `rank` rows and columns. */
+/* Solves R^T x with the first `rank` rows and columns of R. */
 static void solve_transposed(const quad_equations *s, int rank, wide *x)
 {
   for (int k = 0; k < rank; k++) {
@@ -192,7 +193,7 @@ static void solve_transposed(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* Solves with R likewise. */
+/* Solves R x likewise. */
 static void solve_straight(const quad_equations *s, int rank, wide *x)
 {
   for (int i = rank - 1; i >= 0; i--) {
@@ -203,7 +204,7 @@ static void solve_straight(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* Ten inverse iterations with R^T R; accurate to one or two digits. */
+/* Ten inverse iterations with R^T R. The result is accurate to one or two digits. */
 static wide smallest_singular_value(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -223,7 +224,7 @@ static wide smallest_singular_value(const quad_equations *s, int rank)
   return 1 / wide_root(size);
 }
 
-/* Moves y from L^-1 g to the nearest point that fulfils the independent rows. */
+/* Moves y, which is L^-1 g, to the nearest point that fulfils the independent rows. */
 static void move_onto_rows(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -239,7 +240,8 @@ static void move_onto_rows(const quad_equations *s, int rank)
   }
 }
 
-/* Conflict of the dependent rows, whose columns of W are Q times columns of R. */
+/* Returns the largest conflict |w^T y - c| of the dependent rows, where the column w of W is Q
+ * times a column of R. */
 static double largest_conflict(const quad_equations *s, int rank, wide size)
 {
   wide worst = 0;
@@ -298,7 +300,7 @@ bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out)
   return true;
 }
 
-/* Multipliers of the original rows, from those of the scaled rows in s->work. */
+/* Computes the multipliers of the original rows from those of the scaled rows in s->work. */
 static void unscale(const quad_equations *s, wide *lambda)
 {
   for (int k = 0; k < s->nc; k++) {
@@ -306,7 +308,7 @@ static void unscale(const quad_equations *s, wide *lambda)
   }
 }
 
-/* Solves W lambda = L^-1 g - y, projected onto Q. */
+/* Solves W lambda = L^-1 g - y in the space spanned by Q. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda)
 {
   wide *rest = s->work + s->nc;
@@ -361,7 +363,7 @@ static bool begin(quad_equations *s, read_equations *read, int nv, int nc)
 static bool solve(quad_equations *s, const read_equations *read, double *a, quad_rows *out)
 {
   size_t count = (size_t)(s->nv * s->nv + s->nc * s->nv + s->nv + s->nc);
-  for (size_t i = 0; i < count; i++) { /* mass, jacobian, force, gamma: both have this order */
+  for (size_t i = 0; i < count; i++) { /* both: mass, jacobian, force, gamma */
     s->mass[i] = read->mass[i];
   }
   wide *found = calloc((size_t)s->nv + 1, sizeof *found);

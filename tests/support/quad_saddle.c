@@ -18,11 +18,11 @@ typedef struct entry {
 typedef struct quad_system {
   int n; /* nv + nc */
   int nv;
-  entry *entries; /* of M and J; J^T is implied */
+  entry *entries; /* of M and J, without J^T */
   size_t count;
   size_t room;
   double *b;  /* (n) */
-  int *place; /* (n) position of each unknown in the elimination order */
+  int *place; /* (n) position of each unknown in the order of elimination */
   bool failed;
 } quad_system;
 
@@ -67,8 +67,8 @@ static void add(quad_system *s, int row, int column, double value)
 
 /* ---- order ---- */
 
-/* Sort key of an unknown: 2 i for velocity i; for a row of J, the sum of its first and last
- * velocity. */
+/* The sort key `at` of an unknown: 2 i for the velocity i; for a multiplier, the sum of the indices
+ * of the first and the last velocity in its row of J. */
 typedef struct seat {
   int at;
   int unknown;
@@ -119,8 +119,8 @@ static void find_order(quad_system *s)
 
 /* ---- elimination in a band ---- */
 
-/* Row i holds columns i - half to i + 2 half (the upper part is wider because of the pivoting),
- * then the right side. */
+/* A band matrix. Row i holds columns i - half to i + 2 half, then the right side. The upper part is
+ * wider because row exchanges for pivots fill it. */
 typedef struct band {
   int n;
   int half;
@@ -345,7 +345,7 @@ double quad_error(int count, const double *x, const double *want)
   double size = 0.0;
   for (int i = 0; i < count; i++) {
     double apart = fabs(x[i] - want[i]);
-    error = isnan(error) || apart <= error ? error : apart; /* NaN stays */
+    error = isnan(error) || apart <= error ? error : apart; /* keeps NaN */
     size = fmax(size, fabs(want[i]));
   }
   return size > 0.0 ? error / size : error;

@@ -5,9 +5,9 @@
  *   [ M  J^T ] [ a      ]   [ g     ]
  *   [ J   0  ] [ lambda ] = [ gamma ]
  *
- * The unknowns are ordered so that the matrix of a chain has a narrow band, whatever its length;
- * other matrices are eliminated like dense ones. Partial pivoting. No solver of the library is
- * used.
+ * The order of the unknowns gives the matrix of a chain a narrow band, whatever the length of the
+ * chain; other matrices are eliminated like dense ones. Elimination uses partial pivoting, and no
+ * solver of the library.
  */
 #ifndef BAUM_TEST_QUAD_SADDLE_H
 #define BAUM_TEST_QUAD_SADDLE_H
@@ -16,19 +16,19 @@
 
 #include "dynamics/dynamics.h"
 
-/* Both functions round (a, lambda) to double. They return false if the matrix is singular or memory
- * is missing. */
+/* Both functions round (a, lambda) to double. They return false if the matrix is singular or if
+ * memory is missing. */
 
-/* Reads dense J and M from a workspace: for some hundred coordinates. Omits the rows marked in
- * left_out (nc), which may be NULL; their lambda is 0. */
+/* Reads J and M as dense matrices from a workspace, for up to several hundred coordinates. Omits
+ * the rows that left_out (nc) marks, so their lambda is 0. left_out may be NULL. */
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *left_out, double *a, double *lambda);
 
-/* Reads the blocks of the workspace: for long chains. */
+/* Reads the blocks of the workspace instead, for long chains. */
 bool quad_acceleration_of_blocks(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *a, double *lambda);
 
-/* Largest |x_i - want_i| over the largest |want_i|. */
+/* Returns the largest |x_i - want_i|, relative to the largest |want_i|. */
 double quad_error(int count, const double *x, const double *want);
 
 #endif

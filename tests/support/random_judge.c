@@ -12,7 +12,7 @@
 
 #include "quad_rows.h"
 
-/* Dependent rows that contradict each other by more must be refused. */
+/* Dependent rows that contradict each other by more than this must be refused. */
 static const double CONTRADICTION = 1e-9;
 
 /* A configuration to test. */
@@ -54,7 +54,7 @@ static double error_of(const scene *s, const quad_rows *rows)
   double most = 0.0;
   for (int i = 0; i < s->nv; i++) {
     double apart = fabs(s->a[i] - s->want[i]);
-    most = apart <= most ? most : apart; /* NaN stays */
+    most = apart <= most ? most : apart; /* keeps NaN */
   }
   return rows->size > 0.0 ? most / rows->size : most;
 }
@@ -69,7 +69,8 @@ static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *
     return RANDOM_CONFLICT;
   }
   double error = error_of(s, rows);
-  /* library and oracle may omit different rows, which changes the result by the rows' conflict */
+  /* library and oracle may omit different rows; the results then differ by the conflict of the
+   * rows */
   double choice = dependent ? rows->conflict / rows->kept : 0.0;
   if (!(error <= RANDOM_ERROR + choice)) {
     return RANDOM_WRONG;

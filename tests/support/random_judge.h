@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the library's accelerations of random mechanisms with those in quadruple precision. */
+/* Compares accelerations of random mechanisms by the library with those in quadruple precision. */
 #ifndef BAUM_TEST_RANDOM_JUDGE_H
 #define BAUM_TEST_RANDOM_JUDGE_H
 
 #include "random_mechanism.h"
 
 typedef enum random_verdict {
-  RANDOM_MET,         /* within RANDOM_ERROR */
+  RANDOM_MET,         /* the error is within RANDOM_ERROR */
   RANDOM_REFUSED,     /* rightly refused: rows are dependent or nearly so */
   RANDOM_WRONG,       /* the error is larger */
   RANDOM_CONFLICT,    /* accepted, although omitted rows contradict the others */
@@ -14,22 +14,22 @@ typedef enum random_verdict {
   RANDOM_VERDICTS
 } random_verdict;
 
-/* Permitted error, relative to the largest acceleration with or without constraints. */
+/* Permitted error, relative to the largest acceleration, either with or without constraints. */
 static const double RANDOM_ERROR = 1e-9;
 
-/* Counts over all configurations so far. */
+/* Counts of all configurations so far. */
 typedef struct random_tally {
   long mechanisms;
   long poses;
   long counts[RANDOM_VERDICTS];
   long dependent; /* configurations with dependent rows and correct accelerations */
-  double worst;   /* largest error of RANDOM_MET configurations */
+  double worst;   /* largest error of all RANDOM_MET configurations */
   uint64_t worst_seed;
 } random_tally;
 
-/* Makes the mechanism of a seed in `room` and tests it: in its design configuration with
- * velocities, in another configuration on the constraints, and, if rows are independent, in one off
- * the constraints. Prints wrong results and false alarms. */
+/* Makes the mechanism of a seed in `room` and tests it with velocities: in its design
+ * configuration, in another configuration on the constraints and, if no rows are redundant, in one
+ * off the constraints. Prints wrong results and false alarms. */
 void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
 
 #endif

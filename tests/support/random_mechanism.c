@@ -396,8 +396,8 @@ static void add_rows(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'u', baum_mechanism_add_user_constraint(r->mechanism, &def, &id), id);
 }
 
-/* Returns a joint's coordinate in the design configuration. That of sliders and slots is 0, because
- * their points coincide. */
+/* Returns the coordinate of a joint in the design configuration. For sliders and slots it is 0,
+ * because their points coincide. */
 static double design_coordinate(const random_mechanism *r, int joint)
 {
   baum_planar_revolute_def def;
@@ -433,7 +433,7 @@ static void add_driver(random_mechanism *r, const random_kind *kind)
   def.joint = r->joints[k];
   def.law = sway;
   def.user = rows->at;
-  r->joint_kind[k] = 'x'; /* no second driver */
+  r->joint_kind[k] = 'x'; /* prevents a second driver */
   keep(r, 'v', baum_mechanism_add_driver(r->mechanism, &def, &id), id);
 }
 
@@ -520,7 +520,7 @@ static void add_load(random_mechanism *r)
   assert_int_equal(baum_mechanism_add_planar_load(r->mechanism, &def, &id), BAUM_OK);
 }
 
-/* Adds a spring between two bodies, but not to user coordinates, which have no points. */
+/* Adds a spring between two bodies, except to user coordinates, which have no points. */
 static void add_spring(random_mechanism *r)
 {
   chance *c = &r->chance;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random mechanisms: bodies of all kinds, a random graph of joints of all kinds between them and
- * ground, and loads. The design configuration fulfils all constraints; rows may be redundant. The
- * same seed gives the same mechanism on every machine. */
+/* Random mechanisms: bodies of all kinds, joints of all kinds in a random graph between bodies and
+ * ground, loads and springs. The design configuration fulfils all constraints. Rows may be
+ * redundant. The same seed gives the same mechanism on every machine. */
 #ifndef BAUM_TEST_RANDOM_MECHANISM_H
 #define BAUM_TEST_RANDOM_MECHANISM_H
 
@@ -18,7 +18,7 @@ typedef struct chance {
 
 chance chance_of(uint64_t seed);
 double chance_number(chance *c, double low, double high);
-/* The logarithm of the result is uniform. */
+/* Returns a number whose logarithm is uniform. */
 double chance_decade(chance *c, double low, double high);
 int chance_below(chance *c, int count);
 
@@ -33,7 +33,7 @@ typedef struct random_kind {
   double span;     /* masses are from 1/span to span */
   int loads;
   int springs;        /* number of attempts to add one; springs have dampers */
-  bool drivers_begin; /* drivers fit the design configuration at time `start` */
+  bool drivers_begin; /* at time `start` drivers prescribe the design configuration */
   double start;       /* [s] */
 } random_kind;
 
@@ -41,21 +41,22 @@ typedef struct random_kind {
 typedef struct random_body {
   baum_body_id id;
   char kind; /* 'g'round, 'b'ody, 'p'article, 'c'oordinates */
-  int size;  /* length of q */
+  int size;  /* number of coordinates in q */
   double q[RANDOM_SIZE];
-  double factor[RANDOM_SIZE * RANDOM_SIZE]; /* M = factor factor^T, M_00 times 1 + q_0^2 / 4 */
+  double factor[RANDOM_SIZE * RANDOM_SIZE]; /* M = factor factor^T; M_00 times 1 + q_0^2 / 4 */
   double force[RANDOM_SIZE];
   bool constant;
 } random_body;
 
-/* Phi_r = linear_r . d + square_r . d^2 / 2 with d = x - at; d^2 is element by element. */
+/* Random constraints: row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. d^2
+ * contains the squares of the elements of d. */
 typedef struct random_rows {
   int rows;
   int columns;
   double linear[RANDOM_ROWS][RANDOM_SPAN * RANDOM_SIZE];
   double square[RANDOM_ROWS][RANDOM_SPAN * RANDOM_SIZE];
   double at[RANDOM_SPAN * RANDOM_SIZE];
-  int fail_at; /* counts down to the call that fails; 0: none */
+  int fail_at; /* number of calls until one fails; 0: none fails */
   int answer;  /* return value of that call; 0: its results are NaN instead */
 } random_rows;
 

@@ -43,7 +43,7 @@ static void check(baum_status status)
 
 /* ---- bodies ---- */
 
-/* Chooses the inertia of an ellipsoid in random axes; one in six is nearly a rod. */
+/* Chooses the inertia tensor of an ellipsoid with random axes. One in six is nearly a rod. */
 static void choose_inertia(chance *c, double mass, double out[6])
 {
   double square[3];
@@ -148,8 +148,8 @@ static bool is_planar(const oracle_body *b)
 
 /* ---- joints: definitions ---- */
 
-/* Adds a joint whose definition has its first SIZE bytes in common with that of a revolute joint,
- * and copies these from `given`. */
+/* Adds a joint of kind NAME. Copies the first SIZE bytes of its definition, which are laid out as
+ * in that of a revolute joint, from `given`. */
 #define ADD(NAME, SIZE)                                                       \
   {                                                                           \
     baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default();      \
@@ -222,8 +222,9 @@ static void define_at_point(random_spatial *r, const double point[3], const doub
   }
 }
 
-/* Rounds a point in body axes to double precision, so that library and oracle use the same one. For
- * a particle the point becomes its position. */
+/* Moves a point, given in ground axes, so that its body-axis coordinates are exact in double
+ * precision: library and oracle then use the same point. For a particle the point becomes its
+ * position. */
 static void round_on_body(const oracle_body *body, wide point[3], double out[3])
 {
   wide s[3];
@@ -235,7 +236,7 @@ static void round_on_body(const oracle_body *body, wide point[3], double out[3])
   oracle_to_ground(body, s, point);
 }
 
-/* Defines a joint by points and axes on both bodies; `apart` is the vector from body_a's point to
+/* Defines a joint by points and axes on both bodies. `apart` is the vector from body_a's point to
  * body_b's. */
 static void define_on_bodies(random_spatial *r, const double point[3], const double axis[3],
                              const double apart[3], oracle_joint *joint,
@@ -365,7 +366,8 @@ static void add_joint_at(random_spatial *r, oracle_kind kind, const int bodies[2
   add_defined(r, &def, joint);
 }
 
-/* Chooses a kind that both bodies support. Two of three joints that close loops have few rows. */
+/* Chooses a kind of joint that both bodies support. Of the joints that close loops, two of three
+ * have few rows. */
 static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
 {
   static const oracle_kind few[] = {ORACLE_SPHERICAL, ORACLE_UNIVERSAL, ORACLE_PLANAR,
@@ -387,7 +389,8 @@ static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
                                         : (oracle_kind)chance_below(c, ORACLE_JOINT_KINDS);
 }
 
-/* Adds a joint; one in twelve twice, with bodies exchanged or at another point of the axis. */
+/* Adds a joint. One in twelve is added again, with exchanged bodies or at another point of the
+ * axis, which makes rows redundant. */
 static void add_joint(random_spatial *r, int one, int other, bool loop)
 {
   chance *c = &r->chance;

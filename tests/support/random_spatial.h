@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random spatial mechanisms for the library and for an oracle: a tree of joints of all kinds with
- * some loops, springs, loads and drivers, including particles and planar bodies. The design
- * configuration fulfils all constraints; rows may be redundant. The same seed gives the same
+/* Random spatial mechanisms, both for the library and for an oracle. Joints of all kinds form a
+ * tree with some loops. There are springs, loads and drivers, also particles and planar bodies. The
+ * design configuration fulfils all constraints. Rows may be redundant. The same seed gives the same
  * mechanism on every machine. */
 #ifndef BAUM_TEST_RANDOM_SPATIAL_H
 #define BAUM_TEST_RANDOM_SPATIAL_H
@@ -17,7 +17,7 @@ typedef struct random_spatial {
   double span;           /* masses are from 1/span to span */
   int particles, planar; /* [%] of the bodies */
   enum { RANDOM_ANY, RANDOM_PARALLEL, RANDOM_CONCURRENT } axes;
-  double direction[3]; /* direction of parallel axes, or the point in which concurrent axes meet */
+  double direction[3]; /* of parallel axes; or the point where concurrent axes meet */
 } random_spatial;
 
 /* Makes a frozen mechanism. Its driver laws point into *out, so *out must not be moved. */

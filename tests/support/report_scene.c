@@ -29,9 +29,9 @@ static baum_status make_pendulum(baum_mechanism **out)
   return status ? status : baum_mechanism_freeze(*out);
 }
 
-/* The first four entries are right and belong to two methods, the first of which has three
- * entries. The fifth drifts until it warns, with the name of the joint. The gains of the last are
- * unstable. */
+/* Adds six entries. The first four are accurate and belong to two methods: three to rk4, one to
+ * rk2. The fifth drifts until it gives a warning, which names the joint. The last is refused,
+ * because its gains are unstable. */
 static baum_status add_entries(baum_study *study)
 {
   static const double steps[REPORT_ENTRIES] = {0.04, 0.02, 0.01, 0.01, 0.05, 0.01};

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with an entry of every kind. Names of the mechanism and the title contain markup,
- * which reports must not interpret. */
+/* A small study with an entry of every kind. Names in the mechanism and the title contain markup,
+ * which reports must escape. */
 #ifndef BAUM_TEST_REPORT_SCENE_H
 #define BAUM_TEST_REPORT_SCENE_H
 
 #include <baum/baum.h>
 
-/* The names contain characters that end attributes, elements and JSON strings, a tabulator, and a
- * byte that is not UTF-8. */
+/* The names contain characters that end attributes, elements and JSON strings, a tab, and a byte
+ * that is not UTF-8. */
 #define REPORT_JOINT "<img src=x onerror=\"document.title='taken'\">"
 #define REPORT_TITLE "</title><script>document.title='taken'</script> \"q\" \\ \t \xff \xc3\xa9"
 
@@ -23,7 +23,7 @@ typedef struct report_scene {
   baum_study *study;
 } report_scene;
 
-/* The study has not been run yet. NULLs if memory is missing. */
+/* Returns a study that has not been run. Both pointers are NULL if memory is missing. */
 report_scene report_scene_make(void);
 void report_scene_end(report_scene *scene);
 

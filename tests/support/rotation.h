@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors, and unit quaternions (w first) that rotate body axes into ground axes. */
+/* Vectors, and unit quaternions (scalar part w first) that rotate body axes into ground axes. */
 #ifndef BAUM_TEST_ROTATION_H
 #define BAUM_TEST_ROTATION_H
 
@@ -28,7 +28,7 @@ static inline void quaternion_normalize(double p[4])
   }
 }
 
-/* Rows of the rotation matrix A of the quaternion. */
+/* Writes the rotation matrix A of a quaternion, row by row. */
 static inline void rotation_matrix(const double p[4], double a[9])
 {
   const double w = p[0], x = p[1], y = p[2], z = p[3];
@@ -41,7 +41,7 @@ static inline void rotation_matrix(const double p[4], double a[9])
   }
 }
 
-/* A s */
+/* Computes A s. */
 static inline void rotate(const double p[4], const double s[3], double out[3])
 {
   double a[9];

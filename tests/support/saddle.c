@@ -43,7 +43,7 @@ static saddle make(int mass_blocks, int row_blocks, int columns)
   };
 }
 
-/* Allocates the values and vectors after the blocks are defined. */
+/* Allocates the values and vectors. The blocks must have been defined. */
 static void complete(saddle *system)
 {
   baum_i_kkt_structure *structure = &system->structure;
@@ -102,7 +102,7 @@ void saddle_free(saddle *system)
 
 /* ---- random ones ---- */
 
-/* Lists the columns of a block over bodies i and j (or i alone, if i = j) in random order. */
+/* Lists the columns of a block for bodies i and j (or for i alone, if i = j) in random order. */
 static int list_columns(const saddle *system, int i, int j, uint64_t *seed, int *col)
 {
   int cols = 0;
@@ -126,7 +126,7 @@ static void add_joint(saddle *system, int rows, int i, int j, uint64_t *seed, in
   int *col = system->columns + *columns;
   int cols = list_columns(system, i, j, seed, col);
   *columns += cols;
-  system->jacobian_count += 1; /* a gap */
+  system->jacobian_count += 1; /* leaves a gap */
   add_row_block(system, rows, cols, col);
 }
 
@@ -140,7 +140,7 @@ static void swap_row_blocks(saddle *system, uint64_t *seed)
   }
 }
 
-/* M = R R^T + I / 10 */
+/* Fills a block of M with R R^T + I / 10, where R is random. */
 static void fill_mass_block(const baum_i_mass_block *block, uint64_t *seed, double *mass)
 {
   double root[36];
@@ -171,7 +171,7 @@ saddle saddle_make_random(uint64_t seed, int bodies)
   int loops = bodies / 3;
   saddle system = make(bodies, bodies + loops, 12 * (bodies + loops));
   for (int k = 0; k < bodies; k++) {
-    system.mass_count += 2; /* a gap */
+    system.mass_count += 2; /* leaves a gap */
     add_mass_block(&system, pick(&seed, 2) ? 3 : 6);
   }
   int columns = 0;
@@ -230,7 +230,7 @@ saddle saddle_make_four_bar(int loops)
   return system;
 }
 
-/* Columns of one body in a pin at (x, y) from its centre, in ground axes. */
+/* Writes the columns of one body in a pin at (x, y) from its centre, in ground axes. */
 static double *write_pin(double *value, int cols, double sign, double x, double y)
 {
   const double rows[2][3] = {{sign, 0.0, -sign * y}, {0.0, sign, sign * x}};
@@ -315,8 +315,8 @@ static wide size_of(wide x)
   return x < 0 ? -x : x;
 }
 
-/* The dense system with its right side in wide arithmetic: n rows of n + 1. An omitted row becomes
- * lambda_i = 0. */
+/* Writes the dense system with its right side in extended precision: n rows of n + 1 numbers. An
+ * omitted row becomes lambda_i = 0. */
 static wide *write_wide(const saddle *system, int n)
 {
   int nv = system->structure.nv;
@@ -353,7 +353,7 @@ static void bring_up_pivot(wide *matrix, int n, int k)
   }
 }
 
-/* Gauss-Jordan elimination. */
+/* Solves by Gauss-Jordan elimination. */
 static void eliminate(wide *matrix, int n)
 {
   for (int k = 0; k < n; k++) {
@@ -392,7 +392,7 @@ double saddle_backward_error(const saddle *system)
       residual -= term;
       size += size_of(term);
     }
-    /* a NaN becomes the worst */
+    /* keeps NaN */
     double error = size > 0 ? (double)(size_of(residual) / size) : 0.0;
     worst = error <= worst ? worst : error;
   }

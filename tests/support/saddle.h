@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems for the tests of src/linear, and their solution in higher precision. */
+/* Saddle-point systems for the tests of src/linear, and their solutions in higher precision. */
 #ifndef BAUM_TEST_SADDLE_H
 #define BAUM_TEST_SADDLE_H
 
@@ -9,14 +9,14 @@
 
 typedef struct saddle {
   baum_i_kkt_structure structure;
-  baum_i_kkt_values values; /* point to the arrays below, or are NULL */
+  baum_i_kkt_values values; /* pointers to the arrays below, or NULL */
   double *mass;
   double *jacobian;
   double *shift;
   unsigned char *omitted;
   double *f;
   double *r;
-  double *a;          /* for a solution */
+  double *a;          /* for the solution */
   double *lambda;     /* likewise */
   int mass_count;     /* length of mass */
   int jacobian_count; /* length of jacobian */
@@ -25,21 +25,22 @@ typedef struct saddle {
   int *columns;
 } saddle;
 
-/* A reproducible random number, uniform in [-1, 1). */
+/* Returns a reproducible random number, uniform in [-1, 1). */
 double saddle_random(uint64_t *seed);
 
-/* Bodies with 3 or 6 velocities and dense positive definite masses, in a chain of joints with 1 to
- * 3 rows and some loops of one row; the rows of J are independent. Blocks and columns are listed
- * out of order, with gaps between values. f and r are random; no shift, no omitted rows. */
+/* A chain of bodies with 3 or 6 velocities and dense positive definite masses. Its joints have 1 to
+ * 3 rows; some additional rows close loops. The rows of J are independent. Blocks and columns are
+ * listed out of order, with gaps between their values. f and r are random. No shift, no omitted
+ * rows. */
 saddle saddle_make_random(uint64_t seed, int bodies);
 
-/* N coupled planar four-bars: N + 1 unit rods on the ground, their tips joined by N unit rods. 2 N
- * + 1 bodies of mass 1, nc = 6 N + 2. saddle_pose_four_bar() computes mass and jacobian at a crank
- * angle; the mechanism is flat at 0. */
+/* N coupled planar four-bars: N + 1 parallel rods of 1 m on the ground, whose tips are joined by N
+ * rods of 1 m. It has 2 N + 1 bodies of 1 kg and nc = 6 N + 2. saddle_pose_four_bar() computes mass
+ * and jacobian at a crank angle. The mechanism is flat, and singular, at the angle 0. */
 saddle saddle_make_four_bar(int loops);
 void saddle_pose_four_bar(saddle *system, double angle);
 
-/* A dense system with nv + nc unknowns: one mass block, one row block. All values are zero. */
+/* A dense system with nv + nc unknowns: one mass block and one row block. All values are zero. */
 saddle saddle_make_dense(int nv, int nc);
 
 void saddle_free(saddle *system);
@@ -47,18 +48,18 @@ void saddle_free(saddle *system);
 /* Sets r = J a for a random a, so that dependent rows are consistent. */
 void saddle_make_consistent(saddle *system, uint64_t seed);
 
-/* Switches the array `omitted` or `shift` on, with zeros. */
+/* Makes the system use its array `omitted` or `shift`, filled with zeros. */
 void saddle_use_omitted(saddle *system);
 void saddle_use_shift(saddle *system);
 
-/* want (nv + nc) = (a, lambda) by elimination in quadruple precision (or long double). */
+/* Computes want (nv + nc) = (a, lambda) by elimination in quadruple precision (or long double). */
 void saddle_solve(const saddle *system, double *want);
 
-/* matrix ((nv + nc)^2), row-major: the whole K, without omitting rows. */
+/* Writes the whole matrix K ((nv + nc)^2, row-major), including omitted rows. */
 void saddle_write_dense(const saddle *system, double *matrix);
 
-/* Largest componentwise backward error of system->a, system->lambda: max |b - K x| / (|K| |x| +
- * |b|). */
+/* Returns the largest componentwise backward error of x = (system->a, system->lambda): max |b - K
+ * x| / (|K| |x| + |b|). */
 double saddle_backward_error(const saddle *system);
 
 #endif

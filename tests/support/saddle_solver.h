@@ -43,7 +43,8 @@ static inline double largest_of(const double *x, int count)
   return largest;
 }
 
-/* Compares every element of (a, lambda) with want, relative to the largest of a or of lambda. */
+/* Compares (a, lambda) with want. The tolerance is relative to the largest of a for a, to the
+ * largest of lambda for lambda. */
 static inline void assert_solution(const saddle *system, const double *want, double tolerance)
 {
   int nv = system->structure.nv;

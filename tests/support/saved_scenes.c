@@ -30,8 +30,8 @@ bool saved_reached(baum_status status)
 
 /* ---- mechanisms ---- */
 
-/* Replaces the law of the motor by its quadratic continuation, with the same value, rate and
- * acceleration. */
+/* Replaces the law of the motor by its own quadratic continuation: value, velocity and acceleration
+ * stay the same. */
 static baum_status lead_on(baum_simulation *run, const saved_scene *scene)
 {
   double t = baum_simulation_time(run);
@@ -73,7 +73,7 @@ static void open_driven(saved_scene *scene)
 
 /* ---- the list ---- */
 
-/* Every integrator with every formulation, on a mechanism that it supports. */
+/* Opens every integrator with each of its formulations, on a mechanism that it supports. */
 static bool open_pair(saved_scene *scene, int *number)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -98,7 +98,8 @@ static bool open_pair(saved_scene *scene, int *number)
   return false;
 }
 
-/* Two coupled four-bars that pass singular configurations twice a revolution, with events. */
+/* Opens two coupled four-bars, with events, whose motion passes through two singular configurations
+ * per revolution. */
 static bool open_singular(saved_scene *scene, int number)
 {
   const baum_integrator *const methods[] = {baum_rk4(), baum_rk8(), baum_ab4(), baum_ida()};
@@ -122,7 +123,8 @@ static bool open_singular(saved_scene *scene, int number)
   return true;
 }
 
-/* Other solvers, redundant rows, fixed bodies, the energy account, kinematics, RATTLE in space. */
+/* Opens scenes with the other solvers, redundant rows, fixed bodies, the energy account, the
+ * kinematics integrator, and RATTLE in space. */
 static bool open_other(saved_scene *scene, int number)
 {
   static const baum_solver solvers[] = {BAUM_SOLVER_KLU, BAUM_SOLVER_QR, BAUM_SOLVER_BLOCK};
@@ -154,7 +156,7 @@ static bool open_other(saved_scene *scene, int number)
     o->integrator = baum_kinematics();
     o->step = (double)NAN;
     return true;
-  case 9: /* rigid bodies in space, by the one method that does not take every element */
+  case 9: /* spatial bodies with RATTLE, which does not support the mechanism with every element */
     scene->mechanism = spatial_make_rssr();
     o->integrator = baum_rattle();
     return true;

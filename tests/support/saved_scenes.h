@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs for saving and restoring: every integrator with every formulation, and every solver. */
+/* Runs for tests of saving and restoring: every integrator with each of its formulations, and every
+ * solver. */
 #ifndef BAUM_TEST_SAVED_SCENES_H
 #define BAUM_TEST_SAVED_SCENES_H
 
@@ -17,29 +18,29 @@ struct saved_scene {
   baum_simulation_options options;
   int32_t nq;
   int32_t nv;
-  int times;   /* how often it is saved */
+  int times;   /* how often the run is saved */
   double span; /* [s] longest interval between two saves */
   bool has_input;
   baum_input_id input;
-  baum_joint_id watched; /* an event occurs where this joint's coordinate passes `passes`; none: no
-                          * event */
+  /* An event occurs when the coordinate of this joint passes the value `passes`. None: no event. */
+  baum_joint_id watched;
   double passes;
-  baum_joint_id motor; /* has the law */
-  /* Replaces the law of the motor without a jump; NULL: there is no motor. */
+  baum_joint_id motor; /* the driver whose law is replaced */
+  /* Replaces the law of the motor without a jump. NULL: there is no motor. */
   baum_status (*law)(baum_simulation *run, const saved_scene *scene);
 };
 
-/* Opens scene `number` with a new mechanism; returns false if there are fewer. */
+/* Opens scene `number` with a new mechanism. Returns false if there are fewer scenes. */
 bool saved_scene_open(saved_scene *scene, int number);
 void saved_scene_close(saved_scene *scene);
 
-/* Creates a run of the scene; fails the test on failure. */
+/* Creates a run of the scene. Any failure fails the test. */
 baum_simulation *saved_scene_start(const saved_scene *scene);
 
-/* Whether the status is BAUM_OK or BAUM_WARNED. */
+/* Tells whether the status is BAUM_OK or BAUM_WARNED. */
 bool saved_reached(baum_status status);
 
-/* The k-th of a sequence of random numbers between 0 and 1. */
+/* Returns the k-th of a sequence of pseudo-random numbers between 0 and 1. */
 double saved_random(int k);
 
 #endif

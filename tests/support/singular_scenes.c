@@ -32,7 +32,7 @@ static double angular_acceleration(const swing *s, double angle, double rate)
   return -(s->i1 * sine * cosine * rate * rate + s->k * cosine) / (s->i0 + s->i1 * sine * sine);
 }
 
-/* One step of the classical Runge-Kutta method. */
+/* Takes one step of the classical Runge-Kutta method. */
 static void swing_on(const swing *s, double h, double y[2])
 {
   static const double c[4] = {0.0, 0.5, 0.5, 1.0};
@@ -51,7 +51,8 @@ static void swing_on(const swing *s, double h, double y[2])
   y[1] += h * sum[1];
 }
 
-/* Computes the samples of th; with 4000 steps between two samples errors are about 1e-13 rad. */
+/* Computes the samples of th. With 4000 steps between two samples the errors are about 1e-13
+ * rad. */
 static void know(singular_scene *scene, const swing *s, double angle, double rate)
 {
   enum { STEPS = 4000 };
@@ -102,7 +103,7 @@ static void parallelogram(singular_scene *scene, model_parallelogram which, doub
   know(scene, &s, 1.0 + off, 2.0);
 }
 
-/* With the data of tests/models/slider_crank.c: the crank has the angle th, the rod -th. */
+/* The crank has the angle th, the rod -th. The data are those of tests/models/slider_crank.c. */
 static void slider_crank(singular_scene *scene, double off)
 {
   static const double L = 0.153;
@@ -120,8 +121,8 @@ static void slider_crank(singular_scene *scene, double off)
   know(scene, &s, off, 150.0);
 }
 
-/* Cranks of 1 m with feet at (0, 0) and (2, 0); the angle of the second follows from the coupler of
- * 2.0001 m. */
+/* Two cranks of 1 m with feet at (0, 0) and (2, 0). The coupler of 2.0001 m determines the angle of
+ * the second crank. */
 static void near_parallelogram(singular_scene *scene, double off)
 {
   static const double COUPLER = 2.0001;
@@ -129,7 +130,7 @@ static void near_parallelogram(singular_scene *scene, double off)
   baum_i_parts_gravity(&parts, GRAVITY);
   double first = 1.0 + off;
   double second = first;
-  for (int k = 0; k < 50; k++) { /* distance of the tips = COUPLER, by Newton */
+  for (int k = 0; k < 50; k++) { /* Newton: distance of the tips = COUPLER */
     double x = 2.0 + cos(second) - cos(first);
     double y = sin(second) - sin(first);
     second -= (x * x + y * y - COUPLER * COUPLER) / (2.0 * (y * cos(second) - x * sin(second)));
@@ -148,7 +149,7 @@ static void near_parallelogram(singular_scene *scene, double off)
       def.velocity[0] = -sin(first);
       def.velocity[1] = cos(first);
     }
-    crank[k] = baum_i_parts_body(&parts, &def, NULL, NULL);
+    crank[k] = baum_i_parts_body(&parts, &def);
     baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {2.0 * k, 0.0}},
                      (baum_i_spot){crank[k], {-0.5, 0.0}});
   }
@@ -160,7 +161,7 @@ static void near_parallelogram(singular_scene *scene, double off)
   def.position[0] = 1.0 + (cos(first) + cos(second)) / 2.0;
   def.position[1] = (sin(first) + sin(second)) / 2.0;
   def.angle = atan2(y, x);
-  baum_body_id coupler = baum_i_parts_body(&parts, &def, NULL, NULL);
+  baum_body_id coupler = baum_i_parts_body(&parts, &def);
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[0], {0.5, 0.0}},
                    (baum_i_spot){coupler, {-COUPLER / 2.0, 0.0}});
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[1], {0.5, 0.0}},
@@ -168,8 +169,9 @@ static void near_parallelogram(singular_scene *scene, double off)
   must(model_finish(&parts, NULL, &scene->m));
 }
 
-/* By rk4 with projection and steps of 2e-5 s. The sharpest turn takes a hundredth of a radian,
- * which is hundreds of steps. With half the step angles at the end change by less than 1e-7 rad. */
+/* Computes the reference by rk4 with projection and steps of 2e-5 s. Near the singularity, the
+ * second crank reverses within a hundredth of a radian of the first, which is hundreds of steps.
+ * With half the step the final angles change by less than 1e-7 rad. */
 static void compute_reference(singular_scene *scene)
 {
   int nq = 3 * scene->m.body_count;

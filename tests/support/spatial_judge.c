@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* Permitted violation after a projection by the library; velocities are about 3. */
+/* Permitted violation after a projection by the library. Velocities are about 3 m/s. */
 static const double ON_CONSTRAINTS = 1e-9;
 
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
@@ -31,7 +31,8 @@ typedef struct scene {
   oracle_answer want;
 } scene;
 
-/* Relative errors of the library, or of the oracle due to rounding of the positions. */
+/* Relative errors of the library, or those of the oracle that are due to rounding of the
+ * positions. */
 typedef struct errors {
   double acceleration;
   double reaction;
@@ -64,11 +65,11 @@ static double largest_reaction(const scene *s)
 
 static double more(double most, double apart)
 {
-  return apart <= most ? most : apart; /* NaN stays */
+  return apart <= most ? most : apart; /* keeps NaN */
 }
 
-/* Returns the errors of the library's results or, if `from` is not s->want, of those in `from`,
- * relative to s->want. */
+/* Returns errors relative to s->want: those of the library's results, if `from` is &s->want, else
+ * those of the results in `from`. */
 static errors errors_of(const scene *s, const oracle_answer *from)
 {
   const spatial_oracle *o = &s->random->oracle;
@@ -128,13 +129,14 @@ static void print(const scene *s, const char *verdict, const errors *e, const er
 static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const errors *own)
 {
   if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
-    /* library and oracle may omit different rows, which changes the result by the rows' conflict */
+    /* library and oracle may omit different rows; the results then differ by the conflict of the
+     * rows */
     return e->acceleration <= rows->conflict / rows->kept ? SPATIAL_CONFLICT : SPATIAL_ACCELERATED;
   }
   if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
     return SPATIAL_REACTION;
   }
-  /* the imbalance contains errors of accelerations, times masses, and of reactions */
+  /* errors of accelerations (times masses) and of reactions both cause an imbalance */
   double allowed = SPATIAL_ERROR + 100.0 * (own->acceleration + own->reaction);
   return e->imbalance <= allowed ? SPATIAL_MET : SPATIAL_BALANCE;
 }

@@ -9,10 +9,10 @@
 typedef enum spatial_verdict {
   SPATIAL_MET,     /* accelerations, reactions and balance within SPATIAL_ERROR */
   SPATIAL_REFUSED, /* rightly refused: rows are dependent or nearly so */
-  /* Accepted, although omitted rows contradict the others in their second derivative; the
+  /* Accepted, although omitted rows contradict the others in their second derivative. The
    * accelerations fulfil only the remaining rows. */
   SPATIAL_CONFLICT,
-  SPATIAL_OFF,         /* a projected state violates the oracle's constraints */
+  SPATIAL_OFF,         /* a projected state violates the constraints of the oracle */
   SPATIAL_ACCELERATED, /* the error of accelerations is above the limit */
   SPATIAL_REACTION,    /* the error of unique reactions is above the limit */
   SPATIAL_BALANCE,     /* reactions do not balance the forces */
@@ -20,16 +20,16 @@ typedef enum spatial_verdict {
   SPATIAL_VERDICTS
 } spatial_verdict;
 
-/* Permitted error, relative to the largest acceleration, with or without constraints, or to the
- * largest element of a reaction. A hundred times the oracle's own sensitivity to rounding of
- * positions and inertias is added to it. */
+/* Permitted error. Accelerations: relative to the largest acceleration, either with or without
+ * constraints. Reactions: relative to the largest element. To this is added 100 times the change of
+ * the oracle's results that rounding of positions and inertias causes. */
 static const double SPATIAL_ERROR = 1e-9;
 
-/* Counts over all configurations so far. */
+/* Counts of all configurations so far. */
 typedef struct spatial_tally {
   long mechanisms;
   long configurations;
-  long not_projected; /* configurations where the projection failed */
+  long not_projected; /* configurations whose projection failed */
   long counts[SPATIAL_VERDICTS];
   long dependent;       /* SPATIAL_MET configurations with dependent rows */
   long reactions;       /* number of compared reactions */
@@ -39,11 +39,11 @@ typedef struct spatial_tally {
   uint64_t worst_seed;
 } spatial_tally;
 
-/* Makes the mechanism of a seed in `room` and tests it in its design configuration and in another
- * one on the constraints, both with velocities. Prints wrong results and false alarms. */
+/* Makes the mechanism of a seed in `room`. Tests it with velocities in its design configuration and
+ * in another configuration on the constraints. Prints wrong results and false alarms. */
 void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally);
 
-/* Number of wrong results and false alarms. */
+/* Returns the number of wrong results and false alarms. */
 long spatial_bad(const spatial_tally *tally);
 
 #endif

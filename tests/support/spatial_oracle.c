@@ -7,12 +7,12 @@
 
 #include "oracle_motion.h"
 
-/* A row without larger entries is zero except for rounding, for example that of a planar body which
- * cannot leave its plane. Other rows have entries of size 1. */
+/* A row whose entries are all smaller is zero except for rounding. An example is a row that holds a
+ * planar body in its plane. Other rows have entries of size 1. */
 static const double NO_ROW = 1e-13;
 
-/* A joint's reaction is unique if its rows have smaller coefficients in every linear combination of
- * rows that is zero. */
+/* The reaction of a joint is unique if, in every linear combination of rows that is zero, the
+ * reaction due to its rows is smaller than this. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)
@@ -71,7 +71,8 @@ static void inertia_times(const oracle_body *body, const wide x[3], wide out[3])
   out[2] = i[4] * x[0] + i[5] * x[1] + i[2] * x[2];
 }
 
-/* Adds a force at a point and a moment, all in ground axes. */
+/* Adds a force, which acts at a point, and a moment to the six forces of a body. All arguments are
+ * in ground axes. */
 static void add_wrench(const motion *body, const wide point[3], const wide force[3],
                        const wide moment[3], wide six[6])
 {
@@ -297,7 +298,8 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
-/* Writes -J^T lambda of a joint on body_b, as force and moment at body_b's point. */
+/* Writes the reaction -J^T lambda of a joint on body_b, as a force and a moment at body_b's
+ * point. */
 static void reaction_of(const instant *now, const row_list *list, int n, const wide *lambda,
                         wide out[6])
 {
@@ -375,7 +377,8 @@ bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const do
 
 /* ---- balance ---- */
 
-/* Adds the reaction of a joint to body_b and its opposite to body_a, both at the same point. */
+/* Adds the reaction of a joint to the forces on body_b, and its opposite, at the same point, to
+ * those on body_a. */
 static void add_reaction(const instant *now, const oracle_joint *joint, const double *reaction,
                          wide six[][6])
 {
@@ -420,7 +423,7 @@ double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v,
       int at = oracle_six_of(body, i);
       wide want = at < 3 ? body->mass * accelerations[k][at] : momentum[at - 3];
       double apart = fabs((double)(want - total[k][at]));
-      worst = apart <= worst ? worst : apart; /* NaN stays */
+      worst = apart <= worst ? worst : apart; /* keeps NaN */
       size = fmax(size, fabs((double)want));
     }
   }

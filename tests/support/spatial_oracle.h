@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Evaluates spatial mechanisms in quadruple precision, with formulas that differ from the
- * library's. A joint is defined only by Phi as a function of the positions and axes of its bodies.
- * J v and gamma follow from first and second derivatives of Phi along motions, by truncated Taylor
- * series; likewise for coordinates. Rows may be dependent: parallel axes are z_a - z_b = 0, three
- * rows of rank 2. Every body has six velocities: r' in ground axes and the angular velocity in body
- * axes. Planar bodies and particles use some of them. */
+ * library's. Only Phi defines a joint, as a function of the positions and axes of its bodies. J v
+ * and gamma follow from the first and second time derivatives of Phi along motions, which are
+ * computed by truncated Taylor series. Coordinates of joints are treated likewise. Rows may be
+ * dependent: for example, z_a - z_b = 0 for parallel axes has three rows of rank 2. Every body has
+ * six velocities: r' in ground axes and the angular velocity in body axes. Planar bodies and
+ * particles use only some of them. */
 #ifndef BAUM_TEST_SPATIAL_ORACLE_H
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
@@ -58,7 +59,7 @@ typedef struct oracle_joint {
   wide length;
   int of;          /* joint of a driver */
   int coordinate;  /* number of the driven coordinate, in the order of the library */
-  double start[2]; /* of a driver: a time [s], and the prescribed coordinate then */
+  double start[2]; /* of a driver: a time [s], and the value that it prescribes then */
 } oracle_joint;
 
 typedef enum oracle_force_kind {
@@ -74,7 +75,7 @@ typedef struct oracle_force {
   double s[2][3];
   double stiffness;
   double damping;
-  wide free_length; /* or free value */
+  wide free_length; /* or free value of a joint */
   double force[3];
   double moment[3];
   bool follows_body;
@@ -107,26 +108,27 @@ typedef struct oracle_answer {
 void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
                   const wide point_b[3], const wide z[3]);
 
-/* Convert a point of the design configuration to body axes, s = A^T (point - r), and back; likewise
- * an axis. */
+/* Convert a point of the design configuration to body axes, s = A^T (point - r), and back; and an
+ * axis to body axes. */
 void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3]);
 void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3]);
 void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3]);
 void oracle_axis_to_ground(const oracle_body *body, const wide s[3], wide axis[3]);
 
-/* The law of drivers for the library: `user` points to an oracle_joint's start. */
+/* The law of the drivers, for the library. `user` points to `start` of an oracle_joint. */
 int oracle_law(double t, double s[3], void *user);
 
-/* Number of coordinates of a joint, and one of them in the design configuration. */
+/* Return the number of coordinates of a joint, and one of them in the design configuration. */
 int oracle_coordinate_count(oracle_kind kind);
 wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint, int number);
 
-/* Evaluates at q (nq) and v (nv), in the order of the bodies. Returns false if out of memory. */
+/* Evaluates at q (nq) and v (nv), which have the order of the bodies. Returns false if memory is
+ * missing. */
 bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const double *v,
                       oracle_answer *out);
 
-/* Returns the largest element of M a - g - reactions, relative to the largest term, for the given
- * accelerations and reactions. */
+/* Returns the largest element of M a - g - reactions for the given accelerations and reactions,
+ * relative to the largest term. */
 double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v, const double *a,
                         double (*reactions)[6]);
 

@@ -52,7 +52,7 @@ void spatial_build_planar_four_bar(baum_mechanism *m)
   }
 }
 
-/* Builds the four-bar of spatial revolute joints, in a tilted plane. */
+/* Builds the four-bar with spatial revolute joints, in a tilted plane. */
 void spatial_build_four_bar(baum_mechanism *m)
 {
   baum_mechanism *planar = NULL;
@@ -71,8 +71,8 @@ void spatial_translate_four_bar(const double *twin_q, double *q)
 
 /* ---- a four-bar in space ---- */
 
-/* Adds a rod between two points. Its moment of inertia about its axis is a hundredth of that
- * across. */
+/* Adds a rod between two points. Its moment of inertia about its axis is a hundredth of that about
+ * its transverse axes. */
 static baum_body_id add_rod(baum_mechanism *m, double mass, const double a[3], const double b[3],
                             double spin)
 {
@@ -148,10 +148,10 @@ static const double MASS = 2.0;        /* [kg] of the nut */
 static const double MOMENT = 0.5;      /* [kg m^2] */
 static const double WHEEL = 0.3;       /* [kg m^2] */
 static const double PITCH = 0.2;       /* [m/rad] */
-static const double RATIO = -1.5;      /* wheel per nut */
+static const double RATIO = -1.5;      /* angle of the wheel / angle of the nut */
 static const double STIFFNESS = 4.0;   /* [N m/rad] of the spring on the wheel */
 static const double FREE_ANGLE = 0.7;  /* [rad] */
-static const double COMPRESSION = 9.0; /* [N/m] of the nut */
+static const double COMPRESSION = 9.0; /* [N/m] of its spring along the axis */
 static const double WEIGHT = 6.0;      /* [N] along the axis */
 static const double SPEED = 7.0;       /* [rad/s] of the nut at the start */
 
@@ -209,7 +209,7 @@ void spatial_build_screw(baum_mechanism *m)
   check(baum_mechanism_add_joint_spring(m, &spring, NULL));
 }
 
-/* Solves moment a'' = -torque - stiffness a for the angle a of the nut. */
+/* Computes q from the solution of moment a'' = -torque - stiffness a for the angle a of the nut. */
 void spatial_solve_screw(double t, double *q)
 {
   double moment = MOMENT + MASS * PITCH * PITCH + WHEEL * RATIO * RATIO;

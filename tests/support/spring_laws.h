@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A user's spring law, right or with a chosen fault, and checks of how the fault is reported. */
+/* A user law of a spring, right or with a chosen fault, and checks of how the library reports the
+ * fault. */
 #ifndef BAUM_TEST_SPRING_LAWS_H
 #define BAUM_TEST_SPRING_LAWS_H
 
@@ -7,26 +8,27 @@
 
 #include "point.h"
 
-/* `user` of the law; all zero: no fault. */
+/* The `user` of the law. If all fields are zero there is no fault. */
 typedef struct spring_law {
-  int answer; /* returned */
+  int answer; /* return value */
   int spoil;  /* if > 0, element spoil - 1 of out is NaN */
   int wrong;  /* if 1 or 2, this element of out is 1 too large */
 } spring_law;
 
 extern spring_law spring_law_good;
 
-/* T = 2 + 3 l^3 + 0.4 l' + 0.1 l l'^2; fails unless `out` is zero at the call. */
+/* The tension T = 2 + 3 l^3 + 0.4 l' + 0.1 l l'^2. Fails unless the caller has set `out` to
+ * zero. */
 int spring_law_cubic(double length, double rate, double out[3], void *user);
 
-/* Value and derivatives of the law. */
+/* Computes the value and the derivatives of the law. */
 void spring_law_cubic_at(double length, double rate, double out[3]);
 
-/* Force and linearize fail with this status and message. */
+/* Checks that force() and linearize() fail with this status and message. */
 void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *message);
 
-/* The check of derivatives reports the wrong element of the law of force 1, or none if `entry` is
- * 0; destroys the mechanism. */
+/* Checks that the check of derivatives reports element `entry` of the law of force 1, or nothing if
+ * `entry` is 0. Destroys the mechanism. */
 void check_spring_law_verdict(baum_mechanism *mechanism, const char *name, int entry);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every integrator with fixed and with variable steps, where it has them. Include after
+/* Lists every integrator with each kind of step that it has, fixed and variable. Include after
  * cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
@@ -15,7 +15,8 @@ typedef struct step_mode {
   bool fixed;
 } step_mode;
 
-/* The k-th integrator and kind of step of this build, for mechanisms with degrees of freedom. */
+/* Returns the k-th pair of integrator and kind of step in this build, for mechanisms with degrees
+ * of freedom. */
 static inline step_mode step_mode_at(int k)
 {
   for (int32_t i = 0; baum_integrator_at(i); i++) {
@@ -24,7 +25,7 @@ static inline step_mode step_mode_at(int k)
     if (fixed && k-- == 0) {
       return (step_mode){integrator, true};
     }
-    /* Integrators without fixed step need SUNDIALS. */
+    /* Variable-step integrators that have no fixed step need SUNDIALS. */
     bool variable = baum_integrator_has_variable_step(integrator);
     if (variable && (fixed || baum_has("sundials")) && k-- == 0) {
       return (step_mode){integrator, false};
@@ -33,21 +34,21 @@ static inline step_mode step_mode_at(int k)
   return (step_mode){NULL, false};
 }
 
-/* Whether it is an explicit Adams method. */
+/* Tells whether the method is an Adams-Bashforth method. */
 static inline bool step_mode_is_adams(step_mode mode)
 {
   return strncmp(baum_integrator_name(mode.integrator), "ab", 2) == 0;
 }
 
-/* Whether the method has memory and restarts after a change of the motion: variable steps and
- * multistep methods. */
+/* Tells whether the method uses data of earlier steps, so that it restarts if the motion changes:
+ * variable steps, multistep methods and generalized-alpha. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
   return !mode.fixed || step_mode_is_adams(mode) || alpha;
 }
 
-/* Advances to t. Warnings of first-order methods are accepted, because the tests know their
+/* Advances to t. Accepts warnings of first-order methods, because the tests allow for their
  * errors. */
 static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run, double t)
 {
@@ -56,7 +57,7 @@ static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run
   return status == BAUM_WARNED && may_warn ? BAUM_OK : status;
 }
 
-/* Options with the step, or with the tolerance. */
+/* Returns options with the step for fixed steps, otherwise with the tolerance. */
 static inline baum_simulation_options step_mode_options(step_mode mode, double step, double rtol)
 {
   baum_simulation_options options = baum_simulation_options_default();

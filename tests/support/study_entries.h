@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies whose entries tests compare. Include after cmocka.h. */
+/* Studies whose entries are compared in tests. Include after cmocka.h. */
 #ifndef BAUM_TEST_STUDY_ENTRIES_H
 #define BAUM_TEST_STUDY_ENTRIES_H
 
 #include <baum/study.h>
 
-/* A study over 1 s with a small grid: RK4 and RK8 with all formulations and gains. Times are
+/* Makes a study of 1 s with a small grid: rk4 and rk8 with all formulations and gains. Each time is
  * measured once. */
 baum_study *small_study(const baum_mechanism *mechanism, const baum_study_options *options);
 baum_study_options small_study_options(void);
 
 baum_study_entry study_entry(const baum_study *study, int32_t k);
 
-/* Entries of two studies are equal bit for bit, except for times. */
+/* Checks that the entries of two studies are equal bit for bit, except for times. */
 void assert_same_entries(const baum_study *a, const baum_study *b);
 
 #endif

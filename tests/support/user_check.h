@@ -7,13 +7,14 @@
 
 baum_mechanism *user_make_empty(void);
 
-/* Freezes the mechanism, checks its derivatives and destroys it. The second and third function fail
- * the test unless no error is found, or the one in the message. */
+/* Freeze the mechanism, check its derivatives and destroy it. user_check_right() requires that no
+ * error is found, user_check_wrong() that `message` reports one. */
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
-/* Two coordinates with the design values (0.6, -0.8), and one row named "circle" without `user`. */
+/* Two coordinates with the design values (0.6, -0.8), and one row named "circle". Its functions
+ * receive no `user`. */
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,
                                      baum_qv_fn *gamma, double scale);
 

@@ -117,7 +117,7 @@ static int loop_gamma(double t, const double *q, const double *v, double *out, v
   return 0;
 }
 
-/* Both rows of (J w)_q. */
+/* Computes both rows of (J w)_q. */
 static void loop_jw_q(double l, const double *q, const double *w, double *jw_q)
 {
   double sum = q[0] + q[1];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints and coordinates by user functions whose derivatives are all known.
+/* Constraints and coordinates by user functions, with all their derivatives in closed form.
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
  *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
@@ -12,13 +12,13 @@
 
 #include <baum/mechanism.h>
 
-/* The `user` of all functions below. */
+/* The `user` of all functions of these constraints. */
 typedef struct user_model {
   double length; /* l */
   double rate;   /* w */
 } user_model;
 
-/* Which derivatives of a constraint are given. */
+/* The derivatives of a constraint that are given, to be combined with |. */
 enum { GIVE_NOTHING = 0, GIVE_JACOBIAN = 1, GIVE_NU = 2, GIVE_GAMMA = 4, GIVE_ALL = 7 };
 
 /* Second derivatives, as in baum_i_joint_blocks. */
@@ -32,7 +32,7 @@ typedef struct user_blocks {
 
 typedef struct user_kind {
   const char *name;
-  int size; /* coordinates */
+  int size; /* number of coordinates */
   int rows;
   bool angles; /* coordinates are angles, not lengths */
   baum_q_fn *phi;
@@ -47,24 +47,24 @@ extern const user_kind user_circle;
 extern const user_kind user_loop;
 extern const user_kind user_swing;
 
-/* Mass 1 for the first coordinate, 0 for the others. */
+/* The mass is 1 for the first coordinate and 0 for the others. */
 int user_mass_of_first(double t, const double *q, double *out, void *user);
 
-/* Zero. */
+/* A zero force. */
 int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user);
 
-/* These fail the test if they are called. */
+/* Both functions fail the test if they are called. */
 int user_never_asked(double t, const double *q, double *out, void *user);
 int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
                       void *user);
 
-/* `size` coordinates (2 or 3) with unit mass, the design values q and one common scale. */
+/* Adds `size` coordinates (2 or 3) with unit mass, the design values q and one common scale. */
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,
                                   double scale);
 
-/* One body and the constraint on it, not frozen, in a design configuration of size l, or 1 for
- * angles. */
+/* Makes a mechanism, not frozen, of one body and the constraint on it. The design coordinates are
+ * of size l, or of size 1 for angles. */
 baum_mechanism *user_make(const user_kind *kind, user_model *model, int given);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The main() of a test that needs SUNDIALS, in a build without. Include after cmocka.h. */
+/* The main() of a test that needs SUNDIALS, for builds without it. Include after cmocka.h. */
 #ifndef BAUM_TEST_WITHOUT_SUNDIALS_H
 #define BAUM_TEST_WITHOUT_SUNDIALS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations, multipliers, energy and reactions, compared with dense LU and with the laws of
- * mechanics. */
+/* Accelerations, multipliers, energy and reactions: compared with a dense LU solution and checked
+ * by the laws of mechanics. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,8 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* Builds (7) as a dense system from M, J, g, gamma, Phi and Phi' at a state. */
+/* Builds the stabilized equations (7) as one dense system, from M, J, g, gamma, Phi and Phi' at a
+ * state. */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
 {
@@ -87,8 +88,7 @@ static void check_against_lu(model *m, double gain)
     largest = fmax(largest, fabs(want[i]));
   }
   for (size_t i = 0; i < n; i++) {
-    ASSERT_NEAR(got[i], want[i], 1e-9,
-                1e-10 * largest); /* condition of these systems: 1e5 at most */
+    ASSERT_NEAR(got[i], want[i], 1e-9, 1e-10 * largest); /* condition number <= 1e5 */
   }
   baum_workspace_destroy(w);
   model_destroy(m);
@@ -139,7 +139,7 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
   ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-13);
-  ASSERT_NEAR(reaction[1], 2.0 * 9.81 + 2.0 * 9.0 * 0.7, 1e-14, 0.0); /* weight and m w^2 r */
+  ASSERT_NEAR(reaction[1], 2.0 * 9.81 + 2.0 * 9.0 * 0.7, 1e-14, 0.0); /* m g + m w^2 r */
   ASSERT_NEAR(reaction[2], 0.0, 0.0, 1e-13);
   double kinetic = 0.0;
   double potential = 0.0;
@@ -150,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* Newton's and Euler's equations for every body of the slider-crank, with the reactions of its
- * joints as the only unknown forces. */
+/* The weight of the slider-crank's rod and the reactions of both its pins fulfil Newton's and
+ * Euler's equations. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;
@@ -174,7 +174,7 @@ static void reactions_on_each_body_balance_inertia_and_weight(void **state)
   double row[9 + 9 + 3 + 3 + 3 + 3];
   assert_int_equal(baum_channels_width(m.mechanism, channels, 6), 30);
   assert_int_equal(baum_simulation_get(s, channels, 6, row), BAUM_OK);
-  const double *a = row + 3; /* of the rod */
+  const double *a = row + 3; /* acceleration of the rod */
   const double *q = row + 9 + 3;
   const double *on_rod = row + 18;    /* pin with the crank: body_b is the rod */
   const double *on_slider = row + 21; /* pin with the slider: body_b is the slider */
@@ -216,7 +216,7 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12); /* weight, and weight times arm */
+  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12); /* the weight, and its moment */
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);
   baum_workspace_destroy(w);
@@ -262,8 +262,8 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* The block solver divides by the square root of the mass. A negative mass is left to the solver of
- * the whole system, and no solver accepts a zero mass. */
+/* The block solver divides by the square root of the mass. It leaves a negative mass to the solver
+ * of the whole system. No solver accepts a zero mass. */
 static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account on motions known in closed form, one class of work after the other, and its
- * start and continuation in a run. */
+/* The energy account of motions that are known in closed form: first each kind of work alone, then
+ * how the account starts and continues in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 #include "message.h"
 #include "user_models.h"
 
-/* Errors of rk8 at rtol 1e-12 over a second are about 1e-12. */
+/* At rtol 1e-12 the errors of rk8 after one second are about 1e-12. */
 static const double CLOSE = 1e-10;
 
 static baum_simulation_options account_options(void)
@@ -78,7 +78,7 @@ static baum_mechanism *make(double v, baum_body_id *id)
 
 /* ---- classes ---- */
 
-/* A force of 2 N moves the particle from rest by 2 m in 1 s. */
+/* From rest, a force of 2 N moves 1 kg by 1 m in 1 s: the work is 2 J. */
 static void loads_do_work(void **state)
 {
   (void)state;
@@ -122,7 +122,8 @@ static baum_energy_account run_spring(double damping, baum_spring_fn *law)
   return run_to_1(m, account_options());
 }
 
-/* The velocity is v = 3 exp(-c t) with c = 0.5. */
+/* The velocity is v = 3 exp(-c t) with c = 0.5, so the kinetic energy falls from 4.5 J by a factor
+ * of exp(-1) in 1 s. */
 static void dampers_take_energy(void **state)
 {
   (void)state;
@@ -130,7 +131,7 @@ static void dampers_take_energy(void **state)
   ASSERT_NEAR(a.dampers, -4.5 * (1.0 - exp(-1.0)), 0.0, CLOSE);
 }
 
-/* The length is l = |2 cos 2t|. The force 4 l of the law does the work 8 - 2 l^2. The account lists
+/* The length is l = |2 cos 2t|. The spring force 4 l has done the work 8 - 2 l^2. The account lists
  * it under `springs`, because the library knows no potential of a user law. */
 static void a_law_works_as_a_spring(void **state)
 {
@@ -152,7 +153,7 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* x'' = 6 t gives v = 3 t^2, and 9/2 J at t = 1. */
+/* x'' = 6 t gives v = 3 t^2, so the kinetic energy is 9/2 J at t = 1. */
 static void user_forces_do_work(void **state)
 {
   (void)state;
@@ -174,8 +175,8 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* M v' = 0 with v = 1 and M = 1 + q^2 is not a Lagrange equation: the energy v^2 q^2 / 2 comes from
- * M' alone. */
+/* M v' = 0 with M = 1 + q^2 is not a Lagrange equation. v = 1 stays constant, so the change v^2 q^2
+ * / 2 of the energy comes from M' alone; the account lists it under `bodies`. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
   (void)state;
@@ -191,7 +192,7 @@ static void a_varying_mass_is_in_the_account(void **state)
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }
 
-/* A wheel of 2 kg m^2 is accelerated from rest with 3 rad/s^2. */
+/* A driver accelerates a wheel of 2 kg m^2 from rest at 3 rad/s^2: 9 J after 1 s. */
 static void drivers_do_work(void **state)
 {
   (void)state;
@@ -234,7 +235,8 @@ static int wall_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The constraint x = 1 on a particle that starts with 1 m/s along x; gravity along x or none. */
+/* The constraint x = 1 on a particle that starts at x = 1 m with 1 m/s along x, which violates it.
+ * `gravity` acts along x. */
 static baum_energy_account run_wall(double gravity, baum_simulation_options options)
 {
   baum_body_id body;
@@ -250,7 +252,8 @@ static baum_energy_account run_wall(double gravity, baum_simulation_options opti
   return run_to_1(m, options);
 }
 
-/* The multiplier balances the weight of 5 N, while x grows by 1 m/s. */
+/* The constraint force balances the weight of 5 N, but without stabilization x grows by 1 m in 1 s:
+ * the constraint force does the work -5 J. */
 static void violation_does_work(void **state)
 {
   (void)state;
@@ -259,8 +262,8 @@ static void violation_does_work(void **state)
   ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
 }
 
-/* With alpha = beta = 2, x - 1 = t exp(-2 t) and v = (1 - 2 t) exp(-2 t). The force that balances
- * the weight is not part of the work of the gains. */
+/* With alpha = beta = 2 the exact motion is x - 1 = t exp(-2 t), v = (1 - 2 t) exp(-2 t). `gains`
+ * excludes, and `violation` includes, the work of the force that balances the weight. */
 static void gains_are_a_part_of_the_violation(void **state)
 {
   (void)state;
@@ -273,7 +276,7 @@ static void gains_are_a_part_of_the_violation(void **state)
   ASSERT_NEAR(a.violation, a.gains - 5.0 * exp(-2.0), 0.0, CLOSE);
 }
 
-/* The first step ends with zero velocity. */
+/* Projection at the end of the first step sets the velocity to zero, which takes 0.5 J. */
 static void projection_takes_energy(void **state)
 {
   (void)state;
@@ -303,7 +306,8 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* 2 N for 1 s, then 4 N for 1 s: the velocity is 2, then 6 m/s. */
+/* 2 N for 1 s, then 4 N for 1 s accelerate 1 kg to 2 m/s and 6 m/s. A new input continues the
+ * account; set_state() restarts it. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;
@@ -311,7 +315,7 @@ static void inputs_continue_and_states_restart(void **state)
   baum_mechanism *m = make_pushed(&input);
   baum_simulation *run = NULL;
   baum_simulation_options o = account_options();
-  o.max_step = 0.3; /* 1 s is inside a step */
+  o.max_step = 0.3; /* no step ends at 1 s */
   check(baum_simulation_create(m, &o, &run));
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_set_input(run, input, 4.0));
@@ -329,8 +333,8 @@ static void inputs_continue_and_states_restart(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A sample off the grid includes the work of the shortened step. The account of the run and the
- * motion do not change. */
+/* A sample between two grid points includes the work up to its own time. Sampling changes neither
+ * the account of the run nor the motion. */
 static void samples_and_motion_stay_apart(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods: their formulas, steps off the grid, and restarts. */
+/* Adams-Bashforth methods: their formulas, target times between grid points, and restarts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
 
 /* ---- formulas ---- */
 
-/* With a force t^p the methods and their starter are exact for all p below the order k. */
+/* A method of order k and the Runge-Kutta method that starts it integrate the force t^p exactly for
+ * all p < k. */
 static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
 {
   (void)state;
@@ -57,7 +58,8 @@ static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
   }
 }
 
-/* With p = k the error per step is the error constant: C h^(k+1) k!. */
+/* For the force t^p with p = k, the error of one step of the velocity is C k! h^(k+1), where C is
+ * the error constant of the method. */
 static void a_force_of_the_next_power_shows_the_error_constant(void **state)
 {
   static const double CONSTANT[] = {5.0 / 12.0, 3.0 / 8.0, 251.0 / 720.0};
@@ -81,8 +83,8 @@ static void a_force_of_the_next_power_shows_the_error_constant(void **state)
   }
 }
 
-/* x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise for v, with the b_j from which stability is
- * computed. */
+/* Steps are x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise for v. The b_j are those from which the
+ * library computes stability. */
 static void steps_are_those_whose_stability_is_known(void **state)
 {
   (void)state;
@@ -148,10 +150,11 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
   return run;
 }
 
-/* Runs with a step and returns the error. */
+/* Runs with a fixed step and returns the error at the end. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* The steps differ by a factor of 2^3, so terms of the next order fall below a fifth. */
+/* Computes the order from the errors at two steps that differ by a factor of 2^3. Error terms of
+ * higher order change the result by less than 0.2. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -165,7 +168,8 @@ static void demand_order(error_fn *error)
   }
 }
 
-/* If the method kept values from before the jump, its order would fall to one. */
+/* An input jumps at t = 1. If the method used derivatives from before the jump, its order would
+ * fall to one. */
 static double error_with_jump(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -190,7 +194,8 @@ static void a_jump_of_an_input_does_not_cost_the_order(void **state)
   demand_order(error_with_jump);
 }
 
-/* The run leaves the grid twice, by a third of a step. */
+/* Two of the target times are not grid points: the last step to each of them is shortened, and the
+ * method restarts there. */
 static double error_with_short_steps(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -234,7 +239,7 @@ static void reversing_does_not_cost_the_order(void **state)
   demand_order(error_there_and_back);
 }
 
-/* Sets another state of the same motion during the run. */
+/* Jumps to a later state of the same motion during the run. */
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -257,8 +262,8 @@ static void another_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples at a third and at two thirds of every step do not change the motion in any digit, and are
- * as accurate as the grid points. */
+/* Samples at one and at two thirds of every step do not change the motion in any digit, and are as
+ * accurate as the results at grid points. */
 static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
 {
   (void)state;
@@ -287,7 +292,7 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
       *most = fmax(*most, error);
     }
     assert_true(on_grid > 0.0);
-    assert_true(beside <= 1.1 * on_grid); /* one step of some hundred adds to the error */
+    assert_true(beside <= 1.1 * on_grid); /* one shortened step adds little */
     baum_simulation_destroy(sampled);
     baum_simulation_destroy(plain);
     baum_mechanism_destroy(mechanism);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Allocation: a block of zero bytes exists, one of too many bytes does not. */
+/* Allocation: zero bytes give a valid block, too many bytes give NULL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -22,7 +22,7 @@ static void is_class(int method, double alpha_h, double beta2_h2, baum_stability
   assert_int_equal(got.stability, want);
 }
 
-/* Compares sum and product of the roots of an Euler method with z^2 + c1 z + c0. */
+/* Compares the sum and the product of an Euler method's roots with those of z^2 + c1 z + c0. */
 static void has_polynomial(int method, double A, double B, double c1, double c0)
 {
   baum_amplification got = amplification_at(method, A, B);
@@ -84,8 +84,8 @@ static void edges_of_the_triangles_are_marginal(void **state)
   }
 }
 
-/* At (2, 4) explicit Euler has the double root z = -1. If rounding separated the roots, the point
- * would look unstable by 1e-8. */
+/* At (A, B) = (2, 4) explicit Euler has the double root z = -1, which is marginal. Rounding of A
+ * and B separates the roots by 1e-8; this must not be reported as unstable. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;
@@ -133,7 +133,7 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   }
 }
 
-/* Published values for A = B = 1 and for Taylor's pair (1, 2). */
+/* Published spectral radii at (A, B) = (1, 1) and at (1, 2), the point of the Taylor gains. */
 static void radii_are_those_of_the_table(void **state)
 {
   (void)state;
@@ -228,7 +228,7 @@ typedef void step_function(const oscillator *o, double y[2]);
 static step_function *const steps[ONE_STEP_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
                                                      heun_step, classical_step};
 
-/* Mean growth of log |y| per step, from step 200 to step 2000, with |y| kept near 1. */
+/* Mean growth of log |y| per step over steps 200 to 2000. |y| is scaled to 1 after every step. */
 static double observed_log_radius(int method, const oscillator *o)
 {
   double y[2] = {1.0, 0.3};
@@ -243,7 +243,8 @@ static double observed_log_radius(int method, const oscillator *o)
   return sum / 1800.0;
 }
 
-/* The matrix of one step has the predicted roots: compares trace and determinant. */
+/* Compares the trace and the determinant of the matrix of one step with the sum and the product of
+ * the predicted roots. */
 static void agrees_with_the_step_matrix(int method, const oscillator *o)
 {
   double first[2] = {1.0, 0.0};
@@ -266,7 +267,7 @@ static void radius_is_the_growth_of_the_method_itself(void **state)
     for (int m = 0; m < ONE_STEP_COUNT; m++) {
       agrees_with_the_step_matrix(m, &o);
       double radius = amplification_at(m, o.A, o.B).spectral_radius;
-      /* log |y| oscillates within bounds; this is the mean over 1800 steps */
+      /* for complex roots log |y| oscillates about its mean growth; 1800 steps average this out */
       ASSERT_NEAR(observed_log_radius(m, &o), log(radius), 0.0, 5e-3);
     }
   }

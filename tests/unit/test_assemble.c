@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly and projection fulfil the constraints, keep held bodies in place, and change the others
- * least in the metric of M. */
+/* Assembly and projection fulfil the constraints, keep held bodies in place, and change the other
+ * bodies as little as possible, measured by the mass matrix M. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,8 +24,8 @@ typedef struct scene {
   double v[NV];
 } scene;
 
-/* The undriven slider-crank with a rough design configuration; the crank is held and rotates at 150
- * rad/s. */
+/* The slider-crank without a driver, with a design configuration that is only roughly assembled.
+ * The definition of its crank sets `held` and gives the angular velocity 150 rad/s. */
 static scene open_scene(void)
 {
   scene s;
@@ -41,7 +41,7 @@ static void close_scene(scene *s)
   model_destroy(&s->m);
 }
 
-/* Phi and Phi' are rounding for lengths of 0.5 m and speeds of 25 m/s. */
+/* Phi and Phi' must be zero up to rounding, for lengths of 0.5 m and speeds of 25 m/s. */
 static void check_consistent(const scene *s)
 {
   double phi[NC];
@@ -109,7 +109,8 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   close_scene(&s);
 }
 
-/* Computed velocities of a structure at rest are rounding errors, which must not be refused. */
+/* Velocities that a program computes for a structure at rest are rounding errors, which must not be
+ * refused as contradictory. */
 static void given_velocities_that_are_rounding_errors_contradict_nothing(void **state)
 {
   (void)state;
@@ -176,8 +177,8 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A coordinate without mass and without constraint: KLU cannot determine its change, least squares
- * leave it unchanged. */
+/* The second coordinate has neither mass nor constraint. KLU cannot determine its change and
+ * refuses; least squares leave it unchanged. */
 static void a_coordinate_without_mass_and_joint_stays_or_is_refused(void **state)
 {
   (void)state;
@@ -241,7 +242,7 @@ static void projection_moves_a_consistent_state_by_rounding_only(void **state)
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   for (int i = 0; i < NV; i++) {
     ASSERT_NEAR(s.q[i], q[i], 0.0, 1e-14);
-    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* some roundings of 150 rad/s */
+    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* rounding at 150 rad/s */
   }
   close_scene(&s);
 }
@@ -261,7 +262,7 @@ static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void *
   }
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   assert_int_equal(baum_workspace_mass(s.w, 0.0, s.q, mass), BAUM_OK);
-  /* The change is M-orthogonal to every possible motion, one of which is the exact velocity. */
+  /* The change is M-orthogonal to every velocity that J allows, such as the exact one. */
   double product = 0.0;
   double size = 0.0;
   for (int i = 0; i < NV; i++) {
@@ -286,7 +287,7 @@ static void contradicting_constraints_are_not_projected_and_the_state_stays(void
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  for (int k = 0; k < 2; k++) { /* two rods of 1 m with feet 5 m apart */
+  for (int k = 0; k < 2; k++) { /* two rods of 1 m from ground points 5 m apart */
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;
     rod.point_a[1] = 0.0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The block solver alone, compared with quadruple precision, with both builds of its loops. Its
- * structure is tested in test_block_structure.c, random mechanisms in
- * tests/physics/test_random_mechanisms.c. */
+/* The block solver alone, compared with quadruple precision, with the plain version of its loops
+ * and with that for this processor. test_block_structure.c tests its structure,
+ * tests/physics/test_random_mechanisms.c random mechanisms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 
 enum { MOST_UNKNOWNS = 400, MOST_BODIES = 60 };
 
-/* The function tables of the block solver, without that of pins. */
+/* The function tables of the block solver, except the table for pins. */
 typedef struct tables {
   const baum_i_block_sides_kernel *sides;
   const baum_i_block_kernel *solution;
@@ -29,7 +29,7 @@ typedef struct tables {
 
 static const tables plain = {&baum_i_block_sides_kernel_plain, &baum_i_block_kernel_plain};
 
-/* The tables that are chosen for this processor. */
+/* Returns the tables that the library chooses for this processor. */
 static tables own_tables(void)
 {
   model m;
@@ -146,7 +146,8 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* The tolerance is relative to the largest acceleration, or multiplier. */
+/* The tolerance is relative to the largest acceleration for accelerations, to the largest
+ * multiplier for multipliers. */
 static void assert_solution(const equations *x, const double *want, double tolerance)
 {
   int nv = x->s.structure.nv;
@@ -158,8 +159,9 @@ static void assert_solution(const equations *x, const double *want, double toler
   }
 }
 
-/* Tests without refinement, as in most evaluations, and with it. S has the square of the condition
- * number of its factors, which is up to 1e5 here. */
+/* Tests without iterative refinement, as in most evaluations, and with two steps of it. The
+ * condition number of the Schur complement J M^-1 J^T is the square of that of its factors, which
+ * is up to 1e5 here. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -197,7 +199,8 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
   }
 }
 
-/* Omits every fourth row: rows are paired differently, and some nodes have no row. */
+/* Omits every fourth row, which changes the pairs of rows and leaves some nodes without a row; then
+ * omits all rows. */
 static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
@@ -215,8 +218,8 @@ static void omitted_rows_have_no_influence(void **state)
   }
 }
 
-/* A fixed body is treated as ground: the result is the same with its columns of J and its force set
- * to zero. */
+/* The solver treats a fixed body as ground: setting its columns of J and its force to zero does not
+ * change the result. */
 static void bodies_at_rest_are_ground(void **state)
 {
   (void)state;
@@ -281,7 +284,7 @@ static void both_builds_agree(void **state)
 
 /* ---- pivots ---- */
 
-/* One body with two rows that differ by `apart`. */
+/* One body with two rows of J that are equal except for one entry, which differs by `apart`. */
 static equations *make_close_rows(double apart)
 {
   equations *x = calloc(1, sizeof *x);
@@ -364,8 +367,8 @@ static void use_plain(baum_workspace *w)
   w->point.kernel = &baum_i_frames_kernel_plain;
 }
 
-/* The tolerance is relative to the largest of `want` or to `scale`, the size of terms that
- * cancel. */
+/* The tolerance is relative to the largest of `want`, or to `scale` if that is larger: the size of
+ * the terms whose sum gives `want`. */
 static void assert_near_all(const double *got, const double *want, int count, double tolerance,
                             double scale)
 {
@@ -375,8 +378,8 @@ static void assert_near_all(const double *got, const double *want, int count, do
   }
 }
 
-/* Compares a mechanism in its design configuration with both builds and with the solver of the
- * whole system. */
+/* Compares the results for a mechanism in its design configuration: both versions of the loops and
+ * the solver of the whole system. */
 static void compare(const baum_mechanism *m, double tolerance)
 {
   baum_workspace *w[3];
@@ -398,7 +401,7 @@ static void compare(const baum_mechanism *m, double tolerance)
   for (int k = 0; k < 3; k++) {
     assert_int_equal(baum_i_acceleration(w[k], 0.0, q, v, 5.0, 7.0), BAUM_OK);
     assert_near_all(w[k]->a, w[0]->a, m->nv, tolerance, 0.0);
-    /* Multipliers of a mechanism at rest may be rounding. */
+    /* If the mechanism is at rest, multipliers may be rounding errors of the forces. */
     double force = largest_of(w[0]->force, m->nv);
     assert_near_all(w[k]->lambda, w[0]->lambda, m->nc, tolerance, force);
   }
@@ -463,8 +466,8 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
 }
 
-/* Two pins between the same bodies have one redundant row, so that a row without partner couples
- * both bodies; a third pin at the same point has two redundant rows. */
+/* Two pins between the same bodies have one redundant row. It is omitted, so the other row of that
+ * pin has no partner. Both rows of a third pin are redundant. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;

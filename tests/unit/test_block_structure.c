@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings in the block solver, and structures that it refuses. */
+/* The couplings that the block solver stores, and structures that it refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 /* ---- nets ---- */
 
-/* Bodies with three velocities and pairs of rows, each between two bodies. */
+/* A structure of bodies with three velocities and of joints with two rows between two bodies. */
 typedef struct net {
   baum_i_kkt_structure structure;
   baum_i_mass_block *masses;
@@ -79,7 +79,7 @@ static net make_star(int arms)
 {
   net n = make_net(arms + 1, arms);
   for (int k = 0; k < arms; k++) {
-    join(&n, 3, k < 3 ? k : k + 1); /* body 3 is the hub: all joints involve it */
+    join(&n, 3, k < 3 ? k : k + 1); /* body 3, the hub, is in every joint */
   }
   return n;
 }
@@ -97,10 +97,10 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  assert_int_equal(b->first_count, BODIES - 2); /* there are no pins */
+  assert_int_equal(b->first_count, BODIES - 2); /* all pairs, as there are no pins */
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
-  assert_int_equal(b->entry_count, 0); /* all sides are read from J */
+  assert_int_equal(b->entry_count, 0); /* all are read from J directly */
   for (int i = 0; i < b->side_count; i++) {
     assert_int_equal(b->side_from[2 * i], 12 * (i / 2) + 3 * (i % 2));
   }
@@ -108,7 +108,7 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   free_net(&n);
 }
 
-/* Two joints between the same bodies have a common coupling. */
+/* Two joints that share both bodies have two couplings, which add up in one block. */
 static void two_joints_of_the_same_bodies_share_a_block(void **state)
 {
   (void)state;
@@ -154,7 +154,8 @@ static void hubs_are_refused_and_named(void **state)
   free_net(&many);
 }
 
-/* A cube of bodies: each body has few joints, but elimination couples all bodies of a plane. */
+/* A cubic grid of bodies. Each body has at most six joints, but elimination couples all joints of a
+ * whole plane with each other. */
 static void dense_nets_are_refused(void **state)
 {
   (void)state;

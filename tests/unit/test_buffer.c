@@ -53,7 +53,7 @@ static void bytes_that_are_not_utf8_are_replaced(void **state)
   }
   check_put(BAUM_I_JSON, "\xff", "\xef\xbf\xbd");
   check_put(BAUM_I_JSON, "\x80z", "\xef\xbf\xbdz");
-  check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd");                 /* cut off */
+  check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd");                 /* incomplete */
   check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/" in an overlong encoding */
   check_put(BAUM_I_JSON, "\xed\xa0\x80", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
   check_put(BAUM_I_JSON, "\xf4\x90\x80\x80", /* beyond Unicode */

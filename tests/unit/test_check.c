@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of given derivatives names wrong ones. */
+/* The check of user-supplied derivatives: its message names the wrong derivative. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 
 #include "user_check.h"
 
-/* A model in which one entry of one function is wrong by 1e-4 of its value. */
+/* A model in which one entry of one derivative has a relative error of 1e-4. */
 typedef struct spoiled {
   user_model model; /* first member, because the model's functions expect it */
   const user_kind *kind;
@@ -88,7 +88,8 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Right only in the design configuration, where y = -0.8. */
+/* The Jacobian of the unit circle, but with a constant second entry, which is right only in the
+ * design configuration, where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -107,7 +108,7 @@ static int slightly_wrong_jacobian(double t, const double *q, double *out, void 
   return 0;
 }
 
-/* The circle of radius 1; functions of this file have no `user`. */
+/* The circle of radius 1. */
 static int unit_circle_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -144,7 +145,7 @@ static void an_entry_that_is_wrong_by_a_hundred_thousandth_is_found(void **state
   }
 }
 
-/* x = 2 sin(3 t) */
+/* The constraint x = 2 sin(3 t). */
 static int driven_phi(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -203,7 +204,8 @@ static int right_gamma(double t, const double *q, const double *v, double *out, 
   return 0;
 }
 
-/* gamma is zero in the design configuration at t = 0, so that only another time shows the error. */
+/* A gamma of zero is right at t = 0. The check finds the error because it also evaluates at other
+ * times. */
 static void a_forgotten_gamma_is_found_at_another_time(void **state)
 {
   (void)state;
@@ -212,7 +214,8 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
                  -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
-  /* Second differences give seven digits here. */
+  /* Second differences have seven correct digits here, so the last digits of the message are not
+   * compared. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,
@@ -331,7 +334,8 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
-/* A mass of q + user, which is negative in the design configuration, or only near it. */
+/* A mass of q + *user. If *user is -2, it is negative in the design configuration, which is
+ * refused; if *user is 0.01, it is negative only for q < -0.01, which is accepted. */
 static int linear_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -361,7 +365,8 @@ static void a_mass_below_zero_in_the_design_configuration_is_refused(void **stat
   }
 }
 
-/* A constraint that is defined from t = 0 on, so that no central differences exist there. */
+/* A constraint that is defined for t >= 0 only, so that the check cannot use central differences at
+ * t = 0. */
 static int late_phi(double t, const double *q, double *out, void *user)
 {
   (void)driven_phi(t, q, out, user);
@@ -381,7 +386,7 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
                    message);
 }
 
-/* Law 0 is right, 1 has a wrong rate, 2 a wrong acceleration, 3 fails at the start. */
+/* Law 0 is right, law 1 has a wrong s', law 2 a wrong s'', and law 3 fails at t = 0. */
 static int driver_law(double t, double s[3], void *user)
 {
   int which = *(const int *)user;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of whole runs: the pilot run of the rule `auto`, the limit of the step, and what counters
- * report. */
+/* The gains of whole runs: the pilot run of the rule `auto`, the limit of the step, and what the
+ * counters report. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include "assert_near.h"
 #include "models.h"
 
-enum { PILOT_EVALUATIONS = 14 }; /* 5 steps of 3 evaluations; that at the start is known */
+enum { PILOT_EVALUATIONS = 14 }; /* 5 steps x 3 - 1 known before */
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
                               double step, baum_gains gains)
@@ -44,7 +44,7 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
   return alpha;
 }
 
-/* A particle of 1 kg on a rod of 1 m, at rest at an angle from the upward vertical. */
+/* A pendulum: a particle of 1 kg on a rod of 1 m, at rest at `angle` from the upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
   baum_mechanism *m = NULL;
@@ -77,9 +77,9 @@ static void auto_uses_the_rate_after_the_start_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
-  /* The crank starts at rest under 0.033 N m. The rate max(|v|/L, sqrt(|a|/L)) is 119 1/s at the
-   * start, and 336 1/s as a mean over the first 3.75 rad of an exact motion. Five steps give the
-   * mean within a fifth. */
+  /* A torque of 0.033 N m accelerates the crank from rest. The rate max(|v|/L, sqrt(|a|/L)) is 119
+   * 1/s at the start; its mean over the first 3.75 rad of the exact motion is 336 1/s. The five
+   * steps of the pilot run give this mean within 20 %. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
@@ -123,7 +123,7 @@ static void auto_does_not_depend_on_units(void **state)
   model milli;
   assert_int_equal(model_four_bar(&si), BAUM_OK);
   assert_int_equal(model_four_bar_in(&MODEL_MILLI, &milli), BAUM_OK);
-  /* Rounding of the data in other units, after 5 steps. */
+  /* The two differ by the rounding of the data in other units, amplified in 5 steps. */
   ASSERT_NEAR(auto_alpha(milli.mechanism, baum_rk8()) * MODEL_MILLI.time,
               auto_alpha(si.mechanism, baum_rk8()), 1e-9, 0.0);
   model_destroy(&si);
@@ -138,7 +138,7 @@ static void at_a_slow_start_auto_uses_at_least_the_rate_of_gravity(void **state)
     baum_mechanism *m = pendulum_at(angles[k], NULL);
     double alpha = auto_alpha(m, baum_rk8());
     assert_true(alpha >= 0.1 * sqrt(9.81) * (1.0 - 1e-12));
-    assert_true(alpha <= 0.1 * 1.5 * sqrt(9.81)); /* the mean rate is lower */
+    assert_true(alpha <= 0.1 * 1.5 * sqrt(9.81)); /* the mean rate is below 1.5 sqrt(g / L) */
     baum_mechanism_destroy(m);
   }
 }
@@ -211,7 +211,8 @@ static void counters_tell_the_effective_damping(void **state)
   baum_mechanism *m = pendulum_at(1.6, NULL);
   baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
   baum_counters c = count(run);
-  /* A double root -alpha: exp(-alpha h) except for (alpha h)^5 / 120. */
+  /* alpha = beta gives the double root s = -alpha. A step of rk4 multiplies by exp(-alpha h), with
+   * an error of (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
@@ -228,7 +229,8 @@ static void counters_tell_the_effective_damping(void **state)
 
 /* ---- rows with gains of their own ---- */
 
-/* Two particles at rest at 1.1 m on rods of 1 m, without gravity. */
+/* Two particles at rest 1.1 m from the origin on rods of 1 m, one along x, one along y, without
+ * gravity. */
 static baum_mechanism *two_long_rods(void)
 {
   baum_mechanism *m = NULL;
@@ -273,20 +275,21 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     baum_simulation_options o = with_factors(factors, 2, solvers[k]);
     baum_simulation *run = NULL;
     assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-    /* a = -(beta f)^2 Phi along the rod, with Phi = (1.1^2 - 1)/2 over 1 or 0.1, depending on the
-     * scale of the rows. So only the ratio of both velocities is known, and that the other two are
-     * zero. */
+    /* Along each rod a = -(beta f)^2 Phi, where f is the factor of its row. Phi depends on the
+     * scale of the rows, so the test compares only the ratio of the two velocities. Across the rods
+     * the velocities are zero. */
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     const double *v = baum_simulation_v(run);
     assert_true(v[0] < 0.0);
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
-    /* In the second step a' = -2 alpha f Phi' - (beta f)^2 Phi: the damping terms have the ratio
-     * 27. */
+    /* In the second step a = -2 alpha f Phi' - (beta f)^2 Phi: now the damping terms are present
+     * too, with the ratio 3 x 9 = 27. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);
-    /* At the second evaluation q has changed by h v only, 1e-3 x 0.04 or 0.36 of 0.1 m. */
+    /* Phi has hardly changed, because the first step of Euler's method leaves q unchanged and the
+     * second moves it by h v only. */
     for (int i = 0; i < 2; i++) {
       double damped = v[3 * i] - 2.0 * first[i];
       double want = -2.0 * 10.0 * factors[i] * 1e-3 * first[i];
@@ -298,7 +301,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The block solver computes the rows of pins itself and reads those of a guide from J. */
+/* The block solver computes the rows of pins from their arms, but reads the rows of a guide from J.
+ * Both must apply the factors. */
 static void solvers_agree_on_factors(void **state)
 {
   (void)state;
@@ -318,7 +322,7 @@ static void solvers_agree_on_factors(void **state)
     baum_simulation_destroy(run);
   }
   for (int i = 0; i < 9; i++) {
-    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* velocities up to 150 */
+    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* velocities up to 150 rad/s */
   }
   model_destroy(&m);
 }
@@ -336,7 +340,7 @@ static void refused(const baum_mechanism *m, const baum_simulation_options *o, b
 static void factors_that_make_no_sense_are_refused(void **state)
 {
   (void)state;
-  double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 */
+  double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 = 4: unstable */
   baum_mechanism *m = two_long_rods();
   baum_simulation_options o = with_factors(factors, 2, BAUM_SOLVER_AUTO);
   refused(m, &o, BAUM_ERR_UNSTABLE, "row_gains[1] = 400, of joint");

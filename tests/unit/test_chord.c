@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes along the constraint forces of a fixed configuration: what they solve with each solver,
- * and what they refuse. */
+/* Corrections of q along the constraint forces of another configuration, whose factorization is
+ * kept (chord iteration). Tests every solver, and what is refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,8 @@
 
 static const baum_i_kkt_choice CHOICES[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR};
 
-/* A bob of 2 kg on rods of 1 m, the first from (0, 0), the second from (2, 0). */
+/* A bob of 2 kg at (1, 0) on one or two rods of 1 m: the first from (0, 0), the second from (2,
+ * 0). */
 static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
 {
   baum_mechanism *m = NULL;
@@ -45,7 +46,8 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* J = (c, s) of the first configuration, Phi = (|q|^2 - 1) / 2 of the second. */
+/* The change is -J^T Phi, with J = (0.6, 0.8) of the configuration `from` and Phi = (|q|^2 - 1) / 2
+ * = 0.15 of q. */
 static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
 {
   (void)state;
@@ -63,7 +65,8 @@ static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **
   }
 }
 
-/* Along the rod the acceleration a removes Phi'; across it, a is due to the weight only. */
+/* With the gain 10 1/s the acceleration along the rod is -10 1/s times the velocity along it.
+ * Across the rod it is due to the weight alone. */
 static void rates_are_held_and_the_rest_is_free(void **state)
 {
   (void)state;
@@ -78,7 +81,8 @@ static void rates_are_held_and_the_rest_is_free(void **state)
   }
 }
 
-/* Two rods in line have the same direction, so most changes of both are impossible. */
+/* Two rods in line have the same direction, so no change across them is possible, and Phi of
+ * another configuration cannot be removed. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;
@@ -88,7 +92,7 @@ static void rods_in_line_are_singular(void **state)
     baum_workspace *w = bob_on_rods(2, CHOICES[k]);
     baum_i_chord chord;
     baum_status status = baum_i_chord_begin(w, 0.25, in_line, &chord);
-    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* the others find the singularity here */
+    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* the other solvers find the singularity here */
       check(status);
       status = baum_i_chord_change(w, &chord, 0.25, beside);
     }

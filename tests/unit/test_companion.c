@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The companion of a run: the error that it estimates, its warnings, when it costs nothing, and
- * when it is given up. */
+/* The companion of a run, a second integration that estimates the error: its estimates, its
+ * warnings, when it is not needed, and when the run gives it up. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,9 +13,10 @@
 #include "assert_near.h"
 #include "models.h"
 
-static const double SPAN = 2.0; /* [s] one swing of A01 */
+static const double SPAN = 2.0; /* [s] about one swing of the pendulum A01 */
 
-/* Counts the warnings "is too long" and reads the step that the last of them advises. */
+/* Counts the warnings that the step is too long. `advised` receives the step that the last of them
+ * recommends. */
 static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
 {
   model m;
@@ -43,7 +44,8 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
   return found;
 }
 
-/* Half a radian per step is too long for low orders and good for order 4 and higher. */
+/* A step of 0.1 s, about half a radian, is too long for methods of order 1 but suits order 4 and
+ * higher. 0.4 s is too long for rk4. */
 static void steps_are_judged_by_the_order(void **state)
 {
   (void)state;
@@ -64,7 +66,8 @@ static void the_advised_step_is_not_too_long(void **state)
     double again = 0.0;
     assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
     assert_true(advised > 0.0 && advised < 0.2);
-    /* The advice came early in the run and is valid up to there only, hence a tenth of it. */
+    /* The step was recommended early in the run, and later parts need a smaller one: a tenth
+     * suffices. */
     assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
   }
 }
@@ -150,7 +153,8 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
-/* A run reverses inside a step, where it restarts. */
+/* The run reverses its direction of time inside a step. It restarts there, and so does its
+ * companion. */
 static void estimates_continue_after_a_restart_inside_a_step(void **state)
 {
   (void)state;
@@ -181,8 +185,9 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
 
 /* ---- events between steps ---- */
 
-/* A light rod that comes taut. With rk4 at 1 ms its end is wrong by 0.64 m, and its energy grows
- * from 2.2 J by 2.9 J. */
+/* A light rod joins a bob to a slider on the x axis. When the rod becomes perpendicular to the
+ * axis, it stops the bob within a time that is shorter than a step. With rk4 at 1 ms the final
+ * position is wrong by 0.64 m, and the energy grows from 2.2 J by 2.9 J. */
 static baum_mechanism *make_taut_rod(void)
 {
   const double mass = 0.0014776077955897843;
@@ -247,7 +252,7 @@ static void runs_that_miss_a_short_event_warn(void **state)
 
 /* ---- drivers with corners ---- */
 
-/* A law that rotates by 3 rad, then rests. */
+/* The law of a driver that rotates by 3 rad in 0.3 s, then rests. */
 static int ramp(double t, double s[3], void *user)
 {
   (void)user;
@@ -257,8 +262,8 @@ static int ramp(double t, double s[3], void *user)
   return 0;
 }
 
-/* Where the velocity of a driver jumps, accelerations do not show it, and it must not count as an
- * error. */
+/* The driver prescribes a velocity that jumps at 0.3 s. The acceleration contains no impulse, but
+ * the estimate must not count this jump as an error. */
 static void corners_of_drivers_are_no_error(void **state)
 {
   (void)state;
@@ -294,7 +299,8 @@ static void corners_of_drivers_are_no_error(void **state)
 
 /* ---- given up ---- */
 
-/* A damper with a rate of 1e6 1/s, which forces rk8 to steps of a microsecond. */
+/* A damper with the decay rate 1e6 1/s would force the companion, an rk8 run, to steps of a
+ * microsecond. */
 static void stiff_runs_give_their_companion_up(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies of user coordinates. The example, with c = cos t:
+/* Bodies with user coordinates. The example is, with c = cos t:
  *
  *   M = [ 4 + cos q1   sin q0  ]      g = ( -q0^3 + q1 v1 + c,  -sin(q0 q1) - v0^2 )
  *       [ sin q0       3 + q0^2]
@@ -20,7 +20,7 @@
 
 /* ---- the example ---- */
 
-/* Return value and error of its functions. */
+/* What the functions of the example return, and an error to add. */
 typedef struct arm {
   int answer;
   double spoil; /* added to mass()[0][1] and force()[1] */
@@ -110,7 +110,7 @@ static baum_mechanism *empty(void)
   return mechanism;
 }
 
-/* Adds the body after another one, so that its columns do not begin at 0. */
+/* Adds the body after another one, so that its columns do not start at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};
@@ -226,7 +226,7 @@ static void check_blocks(const baum_coordinates_def *def, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of order 6 have a measured error of 1e-12. */
+/* Differences of order 6 replace derivatives that are not given. Their measured error is 1e-12. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;

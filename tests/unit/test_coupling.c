@@ -27,7 +27,7 @@ static int cam(double x, double f[3], void *user)
   return 0;
 }
 
-/* The law with an error in one entry, or with another return value. */
+/* An error that is added to one entry of the law, or another return value. */
 typedef struct fault {
   int entry;
   double error;
@@ -42,7 +42,7 @@ static int faulty(double x, double f[3], void *user)
   return wrong->answer;
 }
 
-/* Fails unless `f` is zero at the call; sets nothing. */
+/* Sets nothing. Fails unless the caller has set `f` to zero. */
 static int nothing(double x, double f[3], void *user)
 {
   (void)x;
@@ -84,7 +84,7 @@ static void couple(planar_scene *scene, baum_joint_id a, baum_joint_id b, baum_c
   assert_int_equal(baum_mechanism_add_coupling(scene->mechanism, &def, NULL), BAUM_OK);
 }
 
-/* Both joints between the same two bodies. */
+/* Couples two joints between the same two bodies. */
 static void add_on_same_bodies(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -104,7 +104,7 @@ static baum_body_id add_arm(planar_scene *scene)
   return id;
 }
 
-/* Four different bodies (three and ground), one of them a particle. */
+/* Couples two joints that have no body in common. One of the bodies is a particle. */
 static void add_on_other_bodies(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -113,7 +113,8 @@ static void add_on_other_bodies(planar_scene *scene, baum_body_id a, baum_body_i
   couple(scene, slot, pin, NULL);
 }
 
-/* Three bodies: one belongs to both joints, as body_b of the first and body_a of the second. */
+/* Couples joints of three bodies. One of them is body_b of the first joint and body_a of the
+ * second. */
 static void add_on_a_chain(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -126,7 +127,8 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_coupling(mechanism, def, NULL);
 }
 
-/* Joint 1 is a pin, joint 2 a slot, both between link and crank; the definition couples them. */
+/* Adds a pin as joint 1 and a slot as joint 2, both between link and crank. Returns a definition
+ * that couples them. */
 static baum_coupling_def good(planar_scene *scene)
 {
   baum_coupling_def def = baum_coupling_def_default();
@@ -164,7 +166,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_on_a_chain, false, check_rows_balance);
 }
 
-/* Every column occurs once in a row; the sparse matrices rely on this. */
+/* No column occurs twice in a joint. The sparse matrices rely on this. */
 static void check_columns(test_point *p)
 {
   for (int k = 0; k < p->mechanism->joint_count; k++) {

@@ -35,7 +35,7 @@ static int bent(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* The curve with an error in one entry, or with another return value. */
+/* An error that is added to one entry of the curve, or another return value. */
 typedef struct fault {
   int entry;
   double error;
@@ -50,7 +50,7 @@ static int faulty(const double xy[2], double out[6], void *user)
   return f->answer;
 }
 
-/* Fails unless `out` is zero at the call; sets nothing. */
+/* Sets nothing. Fails unless the caller has set `out` to zero. */
 static int nothing(const double xy[2], double out[6], void *user)
 {
   (void)xy;
@@ -86,8 +86,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* If one body of the pair is a particle, the other has the curve; with two particles the link has
- * it. */
+/* Adds a point on a curve. The curve belongs to body a; if that is a particle, to body b, or to the
+ * link if both are particles. */
 static void add_curve(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_curve_def def = baum_planar_curve_def_default();
@@ -152,7 +152,8 @@ static void a_circle_is_a_rod(void **state)
   assert_int_equal(baum_mechanism_add_planar_distance(scene.mechanism, &rod, NULL), BAUM_OK);
   test_point p;
   test_point_open(&p, scene.mechanism);
-  /* The link is turned by 0.4 about (1, 0.5); the bead is at the rod's length from its point. */
+  /* The link is at (1, 0.5) with the angle 0.4 rad. The bead is at the length of the rod, 1 m, from
+   * the rod's point on the link. */
   double *bead = p.q + p.mechanism->bodies[scene.bead.index1]->q;
   bead[0] = 1.0 + 0.3 * cos(0.4) + 0.2 * sin(0.4) + 0.6;
   bead[1] = 0.5 + 0.3 * sin(0.4) - 0.2 * cos(0.4) - 0.8;
@@ -169,7 +170,8 @@ static void a_circle_is_a_rod(void **state)
   for (int i = 0; i < 5; i++) {
     ASSERT_NEAR(blocks[i], blocks[5 + i], 0.0, 1e-15);
   }
-  /* On the circle, (r^2 - 1) / 2 has a gamma that is larger by -r'^2 than that of r - 1. */
+  /* On the circle the rod's Phi = (r^2 - 1) / 2 has the same J as Phi = r - 1 of the curve, but
+   * gamma differs by -r'^2. */
   assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
   double rate = 0.0;
   const baum_i_span *span = &p.mechanism->joints[0]->span;
@@ -240,7 +242,7 @@ static void right_derivatives_raise_no_alarm(void **state)
   user_check_right(make_with(nothing, NULL));
 }
 
-/* The message names the wrong entry, or the two inconsistent ones, after curve(). */
+/* The message names the wrong entry of curve(). */
 static void wrong_derivatives_are_named(void **state)
 {
   (void)state;

@@ -18,8 +18,8 @@
 
 /* ---- accuracy ---- */
 
-/* The order of Adams rises with the tolerance. BDF has at most order 5 and an error like
- * rtol^(5/6): a factor of 6.8 per decade. */
+/* The error must fall by a factor of 7 per decade of rtol for Adams, whose order rises as rtol
+ * falls, and by 6 for BDF, whose order is at most 5: rtol^(5/6) is a factor of 6.8 per decade. */
 static void error_falls_with_the_tolerance(void **state)
 {
   (void)state;
@@ -37,7 +37,8 @@ static void error_falls_with_the_tolerance(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The slider-crank driven at 150 rad/s for one revolution, with the known angle of the crank. */
+/* A driver rotates the slider-crank at 150 rad/s by one revolution, so the final angle of the crank
+ * is known. */
 static void a_driven_slider_crank_follows_its_driver(void **state)
 {
   (void)state;
@@ -55,7 +56,7 @@ static void a_driven_slider_crank_follows_its_driver(void **state)
     double start = run.state_q[2];
     double turn = 6.283185307179586 / 150.0;
     assert_int_equal(integrator_run_to(&run, turn), BAUM_OK);
-    ASSERT_NEAR(run.q[2] - start, 6.283185307179586, 0.0, 1e-7); /* ten tolerances */
+    ASSERT_NEAR(run.q[2] - start, 6.283185307179586, 0.0, 1e-7); /* ten times rtol */
     ASSERT_NEAR(run.v[2], 150.0, 1e-7, 0.0);
     integrator_run_close(&run);
   }
@@ -79,7 +80,8 @@ static int64_t evaluations_of(baum_mechanism *mechanism, const baum_integrator *
   return evaluations;
 }
 
-/* A rate of 1e4 1/s limits explicit methods to steps of about 1e-4 s, even without constraints. */
+/* A force with the decay rate 1e4 1/s limits explicit methods, and Adams with fixed-point
+ * iteration, to steps of about 1e-4 s. */
 static void bdf_needs_few_steps_for_stiff_forces(void **state)
 {
   (void)state;
@@ -92,8 +94,8 @@ static void bdf_needs_few_steps_for_stiff_forces(void **state)
   if (!(bdf < 1000 && adams > 10 * bdf)) {
     fail_msg("evaluations: %ld and %ld", (long)adams, (long)bdf);
   }
-  /* Errors of BDF at rtol 1e-6 add up to 1e-4 in a second; those of Adams' short steps are much
-   * smaller. */
+  /* At rtol 1e-6 the errors of BDF add up to 1e-4 in one second. The short steps of Adams have much
+   * smaller errors. */
   ASSERT_NEAR(bdf_q[0], adams_q[0], 0.0, 1e-3);
   ASSERT_NEAR(bdf_q[1], adams_q[1], 0.0, 1e-3);
   baum_mechanism_destroy(mechanism);
@@ -114,10 +116,10 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
   return evaluations;
 }
 
-/* Gains of 2000 times the rate of the pendulum. With fixed-point iteration steps were limited to 1
- * / gain, which took 34000 evaluations. Newton's iteration with the gains' part of the Jacobian
- * takes about 5000. The rest is due to the error test, which is affected by the rounding of large
- * gains. */
+/* Gains of 1000 1/s for a pendulum that swings at 0.4 Hz. Fixed-point iteration would limit steps
+ * to 1 / gain, which takes 34000 evaluations. Newton's iteration with the derivatives of the gains'
+ * terms takes about 5000. This is still more than with small gains, because large gains amplify
+ * rounding errors, which then fail the error test. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
   (void)state;
@@ -159,8 +161,8 @@ static projected swing(baum_mechanism *mechanism, baum_formulation formulation, 
   return out;
 }
 
-/* Every step ends on the constraints: Phi to 1e-13 of the length, Phi' to 1e-13 of |J| |v|, which
- * is at most 4.43 m/s. */
+/* Every step ends on the constraints: |Phi| is at most 1e-13 of the length, |Phi'| at most 1e-13 of
+ * |J| |v|, with |v| <= 4.43 m/s. */
 static void projected_steps_end_on_the_constraints(void **state)
 {
   (void)state;
@@ -177,7 +179,7 @@ static void projected_steps_end_on_the_constraints(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Geometric mean over rtol 1e-4 to 1e-9 of the error after 10 s, about 5 swings. */
+/* Geometric mean of the errors after 10 s (about 4 swings) with 21 tolerances from 1e-4 to 1e-9. */
 static double mean_error(baum_mechanism *mechanism, baum_formulation formulation, double gain)
 {
   integrator_setup setup = integrator_setup_make(mechanism, baum_cvode_bdf(), formulation);
@@ -198,8 +200,9 @@ static double mean_error(baum_mechanism *mechanism, baum_formulation formulation
   return exp(sum / count);
 }
 
-/* Gains of twice the rate are similar to those of the rule `auto`. For a single pendulum other
- * gains may by chance be better, as the table shows; means of 21 runs vary by a factor of 1.3. */
+/* Projection may have an error of at most 1.5 times that with gains of twice the pendulum's rate,
+ * which are similar to those of the rule `auto`. For a single pendulum other gains may happen to be
+ * better, as the printed table shows. Such means of 21 runs vary by a factor of 1.3. */
 static void projection_is_as_good_as_gains(void **state)
 {
   (void)state;
@@ -216,7 +219,7 @@ static void projection_is_as_good_as_gains(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* x = 0, and from 0.5 s on e^x = 0, which has a derivative but no solution. */
+/* The constraint x = 0; from 0.5 s on e^x = 0, which is differentiable but has no solution. */
 static int vanish(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -271,8 +274,8 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
   baum_simulation_destroy(run);
 }
 
-/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of a step. The mechanism does not depend
- * on time, so the result must not change. */
+/* Near 1e9 s, double precision rounds a time to 1e-7 s, a thousandth of a step. The mechanism does
+ * not depend on time, so the result must be the same as for a start at 0. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -319,7 +322,8 @@ static void statistics_add_up(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force 2 / (0.1 - t)^3, with the motion 1 / (0.1 - t), which becomes infinite at 0.1 s. */
+/* The force 2 / (0.1 - t)^3 on 1 kg causes the motion x = 1 / (0.1 - t), which becomes infinite at
+ * 0.1 s. */
 static int burst(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -376,7 +380,7 @@ static void a_motion_that_ends_is_reported_with_time_and_step(void **state)
   }
 }
 
-/* Redirects standard error to a file during a run that fails; the file must stay empty. */
+/* Redirects stderr to a file during a run that fails. The file must stay empty. */
 static void sundials_never_prints(void **state)
 {
   need_sundials();

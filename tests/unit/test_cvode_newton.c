@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a). Solves with the sparse
- * matrix for random right sides, and inserts x, with the derivative of f along x by central
- * differences. */
+/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a). Each test solves with
+ * the sparse matrix for a random right side r and checks that x fulfils the system, where central
+ * differences of f replace df/dy x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,14 +23,14 @@
 
 enum { SIZE = 160, STATES = 5, MECHANISMS = 40 };
 
-/* A problem that is only used to solve these linear systems. */
+/* A problem that the tests use only for its linear systems. */
 typedef struct solver {
   baum_workspace *workspace;
   baum_i_problem problem;
   baum_i_sundials sundials;
   baum_i_cvode_newton newton;
   int n;             /* nv */
-  double unit[SIZE]; /* of displacements and velocities: scale, and scale per second */
+  double unit[SIZE]; /* of displacements (scale) and of velocities (scale per second) */
 } solver;
 
 static void open_solver(solver *s, const baum_mechanism *m, baum_formulation formulation)
@@ -65,7 +65,7 @@ static void close_solver(solver *s)
   baum_workspace_destroy(s->workspace);
 }
 
-/* What belongs to y, as displacements and velocities (2 nv). */
+/* Converts a change y of (q, v) to displacements and velocities (2 nv). */
 static void to_tangent(const solver *s, const double *q, const double *y, double *out)
 {
   const baum_mechanism *m = s->workspace->mechanism;
@@ -74,8 +74,8 @@ static void to_tangent(const solver *s, const double *q, const double *y, double
   memcpy(out + s->n, y + m->nq, (size_t)s->n * sizeof *out);
 }
 
-/* The x of (I - gamma df/dy) x = r at y = (q, v), as CVODE BDF solves it; x and r as displacements
- * and velocities. */
+/* Solves (I - gamma df/dy) x = r at y = (q, v) as CVODE BDF does. x and r are displacements and
+ * velocities. */
 static baum_status solve_newton(solver *s, double t, const double *y, double gamma, const double *r,
                                 double *x)
 {
@@ -92,7 +92,8 @@ static baum_status solve_newton(solver *s, double t, const double *y, double gam
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* f as a displacement from q, and accelerations; false where the configuration is singular. */
+/* Evaluates f at y, as a displacement from q and accelerations. Returns false if the configuration
+ * is singular or nearly so. */
 static bool evaluate(const solver *s, double t, const double *q, const double *y, double *f)
 {
   const baum_mechanism *m = s->workspace->mechanism;
@@ -106,7 +107,7 @@ static bool evaluate(const solver *s, double t, const double *q, const double *y
   return status == BAUM_OK && s->workspace->near_singular == before;
 }
 
-/* In units. */
+/* Returns the largest component of x, each divided by its unit. */
 static double size_of(const solver *s, const double *x)
 {
   double largest = 0.0;
@@ -116,8 +117,8 @@ static double size_of(const solver *s, const double *x)
   return largest;
 }
 
-/* (df/dy) x by a central difference of fourth order, with an error of about 1e-12 of f. Returns
- * false in a singular configuration. */
+/* Computes (df/dy) x by a central difference of order 4, with an error of about 1e-12 of f. Returns
+ * false if one of the configurations is nearly singular. */
 static bool differentiate(const solver *s, double t, const double *y, const double *x, double *out)
 {
   static const double places[4] = {-2.0, -1.0, 1.0, 2.0};
@@ -141,8 +142,8 @@ static bool differentiate(const solver *s, double t, const double *y, const doub
   return regular;
 }
 
-/* |x - gamma df x - r| relative to the largest of these three vectors; NaN near a singular
- * configuration. */
+/* Returns |x - gamma (df/dy) x - r| relative to the largest of these three vectors, or NaN near a
+ * singular configuration. */
 static double defect_of(solver *s, double t, const double *y, double gamma, const double *r)
 {
   double x[SIZE];
@@ -161,14 +162,14 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
   return regular ? size_of(s, defect) / size : (double)NAN;
 }
 
-/* Limits of the defect. A wrong or missing term causes 1e-3. Measured: 4e-12 as a median; at most
- * 4e-8 with all derivatives given, and 1e-5 if the matrix has differences of user functions and the
- * configuration is near a singular one. */
+/* Limits of this defect. A wrong or missing term causes at least 1e-3. Correct terms have a median
+ * of 4e-12 and at most 4e-8 if all derivatives are given. If the matrix contains differences of
+ * user functions, up to 1e-5 were measured near singular configurations. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
-/* Checks random states near the design configuration, which need not be consistent. Returns the
- * number of states checked. */
+/* Checks random states near the design configuration; they need not fulfil the constraints. Returns
+ * the number of states that are not near a singular configuration. */
 static int check_states(solver *s, double tolerance, chance *c)
 {
   const double gammas[] = {1e-3, -1e-2, 0.1};
@@ -197,7 +198,8 @@ static int check_states(solver *s, double tolerance, chance *c)
   return checked;
 }
 
-/* Also checks gains of rows: every second row has a factor between 0.1 and 10. */
+/* Checks without and with factors on the gains: every second row has a factor between 0.1 and
+ * 10. */
 static int check_mechanism(const baum_mechanism *mechanism, baum_formulation formulation,
                            double tolerance, chance *c)
 {
@@ -246,8 +248,8 @@ static void models_by_functions_with_and_without_derivatives(void **state)
   check_model(model_car_axis(false, &m), BY_DIFFERENCES, &m);
 }
 
-/* Springs and dampers by numbers and by functions, drivers, inputs, user constraints and user
- * forces. */
+/* The mechanism contains springs and dampers with constants and with laws, drivers, inputs, user
+ * constraints and user forces. */
 static void one_of_every_element(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual forms: their Jacobians agree with differences, and the residuals are zero at the
- * solution of the stabilized system (7). */
+/* The residuals F(t, y, y') that IDA solves: their Jacobians agree with differences, and they are
+ * zero at the solution of the stabilized equations (7). */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -24,27 +24,27 @@ static const baum_residual FORMS[] = {BAUM_RESIDUAL_INDEX1, BAUM_RESIDUAL_INDEX2
                                       BAUM_RESIDUAL_INDEX3, BAUM_RESIDUAL_GGL};
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
-/* Returns the k-th of reproducible numbers in [-1, 1]. */
+/* Returns the k-th number of a fixed sequence in [-1, 1]. */
 static double scatter(int k)
 {
   double x = 0.6180339887498949 * (k + 1);
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* y and y' of a residual. The columns of its Jacobian are displacements of q, then v and the
- * multipliers. */
+/* The arguments y and y' of a residual. The columns of its Jacobian belong to displacements of q,
+ * to v and to the multipliers. */
 typedef struct point {
   const baum_mechanism *mechanism;
   double y[SIZE_MAX_DAE];
   double dy[SIZE_MAX_DAE];
   double scale[SIZE_MAX_DAE]; /* of columns */
   int size;                   /* number of columns */
-  int shift; /* nq - nv: an entry of y after q has an index larger by this than its column */
+  int shift;                  /* nq - nv: index in y of an unknown after q, minus its column */
 } point;
 
-/* Scales of y, so that results do not depend on units. Coordinates have their scales, velocities
- * these per second. A multiplier has the largest m scale^2 / s^2, divided by the displacement of
- * its row; mu has this times a second. */
+/* Sets the scales of the columns, so that results do not depend on units. Coordinates have their
+ * own scales, velocities the same per second. A lambda has the largest m scale^2 / s^2 of all
+ * coordinates, divided by the displacement of its row; a mu the same times one second. */
 static void take_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
@@ -86,7 +86,7 @@ static point random_point(baum_workspace *w, baum_residual index, int seed)
   return p;
 }
 
-/* Moves y along column j, and y' by c times as much. */
+/* Changes y by `step` along column j, and y' by c times that. */
 static void move_along(point *p, double c, int j, double step)
 {
   const baum_mechanism *m = p->mechanism;
@@ -105,8 +105,8 @@ static void move_along(point *p, double c, int j, double step)
   }
 }
 
-/* Computes column j of dF/dy + c dF/dy' by central differences of the residual along (e_j, c e_j).
- * The nq rows of q' - N v are multiplied by N^+. */
+/* Computes column j of dF/dy + c dF/dy' by a central difference of the residual F. The
+ * pseudo-inverse N^+ converts the nq rows of q' - N v to nv rows. */
 static void difference_column(baum_workspace *w, const baum_dae *dae, double c, const point *p,
                               int j, double *column)
 {
@@ -156,7 +156,8 @@ static void spread(const baum_i_residual_matrix *matrix, const double *values, i
   }
 }
 
-/* Returns the largest difference of scaled entries, relative to the largest entry of their row. */
+/* Returns the largest difference of two scaled entries, relative to the largest entry in their
+ * row. */
 static double largest_difference(const square *got, const square *want, const point *p)
 {
   double worst = 0.0;
@@ -197,9 +198,9 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10, and
- * rounding. Jacobians of user functions are differences, too. A wrong term would cause 1e-3 or
- * more. */
+/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10 and
+ * rounding errors. Where a user function gives no Jacobian, the matrix itself contains differences.
+ * A wrong term causes 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
   for (int f = 0; f < FORM_COUNT; f++) {
@@ -214,7 +215,7 @@ static void check_all_forms(const char *name, const baum_mechanism *mechanism)
   }
 }
 
-/* Checks index 1 with factors on the gains of the rows from 0.1 to 10. */
+/* Checks the residual of index 1 with factors from 0.1 to 10 on the gains of the rows. */
 static void check_row_gains(const char *name, const baum_mechanism *mechanism)
 {
   double factors[SIZE_MAX_DAE];
@@ -258,7 +259,7 @@ static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **
               model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m), &m);
 }
 
-/* One body has no mass; its entry of the metric W is the lower bound. */
+/* One body has no mass, so its entry of the metric W of GGL is the lower bound. */
 static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **state)
 {
   (void)state;
@@ -349,8 +350,8 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   check_index_1_at_the_solution(factors);
 }
 
-/* At the solution of (5) on the constraints the residual is zero for mu = 0. A nonzero mu changes
- * only the first nv rows, by W^-1 J^T mu. */
+/* At a state on the constraints, the accelerations and multipliers of (5) and mu = 0 give a zero
+ * residual. A nonzero mu changes only the first nv rows, by W^-1 J^T mu. */
 static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **state)
 {
   (void)state;
@@ -384,7 +385,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   assert_int_equal(baum_workspace_jacobian(w, 0.0, p.y, jacobian), BAUM_OK);
   assert_int_equal(baum_workspace_mass(w, 0.0, p.y, mass), BAUM_OK);
   for (int i = 0; i < nv; i++) {
-    /* M of planar bodies is diagonal, and no entry is at the lower bound of W */
+    /* here W is the diagonal of M: no entry is at the lower bound */
     ASSERT_NEAR(residual[i], 0.5 * jacobian[i] / mass[i * nv + i], 1e-13, 1e-13 * size);
   }
   baum_workspace_destroy(w);

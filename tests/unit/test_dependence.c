@@ -40,7 +40,7 @@ static scene make_bar(void)
   return s;
 }
 
-/* Freezes the mechanism, starts a run and destroys the mechanism. */
+/* Freezes the mechanism, starts a run of RATTLE and destroys the mechanism. */
 static baum_status start(const scene *s, baum_simulation **run)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -207,7 +207,8 @@ static void add_coordinate(const scene *s, behaviour *b)
   check(baum_mechanism_add_coordinates(s->mechanism, &def, NULL));
 }
 
-/* In space, where the moments of rigid bodies are of their motion and no forces. */
+/* In space the gyroscopic moments of rigid bodies depend on velocities too. RATTLE supports these,
+ * and refuses only the damper. */
 static void a_damper_in_space_is_refused(void **state)
 {
   (void)state;
@@ -236,7 +237,8 @@ static void a_damper_in_space_is_refused(void **state)
   }
 }
 
-/* There is no rule for the momenta of a manifold that is not known. */
+/* RATTLE knows how momenta change on SO(3) for rigid bodies, but not on a manifold that the user
+ * defines. */
 static void gyroscopic_moments_of_the_user_are_refused(void **state)
 {
   (void)state;
@@ -271,7 +273,8 @@ static void functions_without_a_declaration_are_refused_by_name(void **state)
   expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
-/* Expects the refusal from the mechanism, whatever the integrator. */
+/* Expects that the check of derivatives refuses the mechanism. This check does not depend on the
+ * integrator. */
 static void expect_denial(const scene *s, const char *parts)
 {
   check(baum_mechanism_freeze(s->mechanism));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences compared with known derivatives. Errors are relative to the size of the function for
- * a change of one scale, which is 1 in most tests. */
+/* Differences compared with known derivatives. Errors are relative to the change of the function
+ * over one scale of the coordinate, which is about 1 in most tests. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,8 @@
 typedef struct curve {
   double (*value)(double x);
   int calls;
-  double edge; /* refused below */
-  int answer;  /* return value of a refusal, as of a user function */
+  double edge; /* q[0] below this is refused */
+  int answer;  /* what a user function returns to refuse: > 0 asks for a retry */
   double noise;
 } curve;
 
@@ -36,7 +36,7 @@ static baum_status curve_field(const void *context, const baum_i_local *at, doub
   return BAUM_OK;
 }
 
-/* A state with one moving coordinate. */
+/* A state in which only the first coordinate moves. */
 typedef struct stage {
   user_model model;
   test_point p;
@@ -120,7 +120,7 @@ static double constant(double x)
   return 12345.678;
 }
 
-/* Changes slope within 1e-6, so that it looks like |x| from a distance. */
+/* Its slope changes from -1 to 1 within 1e-6, so with larger steps it cannot be told from |x|. */
 static double tiny_circle(double x)
 {
   return sqrt(x * x + 1e-12);
@@ -147,7 +147,7 @@ static void second_derivatives_are_good_to_2e_11(void **state)
     ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
     ASSERT_NEAR(derivative_at(exp, x, 1.0, 2), exp(x), 2e-11, 0.0);
     ASSERT_NEAR(derivative_at(fifth_power, x, 1.0, 2), 20.0 * x * x * x, 2e-11, 2e-11);
-    /* The truncation error is 3^6 = 729 times that of sin(x). */
+    /* The truncation error is of order 6, so it is 3^6 = 729 times that of sin(x). */
     ASSERT_NEAR(derivative_at(three_times_as_fast, x, 1.0, 2), -9.0 * sin(3.0 * x), 0.0, 4e-10);
   }
 }
@@ -174,7 +174,8 @@ static void a_scale_a_million_times_too_large_costs_time_but_no_accuracy(void **
   }
 }
 
-/* Rounding of 1e-16 over a step that is a thousand times too small. */
+/* The step is a thousand times too small, so differences amplify rounding of 1e-16 a thousand times
+ * more. */
 static void a_scale_a_thousand_times_too_small_costs_three_digits(void **state)
 {
   (void)state;
@@ -202,8 +203,8 @@ static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolution
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* The direction is rounded to 7e-12 / (v / 64), about 1e-9. Without rounding of the steps the
-   * error would be 1e-7. */
+  /* q is rounded to 7e-12, so a step's direction is wrong by 7e-12 / (v / 64), about 1e-9. If steps
+   * were not rounded to representable ones, the error would be 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }
@@ -288,7 +289,7 @@ static void a_function_that_returns_stop_is_not_called_again(void **state)
 
 /* ---- columns ---- */
 
-/* The functions x^2 y, sin(x + y) and x vx vy. */
+/* Evaluates the functions x^2 y, sin(x + y) and x vx vy. */
 static baum_status mixed_field(const void *context, const baum_i_local *at, double *out)
 {
   (void)context;

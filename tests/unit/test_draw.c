@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drawings and pages: every kind of element draws itself, the shape of a body follows from its
+/* Drawings and pages: every kind of element has its drawing, the shape of a body follows from its
  * joints, and names that a user gives cannot inject markup. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -78,6 +78,33 @@ static void every_element_with_a_place_is_drawn(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+/* Fails if a kind is added without a symbol, or without an element in every_element.c. */
+static void every_kind_of_the_library_is_drawn(void **state)
+{
+  (void)state;
+#define KIND(FAMILY, NAME) {#NAME, &baum_i_##NAME##_definition},
+  static const struct {
+    const char *name;
+    const baum_i_definition *const *definition;
+  } kinds[] = {BAUM_I_KINDS(KIND)};
+#undef KIND
+  every_element parts = {.fault = NULL};
+  must(every_element_build(&parts));
+  baum_i_drawing drawing;
+  draw_design(parts.mechanism, &drawing);
+  for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    bool drawn = strcmp(kinds[k].name, "coordinates") == 0; /* which have no place */
+    for (int i = 0; i < drawing.shape_count; i++) {
+      drawn = drawn || drawing.shapes[i].element->definition == *kinds[k].definition;
+    }
+    if (!drawn) {
+      fail_msg("%s is not drawn", kinds[k].name);
+    }
+  }
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 static void all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles(void **state)
 {
   (void)state;
@@ -137,7 +164,7 @@ static void add_slider(baum_mechanism *m, baum_body_id body)
   must(baum_mechanism_add_planar_translational(m, &def, NULL));
 }
 
-/* A crank with two pins, a rod with three, a block on a guide, and a wheel. */
+/* A crank with two pins, a rod with three pins, a block on a guide, and a wheel. */
 static baum_mechanism *make_crank(void)
 {
   baum_mechanism *m;
@@ -173,6 +200,24 @@ static void bodies_look_as_their_joints_make_them(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void links_of_a_long_chain_are_longer_than_wide(void **state)
+{
+  (void)state;
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id before = BAUM_GROUND;
+  for (int k = 0; k < 50; k++) {
+    baum_body_id body = add_body(m, NULL, k + 0.5, 0.0);
+    add_pin(m, NULL, before, body, k, 0.0);
+    before = body;
+  }
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  ASSERT_NEAR(drawing.unit, 0.125 * 0.5, 1e-14, 0.0);
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
 static void inner_points_are_not_part_of_an_outline(void **state)
 {
   (void)state;
@@ -194,6 +239,108 @@ static void inner_points_are_not_part_of_an_outline(void **state)
   assert_int_equal(shapes_of(&drawing, "plate", BAUM_I_BODY, BAUM_I_AREA), 1);
   baum_i_drawing_release(&drawing);
   baum_mechanism_destroy(m);
+}
+
+static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
+{
+  (void)state;
+  enum { Y = 1 };
+  const double radius = 0.5, half = 1.0, mass = 2.0;
+  const double across = mass * (radius * radius / 4 + half * half / 3);
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.name = "roller";
+  def.mass = mass;
+  def.inertia[0] = def.inertia[2] = across;
+  def.inertia[Y] = mass * radius * radius / 2;
+  must(baum_mechanism_add_spatial_body(m, &def, NULL));
+  def.name = "block"; /* no two moments are equal */
+  def.inertia[0] = 0.9 * across;
+  def.position[0] = 10.0;
+  must(baum_mechanism_add_spatial_body(m, &def, NULL));
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  assert_int_equal(drawing.shape_count, 3);
+  assert_int_equal(shapes_of(&drawing, "roller", BAUM_I_MARK, BAUM_I_LINE), 1);
+  assert_int_equal(shapes_of(&drawing, "roller", BAUM_I_BODY, BAUM_I_CYLINDER), 1);
+  assert_int_equal(shapes_of(&drawing, "block", BAUM_I_BODY, BAUM_I_BOX), 1);
+  const baum_i_shape *roller = &drawing.shapes[0];
+  ASSERT_NEAR(roller->radius, radius, 1e-14, 0.0);
+  for (int end = 0; end < 2; end++) {
+    const double *at = drawing.points[roller->first + end];
+    ASSERT_NEAR(at[Y], end ? half : -half, 1e-14, 0.0);
+    ASSERT_NEAR(hypot(at[0], at[2]), 0.0, 0.0, 0.0);
+  }
+  baum_i_drawing_release(&drawing);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- the ground ---- */
+
+/* The middle of the shapes of the ground, from a pin at the origin. */
+static void find_ground(const baum_mechanism *m, double middle[2])
+{
+  baum_i_drawing drawing;
+  draw_design(m, &drawing);
+  int count = 0;
+  middle[0] = middle[1] = 0.0;
+  for (int k = 0; k < drawing.shape_count; k++) {
+    const baum_i_shape *shape = &drawing.shapes[k];
+    for (int i = 0; i < shape->count && shape->style == BAUM_I_GROUND; i++) {
+      middle[0] += drawing.points[shape->first + i][0] / drawing.unit;
+      middle[1] += drawing.points[shape->first + i][1] / drawing.unit;
+      count++;
+    }
+  }
+  assert_true(count > 0);
+  middle[0] /= count;
+  middle[1] /= count;
+  baum_i_drawing_release(&drawing);
+}
+
+/* A bar from the origin to a point, pinned or welded to the ground at the origin. */
+static void find_ground_of_bar(double x, double y, bool weld, const double gravity[2],
+                               double middle[2])
+{
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  must(baum_mechanism_set_gravity(m, gravity[0], gravity[1], 0.0));
+  baum_body_id bar = add_body(m, "bar", x, y);
+  if (weld) {
+    baum_planar_fixed_def def = baum_planar_fixed_def_default();
+    def.body_a = BAUM_GROUND;
+    def.body_b = bar;
+    def.point[0] = def.point[1] = 0.0;
+    must(baum_mechanism_add_planar_fixed(m, &def, NULL));
+  } else {
+    add_pin(m, "pin", BAUM_GROUND, bar, 0.0, 0.0);
+  }
+  find_ground(m, middle);
+  baum_mechanism_destroy(m);
+}
+
+static void the_ground_is_below_a_joint_unless_the_body_hangs_there(void **state)
+{
+  (void)state;
+  const double down[2] = {0.0, -9.81}, left[2] = {-1.0, 0.0}, none[2] = {0.0, 0.0};
+  double middle[2];
+  find_ground_of_bar(1.0, 0.3, false, down, middle);
+  assert_true(middle[1] < -1.0);
+  find_ground_of_bar(0.0, 1.0, false, down, middle);
+  assert_true(middle[1] < -1.0);
+  find_ground_of_bar(0.2, -1.0, false, down, middle);
+  assert_true(middle[1] > 1.0);
+  find_ground_of_bar(0.0, 1.0, false, left, middle);
+  assert_true(middle[0] < -1.0);
+  find_ground_of_bar(1.0, 0.0, false, none, middle);
+  assert_true(middle[1] < -1.0);
+  find_ground_of_bar(1.0, 0.0, true, down, middle); /* a wall on the left */
+  assert_true(middle[0] < -0.2);
+  find_ground_of_bar(-1.0, 0.1, true, down, middle);
+  assert_true(middle[0] > 0.2);
+  find_ground_of_bar(0.1, -1.0, true, down, middle); /* a ceiling */
+  assert_true(middle[1] > 0.2);
 }
 
 /* ---- pictures ---- */
@@ -227,6 +374,40 @@ static void only_an_open_joint_has_a_red_line(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up(void **state)
+{
+  (void)state;
+  static char text[BYTES];
+  baum_mechanism *m;
+  must(baum_mechanism_create(&m));
+  baum_body_id crank = add_body(m, "crank", 0.5, 0.0);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.name = "O";
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = crank;
+  pin.point[0] = pin.point[1] = 0.0;
+  must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  pin.name = "A"; /* 1 m from O on the crank, 2 m from it on the ground */
+  pin.point[0] = pin.point[1] = (double)NAN;
+  pin.point_a[0] = 2.0;
+  pin.point_a[1] = 0.0;
+  pin.point_b[0] = 0.5;
+  pin.point_b[1] = 0.0;
+  must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  must(baum_mechanism_svg_assembled(m, text, sizeof text, NULL)); /* not frozen */
+  assert_string_not_equal(text, print_svg(m, NULL));
+  assert_non_null(strstr(text, "#e11d48"));
+  ASSERT_SAYS(baum_mechanism_svg_assembled(NULL, NULL, 0, NULL), BAUM_ERR_ARGUMENT, "NULL");
+  must(baum_mechanism_freeze(m));
+  static char again[BYTES];
+  must(baum_mechanism_svg_assembled(m, again, sizeof again, NULL));
+  assert_string_equal(text, again);
+  baum_mobility mobility;
+  must(baum_mechanism_mobility(m, &mobility, sizeof mobility));
+  assert_non_null(strstr(mobility.text, "before assembly, joint 2 \"A\" is open most"));
+  baum_mechanism_destroy(m);
+}
+
 static void names_stay_texts(void **state)
 {
   (void)state;
@@ -241,7 +422,7 @@ static void names_stay_texts(void **state)
   const baum_channel channel = baum_channel_of(BAUM_Q);
   const char *label = HOSTILE;
   baum_page page = baum_page_default();
-  page.title = "</script></title>\n\t\x01\xff"; /* control characters, no UTF-8 */
+  page.title = "</script></title>\n\t\x01\xff"; /* control characters, invalid UTF-8 */
   page.times = page.plots = page.mark_times = &time;
   page.count = page.channel_count = page.plot_count = page.mark_count = 1;
   page.channels = &channel;
@@ -292,8 +473,38 @@ static void wrong_calls_are_refused(void **state)
   page.plot_count = 0;
   page.mark_count = -1;
   ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
+  const int32_t kinds[2] = {BAUM_MARK_EVENT, 3};
+  const char *texts[2] = {"", ""};
+  page.mark_times = q;
+  page.mark_texts = texts;
+  page.mark_kinds = kinds;
+  page.mark_count = 2;
+  ASSERT_SAYS(baum_page_print(m, &page, text, 8, NULL), BAUM_ERR_ARGUMENT, "mark_kinds[1] is 3");
   page.struct_size = 8;
   ASSERT_SAYS(baum_page_write(m, &page, "page.html"), BAUM_ERR_STRUCT, "struct_size");
+  baum_mechanism_destroy(m);
+}
+
+static void the_page_of_an_older_program_lacks_its_last_fields(void **state)
+{
+  (void)state;
+  static char text[BYTES];
+  const double time = 0.0;
+  const double q[12] = {0.0};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  baum_mechanism *m = make_crank();
+  must(baum_mechanism_freeze(m));
+  baum_page page = baum_page_default();
+  page.times = &time;
+  page.count = page.channel_count = 1;
+  page.channels = &channel;
+  page.rows = q;
+  page.mark_count = 7; /* without its arrays */
+  ASSERT_SAYS(baum_page_print(m, &page, text, sizeof text, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
+  page.struct_size = offsetof(baum_page, mark_times);
+  must(baum_page_print(m, &page, text, sizeof text, NULL));
+  page.struct_size = sizeof page + sizeof(size_t);
+  ASSERT_SAYS(baum_page_print(m, &page, text, sizeof text, NULL), BAUM_ERR_STRUCT, "struct_size");
   baum_mechanism_destroy(m);
 }
 
@@ -330,7 +541,7 @@ static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
   }
   assert_in_range(count, 300, 600);
   assert_non_null(strstr(text, "[-3.5,7.25]"));
-  assert_non_null(strstr(text, "[0,4999]")); /* begin and end */
+  assert_non_null(strstr(text, "[0,4999]")); /* range of times */
   baum_mechanism_destroy(m);
 }
 
@@ -338,12 +549,18 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_element_with_a_place_is_drawn),
+    cmocka_unit_test(every_kind_of_the_library_is_drawn),
     cmocka_unit_test(all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles),
     cmocka_unit_test(bodies_look_as_their_joints_make_them),
+    cmocka_unit_test(links_of_a_long_chain_are_longer_than_wide),
     cmocka_unit_test(inner_points_are_not_part_of_an_outline),
+    cmocka_unit_test(the_ground_is_below_a_joint_unless_the_body_hangs_there),
+    cmocka_unit_test(a_body_with_an_axis_of_symmetry_is_a_cylinder),
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
+    cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up),
     cmocka_unit_test(names_stay_texts),
     cmocka_unit_test(wrong_calls_are_refused),
+    cmocka_unit_test(the_page_of_an_older_program_lacks_its_last_fields),
     cmocka_unit_test(a_long_run_keeps_600_frames_and_its_extremes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

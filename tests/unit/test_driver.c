@@ -45,7 +45,7 @@ static int copy(double t, double s[3], void *user)
   return 0;
 }
 
-/* Fails unless `s` is zero at the call; sets nothing. */
+/* Sets nothing. Fails unless the caller has set `s` to zero. */
 static int nothing(double t, double s[3], void *user)
 {
   (void)t;
@@ -103,7 +103,8 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_driver(mechanism, def, NULL);
 }
 
-/* A pin with the driver "motor" as joint 2, in the design configuration. */
+/* Opens a test point at the design configuration of a pin with the driver "motor", which is joint
+ * 2. */
 static void open_motor(test_point *p, baum_law_fn *law, void *user, bool slider)
 {
   planar_scene scene = planar_scene_make();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Orders of elimination compared with elimination on a full matrix of couplings. */
+/* Orders of elimination, compared with an elimination on the full adjacency matrix of the graph. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,7 +97,8 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Passes the neighbours in decreasing order; their order must not matter. */
+/* Computes the order of elimination. Passes neighbours in decreasing order, because their order
+ * must not matter. */
 static baum_status order(graph *g, int most, baum_i_elimination *out)
 {
   int32_t at = 0;
@@ -147,7 +148,8 @@ static int take_out(graph *g, int node)
   return degree;
 }
 
-/* Each place couples with exactly the remaining neighbours of its node. */
+/* Checks that each step of the elimination lists exactly the remaining neighbours of the node that
+ * it eliminates. */
 static void assert_elimination(const graph *given, const baum_i_elimination *found)
 {
   graph g = *given;
@@ -180,7 +182,7 @@ static int couplings_in_order(const graph *given)
   return sum;
 }
 
-/* Always eliminates a node with the fewest neighbours. */
+/* Returns the number of couplings if every step eliminates a node with the fewest neighbours. */
 static int couplings_by_greed(const graph *given)
 {
   graph g = *given;
@@ -231,7 +233,8 @@ static void graphs_without_rings_have_no_fill(void **state)
   }
 }
 
-/* The two ends alternate, so that neighbouring steps are independent of each other. */
+/* Elimination alternates between the two ends, so that a step does not have to wait for the result
+ * of the step before. */
 static void chains_are_eliminated_from_both_ends_in_turn(void **state)
 {
   (void)state;
@@ -248,7 +251,8 @@ static void chains_are_eliminated_from_both_ends_in_turn(void **state)
   baum_i_elimination_clear(&found);
 }
 
-/* Each elimination shortens a ring by one node with one new coupling, down to three nodes. */
+/* Each elimination removes one node of a ring and couples its two neighbours, until three nodes are
+ * left. */
 static void rings_have_the_fill_that_cannot_be_avoided(void **state)
 {
   (void)state;
@@ -276,8 +280,8 @@ static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
   assert_int_equal(check(&alone), 0);
 }
 
-/* Elimination in rounds may cause a few more couplings than one node at a time, but far fewer than
- * an arbitrary order. */
+/* The library eliminates several nodes per round. This may cause a few more couplings than the
+ * greedy order, one node at a time, but far fewer than an arbitrary order. */
 static void random_graphs_have_little_more_fill_than_by_greed(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Overflow is reported where it occurs, with the joint or the body; infinite results are never
+/* Overflow is reported with the joint or the body in which it occurs. Infinite results are never
  * returned with BAUM_OK. */
 #include <float.h>
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #include "message.h"
 
-/* A rigid body "big" on a rod "rod" from the origin, and a wheel without a joint. */
+/* A rigid body "big" that the rod "rod" connects to the origin, and a wheel without a joint. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_workspace *workspace;
@@ -53,7 +53,7 @@ static void close_scene(scene *s)
   baum_mechanism_destroy(s->mechanism);
 }
 
-/* Weight and kinetic energy overflow for a body with the largest possible mass. */
+/* A body with the largest finite mass, whose weight and kinetic energy overflow. */
 static void forces_and_energies_that_overflow_are_refused(void **state)
 {
   (void)state;
@@ -68,7 +68,7 @@ static void forces_and_energies_that_overflow_are_refused(void **state)
   close_scene(&s);
 }
 
-/* Speeds whose squares overflow. */
+/* The squares of the velocities overflow. */
 static void gamma_that_overflows_is_refused(void **state)
 {
   (void)state;

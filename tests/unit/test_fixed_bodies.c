@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed bodies: they are welded to ground and omitted from the motion. */
+/* Fixed bodies are welded to ground, directly or through other bodies. The equations of motion omit
+ * them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,7 +66,7 @@ static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
   return id;
 }
 
-/* Two frames that carry a double pendulum; the first is welded to ground, the second to the
+/* Two frames that carry a double pendulum. The first frame is welded to ground, the second to the
  * first. */
 enum { FRAMES = 2, BODIES = 4 };
 
@@ -112,7 +113,7 @@ static int left_out(const baum_simulation *run)
   return path ? path->fixed_count : 0;
 }
 
-/* With the solver of the whole system, which does not omit fixed bodies. */
+/* Starts a run with the solver of the whole system, which does not omit fixed bodies. */
 static baum_simulation *start_whole(const baum_mechanism *m, baum_simulation_options o)
 {
   o.solver = BAUM_SOLVER_KLU;
@@ -158,7 +159,8 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* A triangle on the ground is rigid without a weld, and is not omitted. */
+/* Two bodies and ground, joined by three pins, form a rigid triangle. No body is welded, so none is
+ * omitted. */
 static void rigid_islands_are_solved_for(void **state)
 {
   (void)state;
@@ -180,7 +182,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
 {
   (void)state;
   enum { CHAIN = 7 };
-  for (int step = 1; step < CHAIN; step++) { /* reaches every body */
+  for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime: all bodies are joined */
     baum_mechanism *m = begin();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {
@@ -199,7 +201,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   }
 }
 
-/* A fixed body with more joints than the block solver can handle does not matter. */
+/* The limit on the number of joints of a body in the block solver does not concern fixed bodies. */
 static void a_fixed_body_may_have_any_number_of_joints(void **state)
 {
   (void)state;
@@ -247,8 +249,9 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame. A row of the frame's weld, which is added last, is
- * as redundant as rows of the cranks, but rows that fix a body are never omitted. */
+/* Three parallel cranks, one of them on a frame. One row is redundant. A row of the frame's weld,
+ * the last joint, could be omitted, but rows that fix a body never are: a row of a crank is
+ * omitted. */
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
@@ -330,7 +333,7 @@ static void reactions_of_fixed_bodies_are_right(void **state)
   check(baum_simulation_get(run, channels, 6, got));
   check(baum_simulation_get(whole, channels, 6, want));
   for (int i = 0; i < width; i++) {
-    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions differ by 1e-12, forces are up to 1e2 N */
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions differ by 1e-12, forces reach 1e2 N */
   }
   assert_true(want[1] > 10.0);                 /* the foot carries a load */
   check(baum_simulation_advance_to(run, 0.4)); /* reading results changes nothing */
@@ -349,7 +352,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
   baum_simulation *run = start(it.mechanism, &o);
   check(baum_simulation_advance_to(run, 0.2));
   for (int i = 0; i < 3 * FRAMES; i++) {
-    /* Assembly leaves a rounding of lengths of about 1 m. */
+    /* Assembly leaves rounding errors of lengths of about 1 m. */
     assert_true(fabs(run->workspace->phi[i]) < 1e-14);
     assert_true(run->workspace->phi_rate[i] == 0.0);
     assert_true(run->workspace->gamma[i] == 0.0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the torque-free rotation of a rigid body in a step, and the principal axes for it. */
+/* One step of the torque-free rotation of a rigid body, and the principal axes that it uses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,14 +17,14 @@
 static const double TILT[4] = {0.7, -0.1, 0.5, 0.5};
 static const double MOMENTUM[3] = {0.9, -0.4, 0.6};
 
-/* All kinds of principal moments: general, slender, flat, symmetric with the third moment larger or
- * smaller, in any order, and those of a sphere. */
+/* All kinds of principal moments, in any order: general, slender and flat bodies, symmetric bodies
+ * whose third moment is larger or smaller than the other two, and a sphere. */
 static const double MOMENTS[][3] = {{1.0, 2.0, 2.7},   {2.0, 0.2, 2.1}, {2.9, 1.4, 1.5},
                                     {2.0, 2.0, 0.5},   {1.0, 1.6, 1.0}, {2.0, 1e-3, 2.0},
                                     {1.0, 2.0, 2.999}, {1.5, 1.5, 1.5}};
 enum { KINDS = sizeof MOMENTS / sizeof *MOMENTS };
 
-/* Writes A diag(moments) A^T, where A is the rotation TILT, or E if not tilted. */
+/* Writes A diag(moments) A^T. A is the rotation TILT if `tilted`, otherwise the identity. */
 static void tensor_of(const double moments[3], bool tilted, double out[9])
 {
   double p[4] = {1.0, 0.0, 0.0, 0.0};
@@ -65,7 +65,7 @@ static void principal_axes_are_sorted_and_give_the_tensor(void **state)
   }
 }
 
-/* Orientation, and angular momentum in body axes. */
+/* Orientation p (unit quaternion) and angular momentum m in body axes. */
 typedef struct motion {
   double p[4];
   double m[3];
@@ -118,7 +118,8 @@ static void check_momentum_in_space(const motion *a, const motion *b)
   }
 }
 
-/* Compares the errors of steps h and h / 2, with steps h / 64 as the reference. */
+/* Compares the errors of steps of h and h / 2. The reference uses steps of h / 64; for symmetric
+ * bodies the method is exact. */
 static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
 {
   (void)state;
@@ -137,8 +138,7 @@ static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
     bool symmetric =
       moments[0] == moments[1] || moments[1] == moments[2] || moments[0] == moments[2];
     if (symmetric) {
-      assert_true(error[0] <=
-                  1e-11); /* rounding 1e-14 of the moments, over the smallest one, 1e-3 */
+      assert_true(error[0] <= 1e-11); /* rounding of 1e-14, divided by the smallest moment, 1e-3 */
     } else {
       assert_true(error[0] >= 1e-7);
       ASSERT_NEAR(error[0] / error[1], 4.0, 0.02, 0.0);
@@ -160,7 +160,7 @@ static void rotations_are_symmetric(void **state)
   }
 }
 
-/* One step rotates by up to two revolutions. */
+/* One step rotates the body by up to two revolutions. */
 static void rotations_about_principal_axes_are_exact(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized-alpha: order of all unknowns, damping of fast modes, stiff forces, redundant rows,
- * and shortened steps. */
+/* Generalized-alpha method: order of all unknowns, damping of fast modes, stiff forces, redundant
+ * rows, and shortened steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -65,14 +65,14 @@ static int pull(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* Starts from rest at x = 1. */
+/* Makes an oscillator that starts from rest at x = 1. */
 static baum_mechanism *make_oscillating(oscillator *o)
 {
   return one_coordinate(1.0, 0.0, pull, o, NULL);
 }
 
-/* With w h = 1e4 all three roots are -rho within about 1e-4, so the amplitude decays as k^2
- * rho^k. */
+/* With w h = 1e4 the method's three roots are nearly equal, within about 1e-4 of -rho = -0.8. So
+ * the amplitude after k steps is about k^2 rho^k. */
 static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
 {
   (void)state;
@@ -83,16 +83,16 @@ static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
   check(baum_simulation_step(run, 100));
   double before = baum_simulation_q(run)[0];
   check(baum_simulation_step(run, 1));
-  /* terms of 1 / 100^2, and the deviation of the roots */
+  /* (101 / 100)^2 = 1 + 2 / 100 + ...; 2e-3 allows for the rest and for the roots */
   ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 2e-3, 0.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Damping of 1e4 1/s with steps of 10 ms, which explicit methods cannot follow. The slow motion x =
- * exp(-w t / (2 d)), for d far above 1, is accurate. The remaining error comes from the first
- * steps, which do not resolve the transition from rest to the slow motion: a fraction of (w h)^2 =
- * 1e-2, measured 3e-4. */
+/* Damping of 1e4 1/s with steps of 10 ms, for which explicit methods are unstable. The slow motion,
+ * x = exp(-w t / (2 d)) for d >> 1, is accurate. The error comes from the first steps, which do not
+ * resolve the transition from rest to the slow motion: 3e-4 was measured, a fraction of (w h)^2 =
+ * 1e-2. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
@@ -109,9 +109,9 @@ static void a_stiff_damper_needs_no_small_steps(void **state)
 
 /* ---- order ---- */
 
-/* Returns the error of the position of a pendulum (1 m, 1 kg) at the end, and sets those of its
- * velocity and of the multiplier of its rod. The exact multiplier follows from equation (5) of
- * docs/theory/formulations.md at the exact motion. */
+/* Returns the final position error of a pendulum (1 m, 1 kg), and sets the errors of its velocity
+ * and of its multiplier. Equation (5) of docs/theory/formulations.md gives the exact multiplier at
+ * the exact state. */
 static double errors_at(double step, double *velocity, double *multiplier)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -149,8 +149,8 @@ static void positions_velocities_and_multipliers_are_of_order_2(void **state)
   }
 }
 
-/* After five steps. If the method started with the present acceleration, multipliers would have
- * order 1 at first. */
+/* Compares multipliers after five steps. If the method used the acceleration at the start as its
+ * auxiliary acceleration, they would have order 1 at first. */
 static void multipliers_are_of_order_2_from_the_start(void **state)
 {
   (void)state;
@@ -189,13 +189,13 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   baum_simulation *run = start(m.mechanism, &options);
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
-  assert_true(c.max_phi <= 1e-14);     /* rounding of 1 m and of revolutions */
-  assert_true(c.max_phi_rate > 1e-9);  /* of order h^2 */
-  assert_true(c.max_phi_rate <= 1e-2); /* relative to 45 m/s */
+  assert_true(c.max_phi <= 1e-14);     /* rounding of lengths of 1 m and of angles */
+  assert_true(c.max_phi_rate > 1e-9);  /* O(h^2) */
+  assert_true(c.max_phi_rate <= 1e-2); /* at speeds of up to 45 m/s */
   assert_int_equal(c.rejected, 0);
   assert_int_equal(c.warnings, 0);
   assert_true(c.nonlinear_iterations >= 1000 && c.nonlinear_iterations <= 4000);
-  assert_true(c.full_factorizations <= 20); /* pivots are kept */
+  assert_true(c.full_factorizations <= 20); /* later steps reuse the pivots */
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
@@ -208,7 +208,8 @@ static void end_of(const model *m, baum_simulation_options *options, double *q)
   baum_simulation_destroy(run);
 }
 
-/* Only the matrix differs, so the motion differs by the tolerance of the iteration. */
+/* The doubled guide changes only the matrix of the iteration, so the motions differ by no more than
+ * its tolerance. */
 static void redundant_rows_alter_nothing(void **state)
 {
   (void)state;
@@ -226,8 +227,8 @@ static void redundant_rows_alter_nothing(void **state)
   model_destroy(&doubled);
 }
 
-/* The start is 0.01 m off the circle and has a velocity along the rod. One step removes both, and
- * the motion continues with the projected velocity. */
+/* The start is 0.01 m off the circle and has a velocity component along the rod. The first step
+ * removes both errors and keeps the velocity component along the circle. */
 static void a_start_off_the_constraints_is_projected(void **state)
 {
   (void)state;
@@ -240,13 +241,14 @@ static void a_start_off_the_constraints_is_projected(void **state)
   check(baum_simulation_set_state(run, 0.0, q, v));
   check(baum_simulation_step(run, 1));
   assert_true(fabs(hypot(baum_simulation_q(run)[0], baum_simulation_q(run)[1]) - 1.0) <= 1e-14);
-  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* of order h^2 */
+  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* O(h^2) */
   ASSERT_NEAR(baum_simulation_v(run)[0], -1e-4, 0.0, 1e-6);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Samples at a third of every step do not change the motion and are as accurate as grid points. */
+/* Samples at one and at two thirds of every step do not change the motion and are as accurate as
+ * the results at grid points. */
 static void samples_beside_the_grid_alter_nothing(void **state)
 {
   (void)state;
@@ -277,8 +279,8 @@ static void samples_beside_the_grid_alter_nothing(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force that jumps with the position, by so much that iterations jump back and forth by thousands
- * of metres. */
+/* A force that changes its sign at x = 0.5 and is so large that the iteration jumps back and forth
+ * by thousands of metres. */
 static int jump(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -342,7 +344,8 @@ static void only_index_3_without_gains_is_offered(void **state)
 
 /* ---- a small stiff coordinate on a large one ---- */
 
-/* u = x - 0.4 of a link is a coordinate of unit mass on a spring of stiffness k. */
+/* The coordinate u = x - 0.4 of unit mass measures the position x of a link. A spring of stiffness
+ * k acts on u. */
 static int unit(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -406,7 +409,8 @@ static baum_mechanism *link_with_gauge(double *k)
   return m;
 }
 
-/* The rounding of x is 1e-11 of the scale of u, and a smaller step does not reduce it. */
+/* The scale of u is 1e-5, so the rounding of x is 1e-11 of it, at any step. The iteration must
+ * accept this error. */
 static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **state)
 {
   (void)state;
@@ -418,7 +422,7 @@ static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **sta
       check(baum_simulation_step(run, 100));
       assert_true(counters_of(run).max_phi < 1e-14);
       assert_true(counters_of(run).nonlinear_iterations <= 600);
-      /* It swings about the equilibrium of spring and weight. */
+      /* u oscillates about the equilibrium of the spring and the weight */
       assert_true(fabs(baum_simulation_q(run)[3]) < 100.0 / k);
       baum_simulation_destroy(run);
     }

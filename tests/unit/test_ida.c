@@ -34,8 +34,8 @@ static void error_falls_with_the_tolerance(void **state)
     setup.formulation = FORMS[f];
     double factor = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
     print_message("%-10s %.2f\n", baum_formulation_name(FORMS[f]), factor);
-    /* At order 5 the factor is 10^(5/6) = 6.8; a single motion may deviate. At index 3 the error
-     * test omits velocities. */
+    /* The error should fall by 10^(5/6) = 6.8 per decade of rtol, because IDA has at most order 5.
+     * One motion may deviate; index 3 may deviate more, because its error test omits velocities. */
     if (!(factor >= (FORMS[f] == BAUM_FORMULATION_INDEX3 ? 4.0 : 6.0))) {
       fail_msg("%s: factor %.2f", baum_formulation_name(FORMS[f]), factor);
     }
@@ -68,9 +68,9 @@ static violation largest_violation(baum_formulation formulation, double t)
   return largest;
 }
 
-/* Constraints that are among the equations hold within the tolerance of Newton's iteration: Phi at
- * index 3, Phi' at index 2, both with GGL. At index 2 Phi drifts, but more slowly than at index 1,
- * where Phi' drifts too. */
+/* The equations contain Phi = 0 at index 3, Phi' = 0 at index 2, and both with GGL. These hold
+ * within the tolerance of Newton's iteration. At index 2 Phi drifts, but more slowly than at index
+ * 1, where Phi' drifts too. */
 static void violation_is_as_the_formulation_says(void **state)
 {
   (void)state;
@@ -106,7 +106,7 @@ typedef struct cost {
   double q[RUN_SIZE_MAX];
 } cost;
 
-/* IDA's multipliers (nc) at the end of the last step. */
+/* Returns IDA's multipliers (nc) at the end of the last step. */
 static const double *multipliers_of(const integrator_run *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -132,9 +132,9 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* Runs with the exact Jacobian may need no more work than with a dense Jacobian by IDA's own
- * differences, except for differences due to rounding, so far 15 %. A missing term or a wrong sign
- * costs 2 to 40 times as much. */
+/* With the exact Jacobian a run must not need more steps or iterations than with IDA's own dense
+ * difference Jacobian. Rounding causes deviations, up to 15 % so far; 30 % are allowed. A missing
+ * term or a wrong sign needs 2 to 40 times as much work. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {
@@ -188,8 +188,8 @@ static void the_exact_jacobian_is_as_good_as_differences(void **state)
 
 /* ---- multipliers ---- */
 
-/* Largest error of IDA's multipliers at the ends of steps up to t, relative to the largest exact
- * one. */
+/* Returns the largest error of IDA's multipliers at the ends of steps up to t, relative to the
+ * largest exact multiplier at that time. */
 static double multiplier_error(const model *scene, baum_formulation formulation, double gain,
                                double rtol, double t)
 {
@@ -217,9 +217,10 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
   return worst;
 }
 
-/* At most 0.1. No error test includes the multipliers; only Newton's iteration determines them, to
- * 1e-2 of the largest, relative to the sizes of the rows, which differ by less than 10. Without
- * this control they would grow to 1e14 times their value. */
+/* Requires errors of at most 0.1. The error test excludes multipliers; only Newton's iteration
+ * controls them. Its tolerance is 1e-2 of the largest multiplier, with the sizes of the rows as
+ * weights (they differ by less than a factor of 10). Without this control the errors would grow to
+ * 1e14 times the multipliers. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -273,8 +274,8 @@ static baum_mechanism *make_sledge(void)
   return mechanism;
 }
 
-/* A body that slides freely on a rail: the multipliers are only rounding, for which no relative
- * accuracy is possible. */
+/* A body slides freely on a rail, so its exact multipliers are zero. The computed ones are rounding
+ * errors, which must not make the run fail. */
 static void multipliers_may_vanish(void **state)
 {
   (void)state;
@@ -287,9 +288,9 @@ static void multipliers_may_vanish(void **state)
       setup.rtol = pow(10.0, -k);
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
       assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
-      /* No step has an error, so each is twice the last, beginning with sqrt(rtol) s. */
+      /* No step has an error, so IDA doubles every step. The first one is sqrt(rtol) s. */
       assert_true(run.steps < 100);
-      for (int i = 0; i < 2; i++) { /* some steps, each with a rounding of 10 m */
+      for (int i = 0; i < 2; i++) { /* rounding at 10 m in each step */
         ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
       }
       integrator_run_close(&run);
@@ -300,8 +301,8 @@ static void multipliers_may_vanish(void **state)
 
 /* ---- units ---- */
 
-/* Number of steps of a free swing of m kg: multipliers are m times as large, motion and steps are
- * the same. */
+/* Returns the number of steps for a pendulum of `mass`. Multipliers are proportional to the mass,
+ * but the motion is the same, so the steps must be the same too. */
 static int64_t steps_with_mass(baum_formulation formulation, double mass)
 {
   baum_mechanism *mechanism = NULL;
@@ -340,8 +341,8 @@ static void the_unit_of_mass_makes_no_difference(void **state)
 
 /* ---- multipliers in the error test ---- */
 
-/* Largest error of IDA's multipliers up to t, relative to the largest one, with a factor on their
- * tolerance. */
+/* Returns the largest error of IDA's multipliers up to t = 2, relative to the largest multiplier.
+ * The error test includes the multipliers with `factor` times the tolerance. */
 static double tested_multiplier_error(const model *scene, baum_formulation formulation,
                                       double factor, int64_t *steps)
 {
@@ -372,9 +373,9 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
   return error / largest;
 }
 
-/* Without a tolerance the error of the multipliers is arbitrary. With one it is at most 10 times
- * the tolerance, as for other unknowns (measured 3.5). At order 2 and higher the steps grow less
- * than fivefold per decade. */
+/* If the error test excludes multipliers, their error is arbitrary. If it includes them, their
+ * error is at most 10 times their tolerance, as for other unknowns (3.5 was measured). Since the
+ * order is at least 2, the number of steps rises less than fivefold per decade. */
 static void multipliers_are_tested_as_their_factor_says(void **state)
 {
   (void)state;
@@ -405,8 +406,9 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* If Phi and Phi' are among the equations, the first step moves a violated state onto the
- * constraints; index 2 includes only Phi'. The pendulum starts 1e-2 m and 0.3 m/s off. */
+/* The start violates Phi by 1e-2 m and Phi' by 0.3 m/s. The first step must remove the violations
+ * that the formulation contains as equations: both with GGL and at index 3, only Phi' at index
+ * 2. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
@@ -425,18 +427,19 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
     const double *end = run.state_q;
     double length = hypot(end[0], end[1]);
     double rate = (end[0] * run.state_v[0] + end[1] * run.state_v[1]) / length;
-    /* The tolerance is 1e-6 of 1 m, and this times the rate. */
+    /* The tolerance of lengths is 1e-6 m, that of velocities the same per time constant of the
+     * pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* the tangential part */
+    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* tangential part of v */
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
   }
 }
 
-/* With a consistent start and the chosen first step, no step among the first ten is rejected, at
- * any tolerance. Exceptions: one at index 2, by chance, and two at index 3, where a shorter first
- * step would be worse. */
+/* From a consistent start and with the first step that the library chooses, none of the first ten
+ * steps is rejected, at any tolerance. Exceptions are one at index 2, by chance, and two at index
+ * 3, where a shorter first step would cause more rejections. */
 static void the_start_is_smooth(void **state)
 {
   (void)state;
@@ -468,8 +471,9 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line: two rows are redundant and become lambda_i = mu_i = 0. The
- * motions differ by their errors, about 100 rtol after a revolution. */
+/* A second guide on the same line adds two redundant rows, which are replaced by lambda_i = 0 and
+ * mu_i = 0. The motions with one and two guides differ by their global errors, about 100 rtol after
+ * one revolution. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;
@@ -494,8 +498,8 @@ static void redundant_rows_make_no_difference(void **state)
 }
 
 /* The mechanism does not depend on time, and IDA measures time from the start. So a start at 1e9 s,
- * where a double has a rounding of 1e-7 s, changes no digit at the ends of steps. Inside a step, t
- * itself is rounded. */
+ * where a double is rounded to 1e-7 s, changes no digit at the ends of steps. Only results inside a
+ * step differ, because t itself is rounded. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -521,14 +525,15 @@ static void a_late_start_costs_no_digits(void **state)
     double *v = runs[k].v;
     baum_ida()->interpolate(runs[k].self, &runs[k].problem, runs[k].state.t, q, v);
     for (int i = 0; i < 2; i++) {
-      ASSERT_NEAR(q[i], runs[k].state_q[i], 0.0, 1.2e-7 * 5.0); /* speeds are below 5 m/s */
+      ASSERT_NEAR(q[i], runs[k].state_q[i], 0.0, 1.2e-7 * 5.0); /* speeds below 5 m/s */
     }
     integrator_run_close(&runs[k]);
   }
   baum_mechanism_destroy(mechanism);
 }
 
-/* create evaluates the start. A failure is reported, and nothing is left behind. */
+/* The integrator evaluates the initial state when it is created. If this fails, creation reports it
+ * and leaves nothing to destroy. */
 static void a_start_that_cannot_be_evaluated_is_refused(void **state)
 {
   (void)state;
@@ -546,7 +551,7 @@ static void a_start_that_cannot_be_evaluated_is_refused(void **state)
   assert_non_null(strstr(baum_message(), "faulty"));
   assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
   run.state.t = 0.0;
-  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts automatically */
+  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts by itself */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Inputs: which functions receive them, where their values are stored, and how a change affects a
- * run. The run is a particle of 2 kg on the x axis with a load of 4 N times an input u, so that x''
- * = 2 u while u is constant. */
+ * run. The runs move a particle of 2 kg along x by a load of 4 N times the input u, so x'' = 2
+ * u. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,7 +44,7 @@ static int force(double t, const double *q, const double *v, const double *input
   return look(inputs, user);
 }
 
-/* Records the inputs; the derivative is zero. */
+/* Records the inputs. The derivative is zero. */
 static int force_q(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -89,7 +89,7 @@ static scene empty_scene(bool with_inputs)
   return s;
 }
 
-/* A particle with a load; u = 0.5 at first. */
+/* A particle with a load. The initial value of u is 0.5. */
 static scene pushed_scene(void)
 {
   scene s = empty_scene(true);
@@ -102,7 +102,7 @@ static scene pushed_scene(void)
   return s;
 }
 
-/* The same with a user force instead of the load. */
+/* The same particle with a user force instead of the load. */
 static scene user_scene(witness *w, bool with_inputs)
 {
   scene s = empty_scene(with_inputs);
@@ -279,7 +279,7 @@ static baum_simulation *start_in(const baum_mechanism *mechanism, step_mode mode
   return run;
 }
 
-/* With a fixed step if the integrator has one. */
+/* Starts a run, with a fixed step if the integrator has one. */
 static baum_simulation *start(const baum_mechanism *mechanism, const baum_integrator *integrator)
 {
   return start_in(mechanism, (step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
@@ -292,9 +292,9 @@ static int64_t restarts_of(baum_simulation *run)
   return c.restarts;
 }
 
-/* Order 1: h |x''| T / 2 with |x''| <= 6, h = 1e-3, T = 1. Order 2 and higher: rounding, because
- * the motion between changes is a parabola. Variable step: 100 times rtol and the size of the
- * motion. */
+/* Returns the largest allowed error of x and v. Variable steps: 100 rtol times the size of the
+ * motion. Fixed steps of order 1: h |x''| T / 2 with h = 1e-3, |x''| <= 6, T = 1. Order 2 and
+ * higher: rounding, because the motion between changes of u is a parabola. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -303,7 +303,8 @@ static double allowed(step_mode mode)
   return baum_integrator_order(mode.integrator) == 1 ? 3e-3 : 1e-12;
 }
 
-/* Advances to t and compares with the motion from (x, v) during h with the acceleration a. */
+/* Advances to t and compares with the exact motion from (x, v) after the time h with the constant
+ * acceleration a. */
 static void check_motion(baum_simulation *run, double t, double h, double a, double x, double v,
                          double off)
 {
@@ -316,8 +317,8 @@ enum { CHANGES = 3 };
 
 static void check_run(step_mode mode)
 {
-  /* The times are on the grid of fixed steps, and inside the steps of variable-step methods, which
-   * would otherwise take one step over the whole time. */
+  /* These times are grid points of fixed steps. Variable-step methods would otherwise cross them
+   * within one long step. */
   static const double until[CHANGES + 1] = {0.25, 0.375, 0.75, 1.0};
   static const double inputs[CHANGES + 1] = {0.5, -3.0, 0.0, 1.25};
   scene s = pushed_scene();
@@ -332,7 +333,8 @@ static void check_run(step_mode mode)
     assert_true(baum_simulation_input(run, s.push) == inputs[k]);
     assert_true(baum_simulation_time(run) == t);
     assert_true(baum_simulation_q(run)[0] == before[0] && baum_simulation_v(run)[0] == before[1]);
-    /* First advances a little, to a time that the step before the change may already include. */
+    /* First advances to a time that the last step before the change may have passed already: the
+     * result must not come from that step. */
     check_motion(run, t + 1e-3, 1e-3, 2.0 * inputs[k], x, v, allowed(mode));
     double h = until[k] - t;
     check_motion(run, until[k], h, 2.0 * inputs[k], x, v, allowed(mode));
@@ -340,7 +342,7 @@ static void check_run(step_mode mode)
     v += 2.0 * h * inputs[k];
     t = until[k];
   }
-  /* The first value equals the initial one, so it is no change. */
+  /* The first value equals the initial one, so it causes no restart. */
   int64_t changes = step_mode_remembers(mode) ? CHANGES : 0;
   assert_true(restarts_of(run) >= changes);
   assert_true(step_mode_is_adams(mode) ||
@@ -373,7 +375,7 @@ static void each_run_has_values_of_its_own(void **state)
   assert_int_equal(baum_simulation_set_input(one, s.push, -1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(one, 1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(two, 1.0), BAUM_OK);
-  /* x = u t^2, which the method solves exactly; rounding of 1000 steps. */
+  /* The method integrates x = u t^2 exactly, up to rounding in 1000 steps. */
   ASSERT_NEAR(baum_simulation_q(one)[0], -1.0, 1e-12, 0.0);
   ASSERT_NEAR(baum_simulation_q(two)[0], 0.5, 1e-12, 0.0);
   assert_int_equal(baum_mechanism_get_input(s.mechanism, s.push, &initial), BAUM_OK);
@@ -394,12 +396,13 @@ static void a_state_that_is_set_keeps_the_inputs(void **state)
   assert_int_equal(baum_simulation_set_state(run, 0.0, zero, zero), BAUM_OK);
   assert_true(baum_simulation_input(run, s.push) == 3.0);
   assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_OK);
-  ASSERT_NEAR(baum_simulation_q(run)[0], 3.0, 1e-12, 0.0); /* as above */
+  ASSERT_NEAR(baum_simulation_q(run)[0], 3.0, 1e-12, 0.0); /* rounding, as above */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* IDA evaluates at a restart, so a change can fail. */
+/* A change of an input restarts IDA, which then evaluates the forces. If this fails, the old value
+ * is restored. */
 static void a_change_of_an_input_that_fails_is_undone(void **state)
 {
   (void)state;
@@ -416,7 +419,8 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
   assert_true(baum_simulation_input(run, s.push) == 0.5);
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
-  /* The first times would be interpolated if the step before the change were kept. */
+  /* The run continues with the old input, also at the first times, which lie inside the last
+   * step. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same tests for every integrator of this build with each of its formulations. */
+/* Runs the same tests for every integrator of this build with each of its formulations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,11 +12,11 @@
 
 /* ---- the common tests ---- */
 
-/* An integrator with a formulation and a kind of step. */
+/* An integrator with one of its formulations and a kind of step (fixed or variable). */
 typedef struct method {
   const baum_integrator *integrator;
   baum_formulation formulation;
-  bool fixed; /* step of one length */
+  bool fixed; /* false: variable step */
 } method;
 
 typedef void battery_fn(const method *m);
@@ -49,7 +49,7 @@ static void for_each(battery_fn *test)
   }
 }
 
-/* Error at t or -t, depending on the direction. */
+/* Returns the error at t, or at -t if the run goes backwards in time. */
 static double error_at(baum_mechanism *mechanism, const integrator_setup *setup, double t,
                        motion_fn *motion, double rate)
 {
@@ -67,13 +67,14 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
   return error;
 }
 
-/* Largest error with rtol = 1e-6 or h = 1e-3 for motions with rates of 2 to 6 1/s. Index 3 is known
- * to be inaccurate. */
+/* Returns the largest allowed error with rtol = 1e-6 or h = 1e-3, for motions with rates of 2 to 6
+ * 1/s. It is larger for index 3, whose velocities are inaccurate. */
 static double allowed(const integrator_setup *setup)
 {
-  /* At order 5 and higher: rounding of 2000 steps and of the reference. */
+  /* By order; index 0: variable step. From order 5 on: rounding in 2000 steps and in the
+   * reference. */
   static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
-  /* The error constants of Adams methods are 5/12, 3/8 and 251/720, those of Runge-Kutta methods
+  /* Adams methods have larger error constants, 5/12, 3/8 and 251/720, than Runge-Kutta methods,
    * about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
@@ -129,7 +130,8 @@ static void a_pendulum_swings_forward_and_backward_in_time(void **state)
   for_each(swing);
 }
 
-/* The function stops, or always requests smaller steps; the state is that of the last good step. */
+/* From 0.7 s on the force returns "stop" (-1) or asks for smaller steps (1) at every call. The run
+ * must fail and keep the state of the last good step. */
 static void meet_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
@@ -160,7 +162,7 @@ static void a_failing_function_leaves_the_last_good_step(void **state)
   for_each(meet_fault);
 }
 
-/* A function that returns "stop" is not called again in that step. */
+/* After a function has returned "stop", the step must not call it again. */
 static void stop_at_once(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
@@ -171,7 +173,7 @@ static void stop_at_once(const method *m)
   while (integrator_run_step(&run) == BAUM_OK) {
     fault.calls = 0;
   }
-  assert_true(fault.calls <= 16); /* calls of the failing step, most of them successful */
+  assert_true(fault.calls <= 16); /* calls in the failing step before and including the stop */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
@@ -182,7 +184,7 @@ static void a_function_that_stops_is_left_alone(void **state)
   for_each(stop_at_once);
 }
 
-/* Restarts after a failure, at another time, and in the other direction. */
+/* Restarts after a failure: from another time, then backwards in time. */
 static void begin_anew(const method *m)
 {
   if (m->fixed || !m->integrator->restart) {
@@ -223,7 +225,7 @@ static void a_restart_works_after_a_failure_and_backwards(void **state)
   for_each(begin_anew);
 }
 
-/* The step after a failure continues from the last good state. */
+/* After two failures the force works again, and the run continues from the last good state. */
 static void go_on(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
@@ -249,7 +251,7 @@ static void a_run_goes_on_when_what_failed_is_mended(void **state)
   for_each(go_on);
 }
 
-/* Interpolates in the last step and at its ends; other times are refused. */
+/* Interpolates inside the last step and at its ends. Other times must be refused. */
 static void look_inside(const method *m)
 {
   if (m->fixed) {
@@ -286,7 +288,8 @@ static void positions_inside_the_last_step_are_interpolated(void **state)
   for_each(look_inside);
 }
 
-/* A tolerance below rounding is refused at the start, as a step that is too short, with advice. */
+/* With a tolerance below rounding the first step becomes too short. The run fails with advice to
+ * raise rtol. */
 static void ask_too_much(const method *m)
 {
   if (m->fixed) {
@@ -310,7 +313,8 @@ static void too_small_tolerances_are_an_error_of_the_step(void **state)
   for_each(ask_too_much);
 }
 
-/* At 1e15 s adjacent doubles are 0.125 s apart. */
+/* Near 1e15 s adjacent doubles are 0.125 s apart, so the ends of sufficiently short steps are not
+ * representable. The run must fail. */
 static void lose_the_step(const method *m)
 {
   if (m->fixed) {
@@ -354,9 +358,10 @@ static double error_with_step(const method *m, double step)
   return error;
 }
 
-/* The largest step is halved three times. It is short enough for the leading error term, and errors
- * stay far above rounding (1e-13). Orders 5 and 8 reach rounding before terms of the next order are
- * small. */
+/* Computes the order from the errors at the step COARSE and at this step halved three times. COARSE
+ * is so short that the leading error term dominates, and so long that all errors are far above
+ * rounding (1e-13). For orders 5 and 8 no such step exists: two halvings and a larger deviation are
+ * allowed. */
 static void observe_order(const method *m)
 {
   static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};
@@ -382,8 +387,8 @@ static void fixed_step_methods_have_their_order(void **state)
 
 /* ---- tolerances ---- */
 
-/* A fraction of rtol down to 1e-13. Below that, steps only become more numerous, and the error is
- * rounding. */
+/* BDF methods receive a fraction of rtol, but never less than 1e-13: smaller tolerances would cause
+ * more steps but not smaller errors, because of rounding. */
 static void bdf_is_given_a_portion_of_rtol(void **state)
 {
   (void)state;

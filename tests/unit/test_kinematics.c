@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: mechanisms without degrees of freedom stay on their branch, with positions accurate
- * to rounding. */
+/* The kinematics integrator: mechanisms without degrees of freedom stay on their branch (assembly
+ * mode), and positions are accurate to rounding. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Configurations are solved until Phi is rounding: the error is that of a few operations with
- * lengths up to 5 m. */
+/* Newton's iteration continues until Phi is only rounding, so errors are those of a few operations
+ * with lengths up to 5 m. */
 static const double EXACT = 1e-13;
 
 /* ---- runs ---- */
@@ -60,8 +60,8 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 
 /* ---- branches ---- */
 
-/* A random configuration more than a few hundredths of a radian from a lock-up, on either branch,
- * with 0.01 to 100 rad/s in either direction. */
+/* Draws a configuration on either branch, more than a few hundredths of a radian from a lock-up,
+ * and a velocity of 0.01 to 100 rad/s in either direction. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -82,7 +82,8 @@ typedef struct tally {
   int64_t evaluations;
 } tally;
 
-/* Samples 20 times; the crank rotates by `gap` rad in between. */
+/* Computes 20 outputs, between which the crank rotates by `gap` rad, and compares them with the
+ * branch of the start. */
 static void follow(const slider_crank *data, double gap, tally *all)
 {
   baum_mechanism *mechanism = slider_crank_make(data);
@@ -102,7 +103,8 @@ static void follow(const slider_crank *data, double gap, tally *all)
   close_run(run, mechanism);
 }
 
-/* Branches differ by 2 D with D >= sqrt(l^2 - (r + e)^2): 0.11 m, 0.011 m and 0.0011 m. */
+/* For the same crank angle the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2)
+ * apart: 0.11 m, 0.011 m and 0.0011 m for the three rods. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;
@@ -117,13 +119,13 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
     printf("rod %.6f m: error %.1e m, Phi %.1e; per output %.1f steps, %.1f factorizations of J\n",
            rods[i], all.error, all.phi, (double)all.steps / (double)all.outputs,
            (double)all.evaluations / (double)all.outputs);
-    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times a velocity ratio of up to 200. */
+    /* The crank's angle reaches 60 rad, with rounding of 1e-14; velocity ratios reach 200. */
     assert_true(all.error <= 1e-11);
     assert_true(all.phi <= 1e-13);
   }
 }
 
-/* Outputs every 3 rad over many revolutions: errors do not accumulate. */
+/* One output after 1000 revolutions: errors must not accumulate. */
 static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 {
   (void)state;
@@ -133,7 +135,7 @@ static void a_thousand_revolutions_end_where_the_crank_says(void **state)
   double x[3];
   advance(run, 1000.0 * PI);
   slider_crank_motion(&data, data.drive.angle + data.drive.rate * baum_simulation_time(run), x);
-  /* An angle of 6e3 rad has a rounding of 1e-12. */
+  /* An angle of 6e3 rad is rounded to 1e-12. */
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-11);
   assert_int_equal(counters_of(run).warnings, 0);
   close_run(run, mechanism);
@@ -141,7 +143,8 @@ static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 
 enum { LOOPS = 8 };
 
-/* Many loops at once, each with its own crank, any of which may be near its other branch. */
+/* One mechanism of eight independent slider-cranks with random configurations, any of which may be
+ * close to its other branch. */
 static void no_loop_of_many_leaves_its_branch(void **state)
 {
   (void)state;
@@ -196,8 +199,8 @@ static void positions_velocities_accelerations_are_those_of_the_closed_form(void
   close_run(run, mechanism);
 }
 
-/* The torque of the motor equals the virtual power, sum of (m a - f) v over the bodies, over its
- * rate. */
+/* By virtual power, the torque of the motor times its angular velocity is the sum of (m a - f) v
+ * over all coordinates. */
 static void the_multiplier_of_the_driver_is_its_torque(void **state)
 {
   (void)state;
@@ -218,7 +221,8 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
       double weight = i % 3 == 1 ? -9.81 * mass[i] : 0.0;
       power += (mass[i] * row[SLIDER_NV + i] - weight) * row[i];
     }
-    /* J of the driver is 1 for the crank, and M a + J^T lambda = f. Powers are about 10 W. */
+    /* The driver has J = 1 for the crank's angle, so its torque is -lambda. Powers are about 10
+     * W. */
     ASSERT_NEAR(-row[2 * SLIDER_NV + MOTOR_ROW], power / -20.0, 1e-11, 1e-12);
   }
   close_run(run, mechanism);
@@ -233,15 +237,15 @@ static void a_driven_four_bar_follows_its_crank_for_many_revolutions(void **stat
   for (int k = 1; k <= 100; k++) {
     advance(run, 0.9 * k);
     double off = baum_simulation_q(run)[ROCKER_ANGLE] - four_bar_rocker(1.0 + 2.7 * k);
-    /* An angle of 270 rad has a rounding of 6e-14. */
+    /* An angle of 270 rad is rounded to 6e-14. */
     ASSERT_NEAR(remainder(off, 2.0 * PI), 0.0, 0.0, 2e-13);
   }
   assert_true(counters_of(run).max_phi <= 1e-13 * 5.0);
   close_run(run, mechanism);
 }
 
-/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, between the flat configurations at 0 and
- * pi. */
+/* The crank angle 1.55 + 1.2 sin 2 t varies from 0.35 to 2.75 rad, so it avoids the flat
+ * configurations at 0 and pi. */
 static int swing(double t, double s[3], void *user)
 {
   (void)user;
@@ -264,11 +268,11 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     double t = 0.31 * k;
     double s[3];
     baum_status status = baum_simulation_advance_to(run, t);
-    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* a redundant row */
+    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* redundant row */
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* 1 / sin(angle) is up to 3 */
+    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* error growth 1 / sin(angle) <= 3 */
     ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);
     for (int i = 0; i < 3; i++) {
@@ -311,7 +315,7 @@ static void backward_in_time_is_the_same_motion(void **state)
     double x[3];
     advance(run, times[k]);
     slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
-    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* 28 rad; velocity ratio 20 */
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* of 28 rad x ratio 20 */
     ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
   }
   assert_int_equal(counters_of(run).restarts, 3);
@@ -337,7 +341,7 @@ static void a_crank_at_rest_stays_for_any_time(void **state)
   close_run(run, mechanism);
 }
 
-/* The crank is at rest, except for 0.2 s after t = 5 s, when it rotates by 2 rad and back. */
+/* The crank rotates by 2 rad and back from t = 5 s to 5.2 s, and rests otherwise. */
 static int bump(double t, double s[3], void *user)
 {
   (void)user;
@@ -349,7 +353,8 @@ static int bump(double t, double s[3], void *user)
   return 0;
 }
 
-/* Whether or not a step end falls into the motion, outputs during the motion are right. */
+/* Without max_step the kinematics integrator may step over this motion; outputs inside it must be
+ * right nevertheless. */
 static void outputs_inside_a_motion_that_steps_may_pass_over_are_right(void **state)
 {
   (void)state;
@@ -395,7 +400,7 @@ static void targets_do_not_alter_the_steps(void **state)
   close_run(often, mechanism);
 }
 
-/* Millimetres, grams and milliseconds give the same steps and the same motion. */
+/* In millimetres, grams and milliseconds the steps and the motion are the same as in SI units. */
 static void units_do_not_matter(void **state)
 {
   (void)state;
@@ -417,7 +422,7 @@ static void units_do_not_matter(void **state)
   assert_int_equal(steps[1], steps[0]);
 }
 
-/* The other branch is equally valid: a run whose state is set there stays there. */
+/* The other branch is equally valid: after set_state() to it the run stays on it. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
   (void)state;
@@ -440,7 +445,8 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
-/* The driver continues with another speed, and then from an angle slightly ahead of the crank. */
+/* The driver is set to another velocity, then to an angle slightly ahead of the crank, then to one
+ * that is too far away and is refused. */
 static void a_driver_can_be_set_in_a_run(void **state)
 {
   (void)state;

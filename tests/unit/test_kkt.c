@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems: products, solutions, refusals. */
+/* Saddle-point systems: products with the matrix, solutions, and what is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ static void products_agree_with_the_dense_matrix(void **state)
     for (int j = 0; j < n; j++) {
       want += matrix[i * n + j] * (j < nv ? system.f[j] : system.r[j - nv]);
     }
-    ASSERT_NEAR(y[i], want, 0.0, 1e-14); /* sums of about 20 numbers up to 2 */
+    ASSERT_NEAR(y[i], want, 0.0, 1e-14); /* rounding in sums of about 20 numbers up to 2 */
   }
   free(matrix);
   free(y);
@@ -68,7 +68,7 @@ static void random_systems_are_solved_to_rounding_by_every_backend(void **state)
     for (uint64_t seed = 1; seed <= 40; seed++) {
       saddle system = saddle_make_random(seed, 2 + (int)seed);
       baum_i_kkt *kkt = make_solver(&system, choices[k]);
-      solve_and_compare(kkt, &system, 1e-10);              /* condition number: about 1e5 */
+      solve_and_compare(kkt, &system, 1e-10);              /* the condition number is about 1e5 */
       assert_true(saddle_backward_error(&system) < 3e-14); /* the solver's own limit is 2.2e-14 */
       assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
       assert_string_equal(baum_i_kkt_backend(kkt), names[k]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems at their limits: units, sizes, bodies without mass, singular
- * configurations. */
+/* Saddle-point systems in extreme cases: units, very different masses, bodies without mass,
+ * singular configurations, contradictory rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,8 +19,8 @@
 
 /* ---- size and units ---- */
 
-/* Changes the unit of length to 1 / per_metre: rotations (j % 3 == 2) keep their unit, all other
- * coordinates and all rows are lengths. */
+/* Changes the unit of length to 1 m / per_metre. Coordinates j with j % 3 == 2 are angles; all
+ * other coordinates and all rows are lengths. */
 static void change_unit(saddle *system, double per_metre)
 {
   for (int b = 0; b < system->structure.mass_block_count; b++) {
@@ -54,8 +54,8 @@ static saddle make_pose(int loops, double angle)
   return system;
 }
 
-/* Solves in metres and in another unit and compares in metres. Returns the worse of the two
- * qualities. */
+/* Solves in metres and in another unit and compares the accelerations in metres. Returns the worse
+ * of the two qualities. */
 static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
 {
   baum_i_kkt_quality worst = BAUM_I_KKT_GOOD;
@@ -79,7 +79,8 @@ static baum_i_kkt_quality compare_units(double angle, double per_metre, double t
   for (int j = 0; j < 15; j++) {
     ASSERT_NEAR(a[1][j], a[0][j], 0.0, tolerance);
   }
-  /* Powers of two approximate a change of unit within a factor of two in each d_j and e_i. */
+  /* The scale factors d_j and e_i of the solver are powers of two, so each compensates a change of
+   * unit within a factor of two. */
   assert_true(rcond[0] <= 64.0 * rcond[1] && rcond[1] <= 64.0 * rcond[0]);
   return worst;
 }
@@ -90,7 +91,7 @@ static void the_unit_of_length_does_not_matter(void **state)
   const double units[] = {1e3, 1e-3, 39.37, 1e9, 1e-9};
   for (int k = 0; k < 5; k++) {
     assert_int_equal(compare_units(1.0, units[k], 1e-14), BAUM_I_KKT_GOOD);
-    /* Rounding over the distance from the singular configuration. */
+    /* Here rounding is divided by 1e-4 rad, the distance from the singular configuration. */
     assert_int_equal(compare_units(1e-4, units[k], 1e-10), BAUM_I_KKT_GOOD);
   }
 }
@@ -98,7 +99,7 @@ static void the_unit_of_length_does_not_matter(void **state)
 static void masses_of_very_different_size_are_all_accurate(void **state)
 {
   (void)state;
-  /* Every other body is between 1e-27 and 1e21 times as heavy as the others. */
+  /* Every second body is 1e-27 to 1e21 times as heavy as the others. */
   for (int exponent = -27; exponent <= 21; exponent += 3) {
     saddle system = make_pose(3, 1.0);
     double want[MOST_UNKNOWNS];
@@ -192,7 +193,7 @@ static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
   }
 }
 
-/* Particles in a row, each tied to the next; only the first has mass. */
+/* A row of particles, each tied to the next one. Only the first has mass. */
 static saddle make_massless_row(int particles)
 {
   saddle system = saddle_make_dense(particles, particles - 1);
@@ -213,7 +214,7 @@ static void scales_spread_along_bodies_without_mass(void **state)
   saddle system = make_massless_row(6);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   solve_and_compare(kkt, &system, 1e-15);
-  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* the sum of the forces over the mass */
+  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* sum of the forces / mass */
   assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
   baum_i_kkt_destroy(kkt);
   saddle_free(&system);
@@ -252,7 +253,8 @@ static void a_system_without_mass_is_solved_by_its_rows(void **state)
 
 /* ---- singular positions ---- */
 
-/* Solves in steps of half a degree, except in the flat configurations, which are singular. */
+/* Solves for 720 angles in steps of half a degree. Skips the flat configurations, which are
+ * singular. */
 static void turn_and_solve(int loops, double start)
 {
   saddle system = make_pose(loops, start);
@@ -278,7 +280,7 @@ static void turn_and_solve(int loops, double start)
 static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere(void **state)
 {
   (void)state;
-  /* Upright and at 45 degrees, where numbers are zero or equal except for rounding, and at 1
+  /* Starts at 90 and at 45 degrees, where entries are zero or equal except for rounding, and at 1
    * rad. */
   const double starts[] = {PI / 2.0, PI / 4.0, 1.0};
   for (int k = 0; k < 3; k++) {
@@ -290,7 +292,8 @@ static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhe
 static void pivots_that_have_become_small_are_chosen_again(void **state)
 {
   (void)state;
-  /* A rotation matrix; test_klu.c shows the result with the old pivots. */
+  /* J is a rotation matrix, whose diagonal pivots vanish every 180 degrees. test_klu.c shows what
+   * happens if they are kept. */
   saddle system = saddle_make_dense(2, 2);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_KLU);
   system.r[0] = 1.0;
@@ -320,7 +323,7 @@ static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **st
     assert_int_equal(solve(kkt, &system), BAUM_OK);
     saddle_solve(&system, want);
     for (int j = 0; j < system.structure.nv; j++) {
-      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* about 5 eps / distance */
+      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* 5 eps / distance */
     }
     assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 0);
     baum_i_kkt_destroy(kkt);
@@ -367,7 +370,7 @@ static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
 
 /* ---- contradictions ---- */
 
-/* Three multiples of the same row whose right sides agree up to `error`. */
+/* Rows 0 to 2 are multiples of the same row. Their right sides agree except for `error`. */
 static saddle make_repeated(double error)
 {
   saddle system = saddle_make_dense(4, 4);
@@ -377,7 +380,7 @@ static saddle make_repeated(double error)
     system.f[j] = saddle_random(&seed);
     double x = saddle_random(&seed);
     for (int i = 0; i < 3; i++) {
-      system.jacobian[4 * i + j] = (1.0 + i) * x; /* of different length */
+      system.jacobian[4 * i + j] = (1.0 + i) * x; /* 1, 2 and 3 times the row */
     }
     system.jacobian[12 + j] = saddle_random(&seed);
   }
@@ -393,7 +396,7 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* below 1e-8 of the right side */
+    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* tolerated: < 1e-8 of r */
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);
     assert_int_equal(solve(kkt, &system), BAUM_OK);
@@ -408,8 +411,8 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* Contradictions of both signs, up to sizes that hide all else. The same matrix without
- * contradiction is solved afterwards. */
+/* Contradictions of both signs, from 1e-6 up to 1e12, beside which the other right sides are lost
+ * in rounding. Afterwards the same factors solve the system without the contradiction. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;

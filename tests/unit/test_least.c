@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum of a function of one variable, and Hermite polynomials through positions and
+/* The minimum of a function of one variable, and Hermite polynomials through positions and
  * velocities. */
 #include <math.h>
 #include <setjmp.h>
@@ -52,8 +52,8 @@ static double wall(void *user, double t)
   return t < 0.5 ? (double)INFINITY : (t - 0.55) * (t - 0.55) + 1.0;
 }
 
-/* Fails if the search needs more than `most` values; golden sections alone would need 30 for
- * 1e-6. */
+/* Fails if the search needs more than `most` function values. Golden section search alone would
+ * need 30 for 1e-6. */
 static void assert_found(baum_i_function *function, double place, int most)
 {
   const double ends[2] = {0.0, 1.0};
@@ -61,7 +61,7 @@ static void assert_found(baum_i_function *function, double place, int most)
   double at;
   double least = baum_i_least(count, &c, ends, 1e-6, 60, &at);
   ASSERT_NEAR(least, function(NULL, at), 0.0, 0.0);
-  ASSERT_NEAR(at, place, 0.0, 3e-6); /* three tolerances of the search */
+  ASSERT_NEAR(at, place, 0.0, 3e-6); /* three times the tolerance of the search */
   assert_in_range(c.count, 1, most);
 }
 
@@ -90,7 +90,7 @@ static void a_search_ends_when_it_is_told(void **state)
 enum { KNOTS = BAUM_I_HERMITE_MOST };
 static const double TIMES[KNOTS] = {10.0, 10.1, 10.25, 10.3};
 
-/* (t - 10.2)^power and its derivative. */
+/* Returns (t - 10.2)^power and sets its derivative. */
 static double power_at(double t, int power, double *rate)
 {
   double x = t - 10.2;
@@ -98,7 +98,8 @@ static double power_at(double t, int power, double *rate)
   return pow(x, power);
 }
 
-/* Interpolates one coordinate; the next one must not be changed. */
+/* Interpolates from + (t - 10.2)^power as the only coordinate. The second element of each result
+ * must not change. */
 static void assert_power(int count, int power, double from, double t)
 {
   double q[KNOTS];
@@ -115,7 +116,8 @@ static void assert_power(int count, int power, double from, double t)
   double want_rate;
   double want = from + power_at(t, power, &want_rate);
   baum_i_hermite(&line, knots, count, t, got, rate, work);
-  /* Rounding of q is 1e-16 `from`, times factors whose sums at 10.4 s are 340 and 12500. */
+  /* The rounding of q, 1e-16 from, is amplified by the sums of the absolute weights, at 10.4 s 340
+   * for q and 12500 for q'. */
   ASSERT_NEAR(got[0], want, 0.0, 1e-13 + 3.4e-14 * from);
   ASSERT_NEAR(rate[0], want_rate, 0.0, 1e-12 + 1.25e-12 * from);
   assert_true(got[1] == -1.0 && rate[1] == -1.0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With a longest step, variable-step integrators do not step over a force that begins late. */
+/* With max_step, variable-step integrators do not step over a short force in a long rest. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 #include "assert_near.h"
 
-/* A force of 5 N to the right from 5.0 to 5.2 s. */
+/* A force of 5 N along x from 5.0 s to 5.2 s. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -45,7 +45,7 @@ static baum_mechanism *hanging_pendulum(void)
   return m;
 }
 
-/* Position at 5.5 s. */
+/* Returns x at 5.5 s. */
 static double pushed_to(const baum_mechanism *m, const baum_integrator *integrator, double max_step)
 {
   baum_simulation_options o = baum_simulation_options_default();
@@ -73,7 +73,7 @@ static void a_force_that_begins_late_is_not_stepped_over(void **state)
   const baum_integrator *integrators[] = {baum_dp5(), baum_rk8(), baum_cvode_adams(),
                                           baum_cvode_bdf(), baum_ida()};
   for (int k = 0; k < (baum_has("sundials") ? 5 : 2); k++) {
-    /* The force jumps, so the error is that of one step, not of the tolerance. */
+    /* the jump of the force inside a step causes errors above the tolerance */
     ASSERT_NEAR(pushed_to(m, integrators[k], 0.05), want, 0.0, 1e-3);
   }
   baum_mechanism_destroy(m);
@@ -93,8 +93,7 @@ static void at_rest_in_an_equilibrium_gravity_sets_the_rate(void **state)
   o.rtol = 1e-6;
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_counters(s, &c, sizeof c), BAUM_OK);
-  ASSERT_NEAR(c.alpha, 0.25 * sqrt(9.81), 1e-12,
-              0.0); /* 1/4 of the rate of a pendulum of this length */
+  ASSERT_NEAR(c.alpha, 0.25 * sqrt(9.81), 1e-12, 0.0); /* 1/4 of sqrt(g / L) */
   baum_simulation_destroy(s);
   baum_mechanism_destroy(m);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods compared with the matrix of their steps. */
+/* The amplification of Adams-Bashforth methods, compared with the matrix of one step. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -13,14 +13,14 @@
 
 enum { POINTS = 400, MOST = 8, SQUARINGS = 40 };
 
-/* A square matrix that maps (x, v, x', v' one step ago, ...). */
+/* The matrix of one step: it maps (x, v) and the derivatives (x', v') of earlier steps. */
 typedef struct matrix {
   int n;
   double a[MOST][MOST];
 } matrix;
 
-/* One step of the method on x'' = -2 A x' - B x with h = 1, for y = (x, v, f(n-1), f(n-2), ...)
- * with past rates f. */
+/* Returns the matrix of one step for x'' = -2 A x' - B x with h = 1, which maps (x, v, f(n-1),
+ * f(n-2), ...). f are derivatives of (x, v). */
 static matrix step_matrix(const baum_i_method *method, double A, double B)
 {
   const double rate[2][2] = {{0.0, 1.0}, {-B, -2.0 * A}};
@@ -44,8 +44,7 @@ static matrix step_matrix(const baum_i_method *method, double A, double B)
   return m;
 }
 
-/* m := m^2 / 2^exponent, so that the largest element is about 1. Returns the logarithm of the
- * divisor. */
+/* Replaces m by m^2, divided by its largest element. Returns the logarithm of that element. */
 static double square(matrix *m)
 {
   matrix out = {.n = m->n};
@@ -66,7 +65,7 @@ static double square(matrix *m)
   return log(most);
 }
 
-/* Gelfand's formula: |M^N|^(1/N) with N = 2^40. */
+/* Returns the spectral radius by Gelfand's formula |M^N|^(1/N) with N = 2^40. */
 static double matrix_radius(matrix m)
 {
   double sum = 0.0;
@@ -78,7 +77,7 @@ static double matrix_radius(matrix m)
   return exp(sum);
 }
 
-/* A random point near the region, or scaled, far from it. */
+/* Draws a point (A, B) at 0.1 to 10 times the size of the stability region. */
 static void random_point(uint64_t *seed, int method, double point[2])
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -96,8 +95,8 @@ static void radius_is_that_of_the_matrix_of_a_step(void **state)
       double p[2];
       random_point(&seed, m, p);
       double want = matrix_radius(step_matrix(&methods[m], p[0], p[1]));
-      /* Rounding of 40 squarings, each with half the weight of the one before; accurate for simple
-       * roots. */
+      /* Each of the 40 squarings has half the weight of the one before, so rounding errors do not
+       * add up. This is accurate if the largest roots are simple. */
       ASSERT_NEAR(amplification_at(m, p[0], p[1]).spectral_radius, want, 1e-9, 0.0);
     }
   }
@@ -117,18 +116,18 @@ static void within_agrees_with_the_radius(void **state)
       bool want = growth <= level;
       within += want;
       assert_int_equal(baum_i_amplification_within(&methods[m], p[0], p[1], level), want);
-      /* For two roots that are near each other and on the circle, the test has this error, relative
-       * to the radius. */
+      /* baum_i_amplification_within() has an error of up to 1e-5 of the radius if two of the
+       * largest roots nearly coincide. */
       double off = 1e-5 * (1.0 + growth);
       assert_true(baum_i_amplification_within(&methods[m], p[0], p[1], growth + off));
       assert_false(baum_i_amplification_within(&methods[m], p[0], p[1], growth - off));
     }
   }
-  assert_true(within > POINTS); /* ten times as many points are tested */
+  assert_true(within > POINTS); /* of all POINTS x METHOD_COUNT points */
 }
 
-/* p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j), where mu is one of two values. Returns the smaller
- * |p|. */
+/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu and returns the
+ * smaller |p|. */
 static double residual(int method, double A, double B, const double z[2])
 {
   double least = HUGE_VAL;
@@ -168,8 +167,8 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
   }
 }
 
-/* exp(mu) = 1 + mu + ...: a violation decreases by the fraction A per step, with full relative
- * accuracy. */
+/* With small gains z = exp(mu) = 1 + mu + ..., so that a violation decreases by the fraction A per
+ * step. This fraction must have full relative accuracy. */
 static void small_gains_keep_their_digits(void **state)
 {
   (void)state;
@@ -184,7 +183,8 @@ static void small_gains_keep_their_digits(void **state)
   }
 }
 
-/* z = -1 at the end of the real interval, where mu = 2 (-1)^k / sum b_j (-1)^(k-1-j). */
+/* At the end of the stable interval of real mu, z = -1, which gives mu = 2 (-1)^k / sum b_j
+ * (-1)^(k-1-j). */
 static void limits_of_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P x = M^-1 J^T (J M^-1 J^T)^-1 J x by the factors of the last solution. Two properties define P:
- * J P x = J x, and P x is M-orthogonal to every y with J y = 0. If J x is given instead of x, the
- * result is the same. */
+/* The normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of x, computed with the factors of the last
+ * solution. Two properties define P: J P x = J x, and P x is M-orthogonal to every y with J y = 0.
+ * A second function computes the same P x from J x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -51,7 +51,7 @@ static double largest(int n, const double *x)
   return most;
 }
 
-/* J (x - P x) = 0, except for omitted rows. */
+/* Checks J (x - P x) = 0, except in omitted rows. */
 static void check_rows(baum_workspace *w, vectors *d)
 {
   const baum_mechanism *m = w->mechanism;
@@ -63,7 +63,7 @@ static void check_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
     bool omitted = w->rows.count > 0 && w->rows.omitted[i];
-    /* Rounding of an unrefined solution with a condition number below 1e4. */
+    /* Rounding of a solution without refinement, with a condition number below 1e4. */
     ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
 }
@@ -80,7 +80,7 @@ static void check_upright(baum_workspace *w, vectors *d)
   ASSERT_NEAR(dot(n, d->other, d->out), 0.0, 0.0, 1e-9 * size);
 }
 
-/* Computes P x from J x and compares. */
+/* Computes P x from J x and compares with P x from x. */
 static void check_by_rows(baum_workspace *w, vectors *d)
 {
   double *rows = d->other;
@@ -88,12 +88,12 @@ static void check_by_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, d->x, rows);
   assert_int_equal(baum_i_least_with_rows(w, rows, d->out), BAUM_OK);
   for (int i = 0; i < w->mechanism->nv; i++) {
-    /* Rounding of two solutions, see above. */
+    /* Rounding of two such solutions. */
     ASSERT_NEAR(d->out[i], d->normal[i], 0.0, 1e-9 * (1.0 + largest(w->mechanism->nv, d->normal)));
   }
 }
 
-/* Returns false if the configuration is singular. */
+/* Checks P with random vectors. Returns false if the configuration is singular. */
 static bool check_mechanism(baum_workspace *w, chance *c)
 {
   const baum_mechanism *m = w->mechanism;

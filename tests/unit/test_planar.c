@@ -141,7 +141,7 @@ static void a_particle_is_its_own_point(void **state)
                 "joint 1 \"B\": point_b is (0, -2) m, must be (0, 0) on the particle body 4 "
                 "\"bead\"");
 
-  /* The point is compared with the design configuration only at freeze. */
+  /* Only freeze compares the point with the design configuration. */
   def = pin(scene.crank, scene.ball);
   def.point[0] = -0.6;
   def.point[1] = 0.9;
@@ -161,7 +161,8 @@ static void a_point_of_the_design_is_converted_into_body_axes(void **state)
   (void)state;
   planar_scene scene = planar_scene_make();
   baum_planar_revolute_def def = pin(scene.link, BAUM_GROUND);
-  /* The design pose of the link is (1, 0.5) with 0.4 rad; its point (2, 3). */
+  /* The design pose of the link is the position (1, 0.5) and the angle 0.4 rad. In its axes the
+   * point is (2, 3). */
   double c = cos(0.4);
   double s = sin(0.4);
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
@@ -245,7 +246,7 @@ static void a_driver_does_not_change_the_size_of_the_design(void **state)
 
 /* ---- packing ---- */
 
-/* The span of a joint between a particle and a body. */
+/* Opens a test point with a joint between a particle and a rigid body. */
 static void open_span(test_point *p)
 {
   planar_scene scene = planar_scene_make();
@@ -289,7 +290,8 @@ static void scattering_adds_what_gathering_takes(void **state)
   }
   double six[6];
   baum_i_columns_gather(&p.point, &joint->span, BAUM_I_PLANE, x, six);
-  /* Bodies in the order of adding with their velocities: link 3, ball 2, crank 3, bead 2. */
+  /* The velocities are those of link (3), ball (2), crank (3) and bead (2); the joint is between
+   * ball and crank. */
   const double want[6] = {4.0, 5.0, 0.0, 6.0, 7.0, 8.0};
   assert_memory_equal(six, want, sizeof six);
   baum_i_columns_scatter(p.mechanism, &joint->span, six, x);

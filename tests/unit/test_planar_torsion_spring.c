@@ -43,8 +43,8 @@ static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
 }
 
-/* A spring between crank (a) and link (b) at given angles and angular velocities, without
- * gravity. */
+/* Opens a test point with a torsion spring between crank (body a) and link (body b) at given angles
+ * and angular velocities, without gravity. */
 static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const double angles[2],
                     const double rates[2])
 {
@@ -64,7 +64,8 @@ static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const 
   test_point_update(p);
 }
 
-/* Checks the torque on the link and the opposite one on the crank; all other forces are zero. */
+/* Checks that the torque acts on the link, the opposite torque on the crank, and that all other
+ * forces are zero. */
 static void check_torque(test_point *p, double want)
 {
   double force[TEST_SIZE_MAX];
@@ -95,7 +96,7 @@ static void a_torsion_spring_rotates_the_bodies_back_and_damps(void **state)
 {
   (void)state;
   test_point p;
-  /* More than a revolution: the angle is continuous. */
+  /* The relative angle is more than one revolution; it must not be reduced. */
   const double angles[2] = {-2.0, 10.0};
   const double rates[2] = {3.0, -4.0};
   open_at(&p, NULL, NULL, angles, rates);

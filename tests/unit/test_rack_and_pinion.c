@@ -57,7 +57,8 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_rack, false, check_rows_balance);
 }
 
-/* A wheel on the floor: its rack is below, to the right of the axis (1, 0). */
+/* A wheel on the floor. The rack, the floor, is below the wheel's centre: on the right when looking
+ * along the axis (1, 0). */
 static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **state)
 {
   (void)state;
@@ -66,7 +67,7 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = scene.crank;
-  def.point[0] = -0.3; /* its centre */
+  def.point[0] = -0.3; /* the wheel's centre */
   def.point[1] = 1.2;
   def.radius = -radius;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
@@ -74,11 +75,12 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   test_point_open(&p, scene.mechanism);
   int crank = p.mechanism->bodies[scene.crank.index1]->q;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* At the contact point, (0, -radius) from its centre, the wheel is at rest: v = -w k x arm. */
+  /* The contact point, (0, -radius) from the centre, has no velocity. So a rotation by 3 rad moves
+   * the centre by -3 radius. */
   p.q[crank] -= radius * 3.0;
   p.q[crank + 2] += 3.0;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* Revolutions are counted. */
+  /* The angle is not reduced by revolutions. */
   p.q[crank + 2] += 400.0;
   ASSERT_NEAR(phi_of(&p), radius * 400.0, 1e-15, 0.0);
   test_point_close(&p);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE: conserved quantities, refusals, and the solution of its equations. */
+/* RATTLE: what it conserves, the solvers of its equations, and steps that it refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,7 +58,7 @@ static void check_rows(const model *m, double step, double speed)
   baum_simulation *run = start(m, &options);
   check(baum_simulation_step(run, 5000));
   baum_counters c = counters_of(run);
-  /* A few rounding errors of coordinates below 1 m, and of velocities below `speed`. */
+  /* Rounding of coordinates below 1 m, and of velocities below `speed`. */
   assert_true(c.max_phi <= 1e-15);
   assert_true(c.max_phi_rate <= 4e-15 * speed);
   assert_true(c.nonlinear_iterations >= 5000);
@@ -100,8 +100,9 @@ static band energy_band(baum_simulation *run, int steps, double unit)
   return b;
 }
 
-/* Over 1e5 steps the energy stays within the band of the first 5000, plus 1 % of its width;
- * semi-implicit Euler leaves this band by far. */
+/* The energy error oscillates in a band. Steps 95000 to 100000 must have the same band as the first
+ * 5000, within 1 % of its width. With semi-implicit Euler the energy drifts by more than 10
+ * widths. */
 static void check_band(const model *m, double step, double unit)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
@@ -136,8 +137,8 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* The method is symmetric: the same number of steps back leads to the start, except for the
- * rounding of 500 steps, amplified by the growth of perturbations. */
+/* The method is symmetric, so the same number of steps back leads to the start. Only rounding in
+ * 500 steps remains, amplified as the motion amplifies perturbations. */
 static void going_back_leads_to_the_start(void **state)
 {
   (void)state;
@@ -158,7 +159,8 @@ static void going_back_leads_to_the_start(void **state)
   model_destroy(&m);
 }
 
-/* Computes angle and angular velocity of the pendulum after `steps` steps. */
+/* Computes the angle and the angular velocity of the pendulum after `steps` steps from the state
+ * `from`. */
 static void map_angle(baum_simulation *run, int steps, const double from[2], double to[2])
 {
   const double q[2] = {cos(from[0]), sin(from[0])};
@@ -171,10 +173,11 @@ static void map_angle(baum_simulation *run, int steps, const double from[2], dou
   to[1] = x[0] * u[1] - x[1] * u[0];
 }
 
-/* Returns the determinant of this map's derivative, by differences: the factor on areas. */
+/* Returns the factor by which 40 steps change areas in phase space: the determinant of the
+ * derivative of map_angle(), by central differences. It is 1 for a symplectic method. */
 static double area_factor(const baum_integrator *integrator)
 {
-  const double d = 1e-4; /* truncation: d^2 times third derivatives, about 1e-7 */
+  const double d = 1e-4; /* truncation error: d^2 x third derivatives, about 1e-7 */
   model m = make_pendulum();
   baum_simulation_options options = options_with(integrator, 0.1);
   baum_simulation *run = start(&m, &options);
@@ -214,7 +217,7 @@ static void end_of(const model *m, const baum_simulation_options *options, doubl
   baum_simulation_destroy(run);
 }
 
-/* The motions differ by the rounding of 300 steps only. */
+/* The motions with different solvers differ only by rounding in 300 steps. */
 static void all_solvers_give_the_same_motion(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU, BAUM_SOLVER_QR};
@@ -257,8 +260,8 @@ static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   model_destroy(&framed);
 }
 
-/* A step of 0.5 s at 10 m/s goes so far along the tangent that no force along the rod leads back to
- * the circle. */
+/* A step of 0.5 s at 10 m/s leads 5 m along the tangent. From there no force along the rod at the
+ * start of the step reaches the circle of 1 m. */
 static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
 {
   (void)state;

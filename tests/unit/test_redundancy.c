@@ -57,7 +57,8 @@ static baum_mechanism *pendulum_with_pins(int pins)
   return m;
 }
 
-/* Cranks of length 1 at x = 0, 1, 2, ... with a common angle, joined by one coupler. */
+/* Parallel cranks of length 1 m with feet at x = 0, 1, 2, ... and a common angle, joined by one
+ * coupler. */
 static baum_mechanism *parallelogram(int cranks, double angle)
 {
   static const char *const names[3] = {"first", "second", "third"};
@@ -77,7 +78,7 @@ static baum_mechanism *parallelogram(int cranks, double angle)
   return m;
 }
 
-/* Accelerations and multipliers in the design configuration with velocities v (nv). */
+/* Computes accelerations and multipliers in the design configuration with the velocities v (nv). */
 static void solve(const baum_mechanism *m, const double *v, double *a, double *lambda)
 {
   baum_workspace *w = NULL;
@@ -105,7 +106,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* the least norm: half of the force each */
+  for (int i = 0; i < 2; i++) { /* least norm: each pin has half of the force */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
@@ -134,8 +135,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* With one degree of freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J =
-   * 0.3, length 1. */
+  /* Lagrange's equation for the common angle: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g
+   * cos(angle), with m = 2 kg, J = 0.3 kg m^2 and the length 1 m. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
     ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
@@ -152,7 +153,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
-/* Horizontal links of length 1 from the origin on, each with several equal pins. */
+/* A horizontal chain of links of length 1 m from the origin. `pins` equal pins join each link to
+ * the one before. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
   baum_mechanism *m = NULL;
@@ -180,17 +182,17 @@ static void many_duplicated_joints_share_their_forces(void **state)
   double got[3 * LINKS];
   double force[2 * LINKS];
   double shared[4 * LINKS];
-  for (int k = 0; k < LINKS; k++) { /* all links rotate as one */
+  for (int k = 0; k < LINKS; k++) { /* the chain rotates like a rigid body */
     v[3 * k] = 0.0;
     v[3 * k + 1] = 2.0 * (k + 0.5);
     v[3 * k + 2] = 2.0;
   }
   solve(once, v, want, force);
   solve(twice, v, got, shared);
-  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations up to 4 * 200 m/s^2 */
+  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations of up to 800 m/s^2 */
     ASSERT_NEAR(got[i], want[i], 0.0, 1e-9);
   }
-  for (int k = 0; k < LINKS; k++) { /* forces up to 2 kg * 200 * 4 * 100 m/s^2 */
+  for (int k = 0; k < LINKS; k++) { /* forces of up to 2 kg x 8e4 m/s^2 */
     for (int i = 0; i < 2; i++) {
       ASSERT_NEAR(shared[4 * k + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
       ASSERT_NEAR(shared[4 * k + 2 + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
@@ -221,13 +223,13 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
     for (int j = 0; j < 12; j++) {
       sum += mass[12 * i + j] * a[j] + jacobian[12 * j + i] * lambda[j];
     }
-    ASSERT_NEAR(sum, 0.0, 0.0, 1e-12); /* rounding of forces of 20 N */
+    ASSERT_NEAR(sum, 0.0, 0.0, 1e-12); /* rounding of 20 N */
   }
   baum_workspace_destroy(w);
   baum_mechanism_destroy(m);
 }
 
-/* relative to 10 N */
+/* The multipliers are wrong by 1e-5, with forces of about 10 N. */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -374,13 +376,13 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
     angle[k] = baum_simulation_q(s)[5];
     baum_simulation_destroy(s);
   }
-  ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* first order, h = 1e-5, rate 5 1/s */
+  ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* order 1, h = 1e-5 s */
   ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* rtol 1e-9 */
   ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6); /* rtol 1e-9; IDA's error exceeds its tolerance */
   baum_mechanism_destroy(m);
 }
 
-/* A pin with two drivers: rate * t, and rate * t + acceleration * t^2 / 2. */
+/* A pin with two drivers: one prescribes the angle 2 t, the other 2 t + acceleration t^2 / 2. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -441,8 +443,8 @@ static void drivers_that_contradict_each_other_later_are_warned_of(void **state)
   (void)state;
   baum_mechanism *same = driven_twice(0.0);
   baum_mechanism *parting = driven_twice(1.0);
-  assert_int_equal(warnings_after(same, 1.0), 1); /* only the warning of redundant rows */
-  assert_true(warnings_after(parting, 1.0) >= 2); /* and violated */
+  assert_int_equal(warnings_after(same, 1.0), 1); /* the warning of redundant rows */
+  assert_true(warnings_after(parting, 1.0) >= 2); /* also: one of them is violated */
   baum_mechanism_destroy(same);
   baum_mechanism_destroy(parting);
 }
@@ -470,7 +472,8 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Motors at 2 t and 2 t + t^2 / 2 differ by t^2 / 2 in angle and by t in velocity. */
+/* With acceleration = 1 the two motors differ by t^2 / 2 in angle and by t in velocity, so
+ * projection can fulfil only one of them. */
 static void projection_names_redundant_rows_that_the_others_do_not_meet(void **state)
 {
   (void)state;
@@ -521,7 +524,7 @@ static void a_run_that_blows_up_is_warned_of(void **state)
   baum_warning warning;
   o.integrator = baum_euler();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  o.step = 0.1; /* much too long */
+  o.step = 0.1; /* much too long, which causes violations */
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(s, 3.0), BAUM_WARNED);
   assert_int_equal(baum_simulation_warning(s, 0, &warning, sizeof warning), BAUM_OK);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on mechanisms whose cost can be counted by hand. */
+/* Reports of mechanisms whose numbers can be counted by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static baum_report report_of(const baum_mechanism *m)
   return report;
 }
 
-/* Freezes the mechanism, reports and destroys it. */
+/* Freezes the mechanism, computes its report and destroys it. */
 static baum_report report_once(baum_mechanism *m)
 {
   must(baum_mechanism_freeze(m));
@@ -119,8 +119,9 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.islands, 1);
   assert_int_equal(r.fixed_bodies, 0);
   assert_true(r.constant_mass && r.constant_force && r.blocks);
-  /* Nodes: three pins, one guide, the motor. The crank couples two pins and the motor, the rod two
-   * pins, the slider a pin and the guide. */
+  /* The five nodes are three pins, a guide and the motor. The crank causes three couplings, between
+   * its two pins and the motor; the rod one, between its two pins; the slider one, between its pin
+   * and the guide. */
   assert_int_equal(r.nodes, 5);
   assert_int_equal(r.couplings, 5);
   assert_int_equal(r.fill, 0);
@@ -138,8 +139,8 @@ static void a_slider_crank_is_counted(void **state)
   assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
 }
 
-/* A ring of n pins without ground: each of the first n - 3 eliminations couples the two
- * neighbours. */
+/* A ring of n pins that is not joined to ground. Each of the first n - 3 eliminations adds one
+ * coupling, between the two neighbours of the node. */
 static void fill_counts_couplings_that_elimination_adds(void **state)
 {
   (void)state;
@@ -193,7 +194,7 @@ static void fixed_bodies_are_reported(void **state)
   assert_int_equal(r.islands, 60);
   assert_int_equal(r.nodes, 60);
   assert_int_equal(r.couplings, 0);
-  assert_int_equal(r.most_joints, 1); /* of moving bodies only */
+  assert_int_equal(r.most_joints, 1); /* counts moving bodies only */
   assert_true(r.blocks);
   assert_says(&r, "60 nodes, 0 couplings; 2 fixed bodies omitted;");
   assert_says(&r, "2 fixed bodies");

@@ -52,8 +52,8 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* The design pose of the crank is (-0.3, 1.2) with -1.1 rad, its point (-0.45, 0.15); the
-   * ground's point is (0.5, 0.7). A few roundings. */
+  /* The design pose of the crank is the position (-0.3, 1.2) and the angle -1.1 rad; its point is
+   * (-0.45, 0.15), that of ground (0.5, 0.7). */
   double c = cos(-1.1);
   double s = sin(-1.1);
   ASSERT_NEAR(phi[0], 0.5 - (-0.3 - 0.45 * c - 0.15 * s), 0.0, 1e-15);
@@ -103,7 +103,7 @@ static void coordinate_counts_revolutions(void **state)
   const baum_i_joint *joint = p.mechanism->joints[0];
   baum_i_coordinate c;
   joint->type->coordinate(joint, 0, &p.point, &c);
-  ASSERT_NEAR(c.value, 200.0 - 1.1 - 0.4, 0.0, 1e-13); /* rounding at 200 */
+  ASSERT_NEAR(c.value, 200.0 - 1.1 - 0.4, 0.0, 1e-13); /* rounding of 200 rad */
   test_point_close(&p);
 }
 

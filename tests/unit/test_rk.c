@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta methods: their tables, one step by hand, and failing stages. */
+/* Runge-Kutta methods: their coefficients, one step compared with its closed form, and failing
+ * stages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,8 +23,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
   return setup;
 }
 
-/* For x'' = -4 x one step multiplies (x, x'/2) by R(2 i h), where R is the method's stability
- * polynomial. */
+/* For x'' = -4 x one step multiplies the complex number x - i x'/2 by R(2 i h), where R is the
+ * method's stability polynomial. Here h = 0.1. */
 static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
 {
   (void)state;
@@ -45,7 +46,8 @@ static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force t^p gives v' = t^p, which is exact up to p = order - 1. This tests c and b together. */
+/* With the force t^p a method integrates v' = t^p exactly up to p = order - 1. This tests the times
+ * c together with the weights b. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -74,7 +76,7 @@ static void forces_of_time_are_integrated_to_the_order(void **state)
   }
 }
 
-/* If a stage fails, the state is unchanged, and the step can be repeated. */
+/* If a stage fails, the step leaves the state unchanged and can be repeated. */
 static void a_failing_stage_leaves_the_state(void **state)
 {
   (void)state;
@@ -105,7 +107,7 @@ static void a_failing_stage_leaves_the_state(void **state)
   }
 }
 
-/* One evaluation per stage; the caller makes the first. */
+/* A step takes one evaluation per stage, including the first, which the caller makes. */
 static void a_step_costs_one_evaluation_for_each_stage(void **state)
 {
   (void)state;

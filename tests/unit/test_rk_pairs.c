@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta pairs with variable steps: the interpolant, its cost and that of a step, and what
- * shortens a step. Their tables are tested in test_rk_tables.c, what all integrators have in common
- * in test_integrators.c. */
+/* Runge-Kutta pairs with variable steps: the interpolant, its number of evaluations and that of a
+ * step, and what shortens a step. test_rk_tables.c tests their coefficients, test_integrators.c
+ * what all integrators have in common. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -62,8 +62,8 @@ static int64_t rejected(const integrator_run *run)
 
 /* ---- the interpolant ---- */
 
-/* Largest error inside a first step of length h, which is 10 % of what the tolerance would
- * allow. */
+/* Returns the largest error inside a first step of length h. max_step enforces h; the tolerance
+ * would allow ten times that. */
 static double error_inside(const method *m, double h)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -85,8 +85,8 @@ static double error_inside(const method *m, double h)
   return largest;
 }
 
-/* The error inside a step decreases with h^(order + 1), or slightly faster because of higher terms;
- * with shorter steps it would be rounding. */
+/* The error inside a step must be of order h^(order + 1). Higher terms increase the measured order
+ * slightly; shorter steps would avoid this, but then errors would be rounding. */
 static void fall_inside(const method *m)
 {
   double longest = m->dense_order == 4 ? 0.1 : 0.2;
@@ -105,7 +105,8 @@ static void interpolants_have_their_order(void **state)
   for_each(fall_inside);
 }
 
-/* q' at an end of the step by a second-order difference over 1e-4 of the step, inwards. */
+/* Returns q' at an end of the step, by a one-sided difference of order 2 that uses the interpolant
+ * inside the step. */
 static double rate_at_end(integrator_run *run, double t, double inwards, double at_end)
 {
   look(run, t + inwards);
@@ -114,8 +115,8 @@ static double rate_at_end(integrator_run *run, double t, double inwards, double 
   return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
 }
 
-/* At both ends of every step the interpolant has the values and rates of the states, so it is
- * continuous with its derivative. */
+/* At both ends of every step the interpolant has the q, v and q' of the states, so it is
+ * continuously differentiable. */
 static void join(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -130,7 +131,7 @@ static void join(const method *m)
     assert_memory_equal(run.q, q, sizeof q);
     assert_memory_equal(run.v, v, sizeof v);
     double inwards = 1e-4 * (run.state.t - before.t);
-    /* (1e-4 h)^2 q''' / 3 with h < 0.3 and q''' < 100. */
+    /* The difference has the error (1e-4 h)^2 q''' / 3, with h < 0.3 and q''' < 100. */
     ASSERT_NEAR(rate_at_end(&run, before.t, inwards, q[0]), v[0], 0.0, 1e-7);
     ASSERT_NEAR(rate_at_end(&run, run.state.t, -inwards, run.state_q[0]), run.state_v[0], 0.0,
                 1e-7);
@@ -150,7 +151,8 @@ static void steps_join_with_value_and_rate(void **state)
   for_each(join);
 }
 
-/* Interpolation changes no bit of the motion and costs only the extra stages, once per step. */
+/* Interpolation does not change the motion in any bit. Its only cost is the extra stages, once per
+ * step. */
 static void look_at_every_step(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -186,7 +188,7 @@ static void interpolation_does_not_alter_the_motion(void **state)
 
 /* ---- steps ---- */
 
-/* One evaluation per stage; the first step needs one more. */
+/* A step takes one evaluation per stage; the first step takes one more. */
 static void count_evaluations(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -235,7 +237,7 @@ static void no_step_is_longer_than_the_longest(void **state)
   for_each(keep_below);
 }
 
-/* The longest step may be changed between steps. */
+/* A max_step that changes between steps takes effect in the next step. */
 static void a_longest_step_acts_at_once(void **state)
 {
   (void)state;
@@ -254,12 +256,12 @@ static void a_longest_step_acts_at_once(void **state)
 
 /* ---- what makes a step shorter ---- */
 
-/* A force of zero that fails in the calls number `from` to `from + times - 1`. */
+/* A zero force that fails in its calls number `from` to `from + times - 1`. */
 typedef struct hiccup {
   int calls;
   int from;
   int times;
-  int answer; /* 0: gives NaN */
+  int answer; /* 0: sets NaN */
 } hiccup;
 
 static int answer_hiccup(double t, const double *q, const double *v, const double *inputs,
@@ -304,8 +306,8 @@ static baum_mechanism *make_hiccup(hiccup *h)
   return mechanism;
 }
 
-/* Wherever in a step the force fails, the step is repeated with half its length, and the motion is
- * right. */
+/* The force fails twice, beginning with call number `from` of the step. Each time the step is
+ * repeated with half the length, and the motion is accurate. */
 static void get_over(const method *m)
 {
   for (int answer = 0; answer <= 1; answer++) {
@@ -336,7 +338,8 @@ static void evaluations_that_fail_for_a_while_are_got_over(void **state)
   for_each(get_over);
 }
 
-/* x'' = x'^2 with x'(0) = 1 becomes infinite at t = 1: x' = 1 / (1 - t). */
+/* The force x'^2 on 1 kg. With x'(0) = 1 m/s the motion is x' = 1 / (1 - t), which becomes infinite
+ * at t = 1 s. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -359,7 +362,7 @@ static void a_motion_without_bound_ends_in_steps_too_short(void **state)
     assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
     assert_non_null(strstr(baum_message(), "grow without bound"));
     assert_non_null(strstr(baum_message(), pairs[k]->name));
-    /* The last good state is near the end of the motion; errors of all steps shift that time. */
+    /* The motion becomes infinite at t = 1 s; errors of the steps shift that time. */
     assert_true(isfinite(run.state_q[0]) && isfinite(run.state_v[0]));
     ASSERT_NEAR(run.state.t, 1.0, 0.0, 1e-4);
     integrator_run_close(&run);

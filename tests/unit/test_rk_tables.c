@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables of Runge-Kutta pairs against the conditions of order (J. Butcher; Hairer, Norsett, Wanner
- * 1993, section II.2): a method with weights b and stages A has order p if, for every rooted tree t
- * of up to p nodes,
+/* Coefficients of Runge-Kutta pairs, checked against the order conditions (J. Butcher; Hairer,
+ * Norsett, Wanner 1993, section II.2): a method with weights b_i and stages a_ij has order p if
+ * every rooted tree t of up to p nodes fulfils
  *
- *   sum_i b_i phi_i(t) = 1 / gamma(t),   phi_i(t) = product over the root's branches t' of sum_j
- *   a_ij phi_j(t'),
- *                                        gamma(t) = |t| product of gamma(t')
+ *   sum_i b_i phi_i(t) = 1 / gamma(t),
+ *   phi_i(t) = product over the branches t' of the root of sum_j a_ij phi_j(t'),
+ *   gamma(t) = |t| times the product of gamma(t') over these branches.
  *
- * and an interpolant b(x) has it if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). Estimates are
- * differences of methods: their sums vanish. There are 200 trees of up to 8 nodes.
+ * An interpolant b(x) has order p if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). The weights of an
+ * error estimate are differences of the weights of two methods, so their sums are zero up to the
+ * lower order. There are 200 trees of up to 8 nodes.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -48,7 +49,8 @@ static void plant(forest *f, const tree *t)
   f->trees[f->count++] = grown;
 }
 
-/* All ways to add branches with `missing` nodes in total, using the trees from `first` on. */
+/* Adds branches with `missing` nodes in total to the tree in all possible ways, using the trees
+ * from number `first` on. */
 static void branch_out(forest *f, tree *t, int missing, int first)
 {
   if (missing == 0) {
@@ -62,7 +64,7 @@ static void branch_out(forest *f, tree *t, int missing, int first)
   }
 }
 
-/* Generates the trees, ordered by their number of nodes. */
+/* Generates all trees, ordered by their number of nodes. */
 static void grow(forest *f)
 {
   f->count = 0;
@@ -75,7 +77,8 @@ static void grow(forest *f)
 
 /* ---- a pair as one matrix ---- */
 
-/* Stages of the step, its end, and the extra stages. */
+/* The coefficients of the stages of the step, of its end, and of the extra stages, as rows of one
+ * matrix. */
 typedef struct matrix {
   int n;
   double a[STAGES_MAX][STAGES_MAX];
@@ -121,12 +124,12 @@ static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX
   }
 }
 
-/* A pair with the trees and their phi. */
+/* A pair with all trees and their phi at all stages. */
 typedef struct scene {
   const baum_i_rk_pair *pair;
   const baum_integrator *integrator;
   int dense_order;
-  int error_order;  /* highest order up to which the estimates vanish */
+  int error_order;  /* highest order up to which the sums of the estimates are zero */
   int error3_order; /* 0: there is no second estimate */
   forest trees;
   matrix m;
@@ -159,7 +162,7 @@ static double sum_of(const scene *s, const double *weights, int count, int k)
 
 /* ---- conditions ---- */
 
-/* Entries of the tables are up to 358 and rounded to 16 digits. */
+/* Coefficients are up to 358 and rounded to 16 digits. */
 static const double ROUNDING = 1e-13;
 
 static void rows_add_up_to_their_times(void **state)
@@ -228,7 +231,8 @@ static void estimates_vanish_up_to_their_order(void **state)
   }
 }
 
-/* Weights of the interpolant at x in a step of length 1, from the nested form of rk_adaptive.c. */
+/* Computes the weights of the interpolant at x in a step of length 1, in the nested form that
+ * rk_adaptive.c uses. */
 static void interpolate(const scene *s, double x, double *weights)
 {
   const baum_i_rk_pair *pair = s->pair;
@@ -266,7 +270,7 @@ static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
   }
 }
 
-/* R(mu) = 1 + sum mu^k b A^(k-1) 1, with the vector 1 of ones. */
+/* R(mu) = 1 + sum over k of mu^k b A^(k-1) e, where e is the vector of ones. */
 static void the_stability_polynomial_is_that_of_the_table(void **state)
 {
   (void)state;
@@ -291,7 +295,7 @@ static void the_stability_polynomial_is_that_of_the_table(void **state)
         }
         power[i] = next;
       }
-      /* The last coefficient of rk8 is 3.6e-10. */
+      /* 1e-17, because the last coefficient of rk8 is as small as 3.6e-10. */
       ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
     }
   }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of rows with integrators that choose their step: with alpha = beta = b f_i a row that
- * starts at Phi_0 obeys
+/* Gains of single rows, mainly with integrators that choose their step. With alpha = beta = b and
+ * the factor f of a row, this row obeys
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
- * for any mechanism. Adams includes the stiffness of every row in its iteration, BDF and IDA in
- * their matrices.
+ * in any mechanism. Adams includes the factor of every row in its iteration, BDF and IDA include it
+ * in their matrices.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -21,7 +21,7 @@
 enum { METHODS = 4, ROWS = 8, SAMPLES = 4 };
 static const char *const NAMES[METHODS] = {"cvode_adams", "cvode_bdf", "ida", "rk8"};
 
-/* Returns NULL if this build does not have the integrator. */
+/* Returns the integrator, or NULL if this build does not have it. */
 static const baum_integrator *find(const char *name)
 {
   const baum_integrator *found = NULL;
@@ -29,7 +29,7 @@ static const baum_integrator *find(const char *name)
     const baum_integrator *at = baum_integrator_at(k);
     found = strcmp(baum_integrator_name(at), name) == 0 ? at : found;
   }
-  /* Integrators without fixed step need SUNDIALS. */
+  /* The integrators without a fixed step that are tested here need SUNDIALS. */
   bool runs = found && (baum_has("sundials") || baum_integrator_has_fixed_step(found));
   return runs ? found : NULL;
 }
@@ -54,7 +54,7 @@ static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *in
 
 static const double FACTORS[ROWS] = {0.5, 0.25, 2.0, 4.0, 1.0, 3.0, 0.7, 1.5};
 
-/* Moves a slider-crank so that every row is slightly violated. */
+/* Moves a slider-crank so that it violates every row slightly. Returns Phi. */
 static void start_beside_the_constraints(baum_simulation *run, double *phi)
 {
   const baum_channel violation = baum_channel_of(BAUM_PHI);
@@ -86,8 +86,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
     double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
-    /* Errors of several hundred steps at rtol 1e-8 with lengths below 1 m; a factor missing from a
-     * term would cause 1e-6 or more. */
+    /* The tolerance allows for the errors of several hundred steps at rtol 1e-8 with lengths below
+     * 1 m. Forgetting a factor in any term would cause 1e-6 or more. */
     ASSERT_NEAR(rows[k], want, 0.0, 1e-7);
   }
   baum_simulation_destroy(run);
@@ -144,8 +144,9 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
   return counters;
 }
 
-/* Gains are up to 4e4 1/s. A fixed-point iteration converges only if 2 alpha h is below 2, which
- * would take 2000 steps. Measured: 620, 440, 580; with equal gains of 1e4 1/s: 340, 370, 390. */
+/* The gains reach 4e4 1/s. A plain fixed-point iteration converges only for 2 alpha h < 2, which
+ * would take 2000 steps. Measured numbers of steps: 620, 440 and 580; with equal gains of 1e4 1/s,
+ * 340, 370 and 390. */
 static void steps_do_not_become_short(void **state)
 {
   (void)state;
@@ -157,7 +158,8 @@ static void steps_do_not_become_short(void **state)
       baum_counters alike = count_steps(m.mechanism, NAMES[k], 1e4, NULL);
       baum_counters likewise = count_steps(m.mechanism, NAMES[k], 1e4, ones);
       baum_counters own = count_steps(m.mechanism, NAMES[k], 1e4, FACTORS);
-      /* The sums have another order, so rounding may change a step or two. */
+      /* Factors of 1 give the same gains, but sums in another order, so rounding may change the
+       * number of steps slightly. */
       ASSERT_NEAR((double)likewise.steps, (double)alike.steps, 0.1, 0.0);
       assert_in_range(own.steps, 1, 1000);
       assert_in_range(own.nonlinear_iterations, 1, 2000);

@@ -13,7 +13,7 @@
 
 enum { POLYNOMIALS = 20000 };
 
-/* p := p (z - root) */
+/* Multiplies p by (z - root). */
 static void multiply(baum_i_polynomial *p, double re, double im)
 {
   p->degree++;
@@ -26,7 +26,7 @@ static void multiply(baum_i_polynomial *p, double re, double im)
   }
 }
 
-/* A product of random roots with |z| up to `most`. Returns the largest |z|. */
+/* Makes a polynomial with random roots, |z| <= most. Returns the largest |z|. */
 static double from_roots(uint64_t *seed, int degree, double most, baum_i_polynomial *p)
 {
   *p = (baum_i_polynomial){.c = {{1.0, 0.0}}};
@@ -50,7 +50,7 @@ static void the_test_says_whether_all_roots_are_inside(void **state)
     int degree = 1 + n % BAUM_I_SCHUR_COHN_DEGREE;
     double largest = from_roots(&seed, degree, 1.2, &p);
     double radius = uniform(&seed, 0.3, 1.5);
-    if (fabs(largest - radius) > 1e-3) { /* closer, rounding may decide at high degrees */
+    if (fabs(largest - radius) > 1e-3) { /* closer roots: rounding decides */
       assert_int_equal(baum_i_schur_cohn_margin(&p, radius) > 0.0, largest < radius);
       inside += largest < radius;
     }
@@ -66,8 +66,8 @@ static void the_radius_is_that_of_the_largest_root(void **state)
     baum_i_polynomial p;
     double most = pow(10.0, uniform(&seed, -3.0, 3.0));
     double largest = from_roots(&seed, 1 + n % 4, most, &p);
-    /* Random roots may be 1e-3 apart and then have errors of 1e-16 / 1e-3; the bisection has
-     * 1e-10. */
+    /* Two random roots may be as close as 1e-3, which causes errors of 1e-16 / 1e-3. The bisection
+     * has an error of 1e-10. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), largest, 1e-9, 0.0);
   }
 }
@@ -80,8 +80,8 @@ static void multiple_roots_are_found_as_well_as_promised(void **state)
     for (int k = 0; k < m; k++) {
       multiply(&p, 0.48, 0.64);
     }
-    /* The accuracy that schur_cohn.h states; coefficients alone would allow the m-th root of
-     * 1e-16. */
+    /* schur_cohn.h states this accuracy. The rounding of the coefficients alone changes an m-fold
+     * root by the m-th root of 1e-16. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), 0.8, 4.0 * pow(1e-16, 1.0 / (m + 1)) + 1e-10, 0.0);
   }
 }

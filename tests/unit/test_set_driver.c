@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drivers whose law is set during a run. A driven crank rotates about its centre, and a rod hangs
- * freely from it. A cart slides on a guide, driven by a user law. */
+/* Drivers that are set during a run. In the scene a motor rotates a crank about its centre; a rod
+ * hangs freely from the crank. A winch moves a cart on a guide by a user law or a spline. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,16 +14,16 @@
 #include "assert_near.h"
 #include "step_mode.h"
 
-static const double RATE = 2.0; /* [rad/s] rate of the motor in its definition */
+static const double RATE = 2.0; /* [rad/s] of the motor in its definition */
 
-/* Behaviour of the user functions of a scene. */
+/* What the user functions of a scene do. */
 typedef struct faults {
-  bool along_spline; /* the cart is driven by a spline */
+  bool along_spline; /* a spline moves the cart instead of the user law */
   int law_calls;
   bool force_fails;
 } faults;
 
-/* 0.1 sin(3 t) */
+/* The law 0.1 sin(3 t). */
 static int swing(double t, double s[3], void *user)
 {
   faults *f = user;
@@ -85,7 +85,7 @@ static baum_joint_id add_pin(const scene *s, baum_body_id a, baum_body_id b, dou
   return id;
 }
 
-/* 0.5 t */
+/* Adds a spline driver that prescribes 0.5 t. */
 static void add_spline_winch(scene *s)
 {
   static const double times[3] = {-1.0, 0.0, 1.0};
@@ -162,7 +162,7 @@ static baum_simulation *start(const scene *s, const baum_simulation_options *o)
   return run;
 }
 
-/* Value and velocity of a joint's coordinate. */
+/* Value and velocity of the coordinate of a joint. */
 typedef struct motion {
   double value;
   double rate;
@@ -195,7 +195,7 @@ static void check_within(baum_simulation *run, baum_joint_id joint, double t, mo
   ASSERT_NEAR(got.rate, want.rate, 0.0, off.rate);
 }
 
-/* Velocities are up to 10 1/s. */
+/* Checks with ten times the tolerance for velocities, which reach 10 1/s. */
 static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion want,
                      double tolerance)
 {
@@ -204,20 +204,20 @@ static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion
 
 /* ---- every method ---- */
 
-/* Allowed errors of a driven coordinate. Euler methods with gains of 1/h leave up to h^2 |s''| in
- * position and h |s''| / 2 in velocity, here with |s''| = 8, and a tenth more. Fixed steps of
- * higher order project. Variable steps have a few hundred times rtol. */
+/* Returns the largest allowed errors of a driven coordinate. Variable steps: a few hundred times
+ * rtol. Euler methods with gains of 1/h: h^2 |s''| in position and h |s''| / 2 in velocity with
+ * |s''| = 8, and 10 % more. Other fixed-step methods project, so errors are rounding. */
 static motion allowed(step_mode mode)
 {
   if (!mode.fixed) {
     return (motion){3e-7, 3e-6};
   }
-  /* Without projection: at most h^2 with h = 1e-3. */
+  /* Adams-Bashforth methods do not project, so the errors are of order h^2 = 1e-6 s^2. */
   if (step_mode_is_adams(mode)) {
     return (motion){1e-6, 1e-5};
   }
-  /* Only positions are projected; velocity errors are about a tenth of h^2 times the third
-   * derivative, 2.7. */
+  /* Generalized-alpha projects positions only. Velocity errors are about h^2 |s'''| / 10 with
+   * |s'''| <= 2.7; ten times that is allowed. */
   if (mode.integrator == baum_generalized_alpha()) {
     return (motion){1e-12, 2.7e-6};
   }
@@ -238,14 +238,14 @@ static void check_laws(step_mode mode)
   assert_true(motion_of(run, s.pin).value == now.value);
   check_within(run, s.pin, 0.7, (motion){0.6 + 0.4 * RATE + 0.5 * 8.0 * 0.16, RATE + 0.4 * 8.0},
                off);
-  /* The winch continues with its own law. */
+  /* The winch continues with the law of its definition. */
   check_within(run, s.guide, 0.7, (motion){0.1 * sin(2.1), 0.3 * cos(2.1)}, off);
   now = motion_of(run, s.pin);
   assert_int_equal(baum_simulation_set_driver(run, s.motor, now.value, now.rate, 0.0), BAUM_OK);
   check_within(run, s.pin, 1.0, (motion){now.value + 0.3 * now.rate, now.rate}, off);
   int64_t changes = step_mode_remembers(mode) ? 2 : 0;
   assert_true(restarts_of(run) >= changes);
-  bool by_short_steps = mode.fixed && step_mode_remembers(mode); /* short steps restart too */
+  bool by_short_steps = mode.fixed && step_mode_remembers(mode); /* shortened steps restart too */
   assert_true(by_short_steps || restarts_of(run) == changes);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
@@ -271,7 +271,7 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
   baum_simulation *other = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1 * sin(0.6), 0.3 * cos(0.6)}, 1e-12); /* projected */
+  check_at(run, s.guide, 0.2, (motion){0.1 * sin(0.6), 0.3 * cos(0.6)}, 1e-12); /* rounding */
   motion now = motion_of(run, s.guide);
   assert_int_equal(baum_simulation_set_driver(run, s.winch, now.value, now.rate, -1.0), BAUM_OK);
   f.law_calls = 0;
@@ -281,7 +281,7 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   assert_true(f.law_calls > 0);
   baum_simulation_destroy(run);
   baum_simulation_destroy(other);
-  /* The definition in the mechanism is unchanged. */
+  /* The definition in the mechanism is unchanged, so a new run uses the user law. */
   run = start(&s, &o);
   check_at(run, s.guide, 0.1, (motion){0.1 * sin(0.3), 0.3 * cos(0.3)}, 1e-12);
   baum_simulation_destroy(run);
@@ -295,7 +295,7 @@ static void a_law_that_is_set_replaces_a_spline(void **state)
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
   baum_simulation *run = start(&s, &o);
-  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected, as below */
+  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* rounding */
   assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
   check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
   baum_simulation_destroy(run);
@@ -340,7 +340,7 @@ static void the_law_is_called_once_per_evaluation(void **state)
 
 static const double JUMP = 0.05; /* [rad] */
 
-/* A run whose driver has just been set to a value that differs by JUMP. */
+/* Starts a run and sets its driver to a value that differs by JUMP from the present angle. */
 static baum_simulation *jump(const scene *s, baum_formulation formulation, baum_gains gains)
 {
   baum_simulation_options o = options_of(baum_rk4());
@@ -363,17 +363,17 @@ static void with_projection_the_next_step_jumps_to_the_law(void **state)
   const baum_gains none = {.rule = BAUM_GAINS_DEFAULT};
   baum_simulation *run = jump(&s, BAUM_FORMULATION_PROJECTION, none);
   assert_int_equal(baum_simulation_step(run, 1), BAUM_OK);
-  ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* projected */
+  ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* rounding */
   baum_counters c;
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* recorded at the beginning of that step */
+  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* found at the start of that step */
   assert_memory_equal(&c.max_phi_joint, &s.motor, sizeof s.motor);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* Phi'' + 2 alpha Phi' + beta^2 Phi = 0 with alpha = beta: Phi = -JUMP (1 + alpha t) exp(-alpha t).
- * The relative error of order 4 is about (alpha h)^4. */
+/* With alpha = beta the violation decays as Phi = -JUMP (1 + alpha t) exp(-alpha t). The relative
+ * error of rk4 is about (alpha h)^4. */
 static void with_baumgarte_the_difference_to_the_law_decays_with_the_gains(void **state)
 {
   (void)state;
@@ -406,7 +406,7 @@ static void without_stabilization_the_difference_stays(void **state)
 
 /* ---- failure ---- */
 
-/* IDA evaluates at a restart, so setting a law can fail. */
+/* Setting a law restarts IDA, which evaluates then. If this fails, the old law stays. */
 static void a_law_that_fails_at_the_restart_is_not_set(void **state)
 {
   (void)state;

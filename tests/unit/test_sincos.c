@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sines and cosines of src/base/sincos.h, and of frames, compared with those of long double, which
- * the C library reduces exactly and computes with eleven additional bits. */
+/* The sines and cosines of src/base/sincos.h, and those of frames. The reference is sinl() and
+ * cosl() in long double, which have an exact argument reduction and eleven more bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ enum { BODIES = 7 }; /* not a multiple of the vector length */
 /* One unit in the last place of the exact value. */
 static const double ONE_ULP = 1.0;
 
-/* Skips if long double is as short as double, as on some machines and in valgrind. */
+/* Skips the test if long double is no longer than double, as on some machines and in valgrind. */
 static void skip_without_long_double(void)
 {
   volatile long double one = 1.0L;
@@ -36,7 +36,7 @@ static void skip_without_long_double(void)
   }
 }
 
-/* Error in units of the last place of the exact value. */
+/* Returns the error in units of the last place of the exact value. */
 static double ulps(double got, long double exact)
 {
   double near = fabs((double)exact);
@@ -49,7 +49,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* The larger error of sine and cosine. */
+/* Returns the larger of the errors of sine and cosine. */
 static double error_of(double x, double sine, double cosine)
 {
   return worse(ulps(sine, sinl((long double)x)), ulps(cosine, cosl((long double)x)));
@@ -86,8 +86,8 @@ static void random_angles_are_right_to_one_ulp(void **state)
   }
 }
 
-/* All multiples of pi/2 up to the limit and the doubles beside them: there sine or cosine is
- * smallest, and the reduction loses most digits. */
+/* Tests all multiples of pi/2 up to the limit and the doubles next to them. There the sine or the
+ * cosine is smallest, so the reduction cancels most digits. */
 static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
 {
   (void)state;
@@ -103,7 +103,8 @@ static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
   assert_true(worst <= ONE_ULP);
 }
 
-/* Where one polynomial ends and the next multiple of pi/2 begins. */
+/* Tests the doubles next to odd multiples of pi/4, where the reduction changes to the next multiple
+ * of pi/2. */
 static void neighbours_of_odd_eighths_are_right(void **state)
 {
   (void)state;
@@ -125,7 +126,7 @@ static void tiny_angles_are_their_own_sines(void **state)
     double sine;
     double cosine;
     baum_i_sincos(x, &sine, &cosine);
-    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 vanish */
+    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 are below rounding */
     baum_i_sincos(-x, &sine, &cosine);
     assert_true(sine == -x && cosine == 1.0);
   }
@@ -182,7 +183,7 @@ static void free_frames(frames *f)
   baum_mechanism_destroy(f->mechanism);
 }
 
-/* Sets the angle of each body and returns the frames. */
+/* Sets the angles of the bodies and returns the frames. */
 static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
 {
   for (int k = 0; k < BODIES; k++) {
@@ -192,7 +193,7 @@ static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
   return f->workspace->point.frames + 1;
 }
 
-/* Fused multiply-add rounds differently, but not worse. */
+/* The build with fused multiply-add rounds differently, but not worse. */
 static void frames_of_both_builds_are_right_to_one_ulp(void **state)
 {
   (void)state;
@@ -219,7 +220,8 @@ static void frames_of_both_builds_are_right_to_one_ulp(void **state)
   }
 }
 
-/* A large angle among small ones is computed by the C library, and does not affect the others. */
+/* The C library computes an angle that is too large for sincos.h. The other angles of the same
+ * vector keep their results. */
 static void frames_of_far_angles_are_those_of_the_library(void **state)
 {
   (void)state;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* General sparse LU: solutions, pivots that are kept or chosen again, and matrices without full
- * rank. */
+/* General sparse LU: solutions, pivots that are kept or chosen again, and singular matrices. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +10,7 @@
 #include "assert_near.h"
 #include "linear/sparse_lu.h"
 
-/* [ a 0 2 ; 1 b 0 ; 0 3 4 ] by columns; det = 4 a b + 6. */
+/* The matrix [ a 0 2 ; 1 b 0 ; 0 3 4 ] in compressed columns. Its determinant is 4 a b + 6. */
 static const int32_t COLUMNS[] = {0, 2, 4, 6};
 static const int32_t ROWS[] = {0, 1, 1, 2, 0, 2};
 
@@ -29,7 +28,7 @@ static void check_solution(baum_i_sparse_lu *lu, double a, double b)
   double x[3] = {a * 1.0 + 2.0 * 3.0, 1.0 + b * 2.0, 3.0 * 2.0 + 4.0 * 3.0};
   baum_i_sparse_lu_solve(lu, x);
   for (int i = 0; i < 3; i++) {
-    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0); /* some roundings; the condition number is small */
+    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0); /* rounding; well-conditioned */
   }
 }
 
@@ -47,7 +46,7 @@ static void several_matrices_are_solved_with_the_same_pivots(void **state)
   baum_i_sparse_lu_destroy(lu);
 }
 
-/* The first pivots a and b become small. */
+/* The pivots of the first matrix, a and b, become small, so others must be chosen. */
 static void pivots_that_have_become_small_are_given_up(void **state)
 {
   (void)state;
@@ -67,7 +66,7 @@ static void a_matrix_without_full_rank_is_reported(void **state)
   assert_int_equal(baum_i_sparse_lu_create(3, COLUMNS, ROWS, &lu), BAUM_OK);
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
-  check_solution(lu, 5.0, 7.0); /* the next matrix is solved again */
+  check_solution(lu, 5.0, 7.0); /* the next matrix is solved */
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
   baum_i_sparse_lu_destroy(lu);

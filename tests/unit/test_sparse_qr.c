@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sparse QR of random matrices, tested by the defining properties: residuals are orthogonal to the
- * columns, and those columns are dependent that were made so. */
+/* Sparse QR of random matrices. Residuals must be orthogonal to the columns, and the columns found
+ * to be dependent must be those that a Gram-Schmidt process finds. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -20,7 +20,7 @@ enum { MOST = 40, ENTRIES = MOST * MOST };
 
 static const double tolerance = 1e-11;
 
-/* A matrix, dense and in compressed columns. */
+/* A random matrix, stored dense and in compressed columns. */
 typedef struct sample {
   int32_t m;
   int32_t n;
@@ -42,8 +42,8 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
   return (int32_t)floor(0.5 * (1.0 + draw(seed)) * bound);
 }
 
-/* About three entries per column in rows near the diagonal, and one in a random row, or with `hub`
- * in row 0, which couples all columns. */
+/* Fills column j with up to three entries in rows near the diagonal, and with one in a random row.
+ * With `hub` the latter is in row 0 for every column, which couples all columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {
@@ -53,7 +53,7 @@ static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
   s->dense[j][hub ? 0 : draw_below(seed, s->m)] = draw(seed);
 }
 
-/* A sum of up to two earlier columns; it may be zero. */
+/* Fills column j with a combination of up to two earlier columns. It may be zero. */
 static void fill_dependent(sample *s, int32_t j, uint64_t *seed)
 {
   for (int k = 0; k < 2 && j > 0; k++) {
@@ -80,7 +80,8 @@ static void compress(sample *s)
   s->pattern = (baum_i_sparse_columns){s->m, s->n, s->start, s->row};
 }
 
-/* Other columns are nearly always independent, because there are enough rows. */
+/* Draws a random m x n matrix in which a share of the columns is dependent. The other columns are
+ * nearly always independent, because there are enough rows. */
 static void draw_sample(int32_t m, int32_t n, double share, uint64_t seed, sample *s)
 {
   bool hub = seed % 4 == 0;
@@ -107,7 +108,8 @@ static double product(const sample *s, int32_t j, const double *x)
   return sum;
 }
 
-/* By the Gram-Schmidt process with two passes. Returns the rank, or -1 if it is not clear. */
+/* Finds the independent columns in the given order, by the Gram-Schmidt process with two passes.
+ * Returns the rank, or -1 if a column is too close to dependent to decide. */
 static int32_t find_independent(const sample *s, const int32_t *order, unsigned char *independent)
 {
   double basis[MOST][MOST];
@@ -152,7 +154,8 @@ static baum_i_sparse_qr *make(const sample *s, const int32_t *order)
   return qr;
 }
 
-/* x minimizes |A x - b| and is zero for dependent columns; P b = A x, and P^2 = P. */
+/* Checks that x minimizes |A x - b| and is zero for dependent columns, and that the projection P
+ * fulfils P b = A x and P^2 = P. */
 static void assert_solves(const sample *s, baum_i_sparse_qr *qr, const unsigned char *independent)
 {
   double b[MOST];
@@ -186,7 +189,7 @@ static void assert_solves(const sample *s, baum_i_sparse_qr *qr, const unsigned 
   }
 }
 
-/* Orders the columns by a random permutation. */
+/* Draws a random order of the columns. */
 static void draw_order(int32_t n, uint64_t *seed, int32_t *order)
 {
   for (int32_t k = 0; k < n; k++) {
@@ -241,7 +244,8 @@ static void of_dependent_columns_the_later_ones_are_given_up(void **state)
   }
 }
 
-/* Columns that are dependent with some values may be independent with the next, and the reverse. */
+/* With new values of the same pattern, dependent columns may become independent and independent
+ * ones dependent. */
 static void the_result_does_not_depend_on_earlier_values(void **state)
 {
   (void)state;
@@ -269,8 +273,8 @@ static void the_result_does_not_depend_on_earlier_values(void **state)
   baum_i_sparse_qr_destroy(kept);
 }
 
-/* 20000 links of a chain with both ends held, every column twice. Time or memory that grows with
- * the square would be too much. */
+/* A chain of 20000 links with both ends held, and every column twice. Algorithms whose time or
+ * memory grows as the square of the size could not do this. */
 static void a_long_chain_is_linear(void **state)
 {
   (void)state;

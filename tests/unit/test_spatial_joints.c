@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All derivatives of every spatial element between bodies of all kinds, compared with differences
+/* Compares all derivatives of every spatial element, between bodies of all kinds, with differences
  * along the configuration manifold. */
 #include <math.h>
 #include <setjmp.h>
@@ -30,8 +30,8 @@ static bool is_particle(int body)
   return body == 3 || body == 5;
 }
 
-/* With `sphere` the body has no gyroscopic moments, which the derivatives of a force do not
- * include. */
+/* With `sphere` the body has no gyroscopic moments. Derivatives of forces do not include these, so
+ * forces are tested between spheres. */
 static baum_body_id add_body(baum_mechanism *m, double x, bool sphere)
 {
   baum_body_id id;
@@ -161,7 +161,7 @@ static void add_load(scene *s, int a, int b)
 typedef struct element {
   const char *name;
   void (*add)(scene *s, int a, int b);
-  bool particle_a, particle_b; /* may be */
+  bool particle_a, particle_b; /* body a, b may be a particle */
   bool force;
 } element;
 
@@ -193,7 +193,7 @@ static void check_bodies(test_point *p)
   for (int k = 1; k <= 2; k++) {
     const baum_i_body *body = p->mechanism->bodies[k];
     for (int j = 0; j < 6; j++) {
-      static const double step = 1e-3; /* exact: the moment is quadratic */
+      static const double step = 1e-3; /* any step: the moments are quadratic in v */
       double f[2][TEST_SIZE_MAX];
       for (int side = 0; side < 2; side++) {
         double v = p->v[body->v + j];
@@ -211,7 +211,8 @@ static void check_bodies(test_point *p)
   }
 }
 
-/* Off its constraints an angle may be that of a short vector, which no difference follows. */
+/* Tells whether differences can be used. In a random state a joint may be far off its constraints;
+ * its angle is then that of a short vector, which changes too quickly. */
 static bool is_smooth(const test_point *p, int joint)
 {
   const baum_i_joint *j = p->mechanism->joints[joint];
@@ -228,7 +229,7 @@ static bool is_smooth(const test_point *p, int joint)
   return true;
 }
 
-/* A state where coordinates of the first joints have differences. */
+/* Draws random states until differences can be used for all coordinates of the first joints. */
 static void find_smooth(test_point *p, int joints, uint64_t *seed)
 {
   bool smooth = false;
@@ -242,7 +243,7 @@ static void find_smooth(test_point *p, int joints, uint64_t *seed)
   assert_true(smooth);
 }
 
-/* A spring on every coordinate of the first joint. */
+/* Adds a spring on every coordinate of the first joint. */
 static void add_joint_springs(const scene *s)
 {
   const baum_joint_coordinate *all = s->mechanism->joints[0]->type->coordinates;
@@ -302,7 +303,8 @@ static void check_pair(const element *e, int a, int b)
   }
 }
 
-/* At least one of the two bodies has an orientation. */
+/* Tests a pair if the element allows its particles and if body 1 (spatial) or 4 (planar) is part of
+ * it. */
 static bool is_tested(const element *e, int a, int b)
 {
   bool allowed = (e->particle_a || !is_particle(a)) && (e->particle_b || !is_particle(b));
@@ -350,7 +352,8 @@ static void couple(const scene *s, int a, baum_joint_coordinate of_a, int b,
 
 enum { COUPLED = 4 };
 
-/* Joints of two to four bodies, spatial and planar, with all kinds of coordinates. */
+/* Makes couplings between joints of two to four bodies, spatial and planar, with all kinds of
+ * coordinates. */
 static scene make_coupled(void)
 {
   static const baum_joint_coordinate x = BAUM_COORDINATE_X;
@@ -404,7 +407,7 @@ static void gyroscopic_moments_agree_with_differences(void **state)
   test_point_close(&p);
 }
 
-/* N, move and difference are consistent with each other. */
+/* Checks N v by a difference of move, and that difference is the inverse of move. */
 static void the_manifold_is_consistent(void **state)
 {
   (void)state;

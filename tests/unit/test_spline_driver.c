@@ -41,7 +41,8 @@ static baum_spline_driver_def along(const double *times, const double *values, i
   return def;
 }
 
-/* A pin with a spline driver as joint 2, in the design configuration. */
+/* Opens a test point at the design configuration of a pin with a spline driver, which is joint
+ * 2. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
   planar_scene scene = planar_scene_make();
@@ -50,8 +51,8 @@ static void open_cam(test_point *p, baum_spline_driver_def def)
   test_point_open(p, scene.mechanism);
 }
 
-/* Reads s, s', s'' from the third row in the design configuration at rest, where the coordinate is
- * -1.5 and its gamma 0. */
+/* Reads s, s', s'' from phi, nu and gamma of row 2, the driver. The mechanism rests in its design
+ * configuration, where the pin's coordinate is -1.5. */
 static void motion_at(test_point *p, double t, double s[3])
 {
   double rows[3];
@@ -67,8 +68,8 @@ static void motion_at(test_point *p, double t, double s[3])
 
 /* ---- derivatives ---- */
 
-/* No knot is in [0, 2] or within the steps of the differences around it, since the third derivative
- * jumps there. */
+/* Tests with differences use times in [0, 2]. No knot is in or near this interval, because the
+ * third derivative jumps at knots. */
 static const double FAR_TIMES[4] = {-3.0, -0.5, 2.5, 4.0};
 static const double FAR_VALUES[4] = {0.3, -1.0, 2.0, 0.3};
 
@@ -101,8 +102,8 @@ static void derivatives_agree_with_differences(void **state)
 
 /* ---- the curve ---- */
 
-/* The natural spline through three points by hand: with slopes d_i over intervals h_i the second
- * derivative in the middle is M = 3 (d_1 - d_0) / (h_0 + h_1). */
+/* The natural spline through three points in closed form: if d_i are the slopes of the chords over
+ * intervals h_i, the second derivative at the middle point is M = 3 (d_1 - d_0) / (h_0 + h_1). */
 static void three_places_are_joined_as_by_hand(void **state)
 {
   (void)state;
@@ -144,7 +145,7 @@ static void outside_of_its_times_a_natural_spline_is_straight(void **state)
     double far[3];
     motion_at(&p, ends[k], end);
     motion_at(&p, ends[k] + away[k], far);
-    ASSERT_NEAR(end[2], 0.0, 0.0, 1e-14); /* rounding of a second derivative of 3.6 */
+    ASSERT_NEAR(end[2], 0.0, 0.0, 1e-14); /* rounding of 3.6 */
     ASSERT_NEAR(far[0], end[0] + away[k] * end[1], 1e-14, 0.0);
     ASSERT_NEAR(far[1], end[1], 0.0, 0.0);
     ASSERT_NEAR(far[2], 0.0, 0.0, 0.0);
@@ -164,8 +165,9 @@ static void sample_sine(double times[PLACES], double values[PLACES])
   }
 }
 
-/* A periodic spline of sine with intervals h has errors of at most 5 h^4 / 384, h^3 / 24 and 3 h^2
- * / 8 in value and derivatives (Hall and Meyer 1976); before, within and after its times. */
+/* A periodic spline that interpolates sine at intervals h has errors of at most 5 h^4 / 384 in its
+ * value, h^3 / 24 and 3 h^2 / 8 in its derivatives (Hall and Meyer 1976). Also tests times before
+ * and after the knots. */
 static void a_periodic_spline_repeats_and_follows_sine(void **state)
 {
   (void)state;
@@ -186,7 +188,8 @@ static void a_periodic_spline_repeats_and_follows_sine(void **state)
   test_point_close(&p);
 }
 
-/* Compares 1e-12 before and after each knot, including the one where a periodic spline repeats. */
+/* Compares the values 1e-12 s before and after each knot, including the one at which a periodic
+ * spline repeats. */
 static void second_derivatives_are_continuous(void **state)
 {
   (void)state;
@@ -199,7 +202,7 @@ static void second_derivatives_are_continuous(void **state)
       motion_at(&p, FAR_TIMES[k] - 1e-12, before);
       motion_at(&p, FAR_TIMES[k] + 1e-12, after);
       for (int i = 0; i < 3; i++) {
-        /* 2e-12 times derivatives of up to 20. */
+        /* A time difference of 2e-12 s, and derivatives of up to 20. */
         ASSERT_NEAR(before[i], after[i], 0.0, 1e-10);
       }
     }
@@ -337,7 +340,7 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  baum_spline_driver_def def = along(times, values, 4, true); /* closed except for 1e-13 of 1 */
+  baum_spline_driver_def def = along(times, values, 4, true); /* the ends differ by 1e-13 */
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);

@@ -18,13 +18,13 @@ static void limits_are_the_known_ones(void **state)
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
-    [RK3] = 2.5127453266183286, /* these four by bisection of |R| - 1, in Python */
+    [RK3] = 2.5127453266183286, /* the rest by bisection of |R| - 1, in Python */
     [RK4] = 2.785293563405282,
   };
   double taylor[ONE_STEP_COUNT] = {
     [EULER] = 1.0,
-    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* 2 A^2 = 4 - 4 A */
-    [RK2] = 1.5436890126920764,              /* A^3 - 2 A^2 + 2 A - 2 = 0 */
+    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* root of 2 A^2 = 4 - 4 A */
+    [RK2] = 1.5436890126920764,              /* root of A^3 - 2 A^2 + 2 A = 2 */
     [RK3] = 1.6791988470387638,
     [RK4] = 1.9122666654063936,
   };
@@ -34,7 +34,8 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* Explicit Euler: B = 2 A for zeta below 1, B = 4 A - 4 above. Semi-implicit Euler: B = 4 - 4 A. */
+/* The boundary of explicit Euler is B = 2 A for zeta < 1 and B = 4 A - 4 for zeta > 1, that of
+ * semi-implicit Euler B = 4 - 4 A. With B = (A / zeta)^2 the limits follow in closed form. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
@@ -96,7 +97,7 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R by Durand-Kerner, in Python */
+    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R by Durand-Kerner in Python */
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -121,7 +122,7 @@ static void deadbeat_of_both_eulers_is_exact(void **state)
   }
 }
 
-/* The best points on the diagonal alpha = beta, published with two digits. */
+/* {A, radius} of the best points with alpha = beta, published with two digits. */
 static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
 {
   (void)state;
@@ -166,7 +167,8 @@ static double segment_distance(point w, point p, point q)
   return hypot(p.A + t * a[0] - w.A, p.B + t * a[1] - w.B);
 }
 
-/* |z| <= r for the Euler methods: a triangle with corners where z = (r, r), (-r, -r), (r, -r). */
+/* Returns the distance from w to the points with |z| <= 0.9. For Euler methods these form a
+ * triangle whose corners have the roots z = (r, r), (-r, -r) and (r, -r). */
 static double triangle_distance(int method, point w)
 {
   double r = 0.9;
@@ -210,7 +212,8 @@ static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void *
 
 enum { COLUMNS = 300, ROWS = 500 };
 
-/* A box that contains the good points. */
+/* A box with one corner at the origin contains all points with |z| <= 0.9, which are called good
+ * here. Returns its opposite corner. */
 static point box(int method)
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -218,7 +221,7 @@ static point box(int method)
                                 fmax(limit * limit, 4.0 * (method < AB2))};
 }
 
-/* Distance to the nearest good point of a grid over this box. */
+/* Returns the distance from w to the nearest good point of a grid over this box. */
 static double grid_distance(int method, point w)
 {
   point most = box(method);
@@ -244,9 +247,9 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
     point w = {size * most.A * uniform(&seed, -0.2, 1.5),
                size * most.B * uniform(&seed, -0.1, 1.5)};
     point got = nearest(m, w.A, w.B);
-    /* The Schur-Cohn test and the radius round differently. */
+    /* The search uses the Schur-Cohn test, whose rounding differs from that of the radius. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
-    /* 1 %: at a sharp tip of RK3's region the search may be worse by this. */
+    /* At a sharp tip of the region of RK3 the search may be worse than the grid by 1 %. */
     assert_true(hypot(got.A - w.A, got.B - w.B) <= 1.01 * grid_distance(m, w));
   }
 }

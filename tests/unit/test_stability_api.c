@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions on stability: results and refusals. */
+/* The public functions for stability: results, and refused arguments. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 
 typedef struct fact {
   const baum_integrator *(*integrator)(void);
-  double limit; /* largest alpha h for alpha = beta */
+  double limit; /* largest stable alpha h for alpha = beta */
 } fact;
 
 static const fact FACTS[] = {
@@ -82,7 +82,7 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
-/* The best points stored with an integrator are those that a search finds. */
+/* The library stores the best points of its methods. They must be those that a search finds. */
 static void the_search_finds_the_stored_best_points(void **state)
 {
   (void)state;
@@ -117,7 +117,7 @@ static void a_grid_has_the_radii_of_its_points(void **state)
     for (int j = 0; j < ROWS; j++) {
       for (int i = 0; i < COLUMNS; i++) {
         ASSERT_NEAR(radius[j * COLUMNS + i], radius_at(integrator, 0.1 + 0.1 * i, 0.2 - 0.1 * j),
-                    1e-7, 0.0); /* a double root moves by the root of a rounding */
+                    1e-7, 0.0); /* rounding moves a double root by its square root */
       }
     }
     assert_true(radius[COLUMNS * ROWS] == 7.0);
@@ -126,7 +126,7 @@ static void a_grid_has_the_radii_of_its_points(void **state)
   ASSERT_NEAR(radius[0], radius_at(baum_rk4(), 0.1, 0.2), 1e-14, 0.0);
 }
 
-/* Rays next to an axis, and a grid whose width overflows. */
+/* Tests a ray next to an axis (damping ratio 5e-324) and a grid whose width overflows. */
 static void extreme_numbers_have_an_answer(void **state)
 {
   (void)state;
@@ -137,7 +137,7 @@ static void extreme_numbers_have_an_answer(void **state)
     double alpha_h = 7.0;
     int32_t count = 0;
     assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
-    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* at most 1e3 times the ratio */
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* proportional to the damping ratio */
     assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
                      BAUM_OK);
     assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step: its solution for a change of the residual, computed by differences, is the
- * displacement that caused this change. The mechanism has every element. */
+/* The matrix of the iteration in an implicit step. A displacement d changes the residual;
+ * differences give this change, and the solution with the matrix must give d back. The mechanism
+ * has every element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +20,7 @@ typedef struct point {
   double dy[SIZE];
 } point;
 
-/* Irregular numbers about 0; positions are near the design configuration. */
+/* Fills y and y' with irregular numbers of size 1. Positions are near the design configuration. */
 static void choose(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);
@@ -31,7 +32,7 @@ static void choose(baum_workspace *w, point *p)
   }
 }
 
-/* Moves along a direction d of (q, scaled lambda), with v and v' in the ratios r. */
+/* Changes q and lambda along the direction d, and v and v' in the ratios that r prescribes. */
 static void move(baum_workspace *w, const point *from, const double *d, double by,
                  const baum_i_step_ratios *r, point *to)
 {
@@ -85,7 +86,7 @@ static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
   assert_int_equal(baum_i_step_matrix_factor(matrix, w, &ratios, 0.1, p.y, p.dy), BAUM_OK);
   baum_i_step_matrix_solve(matrix, change[0]);
   for (int i = 0; i < N; i++) {
-    ASSERT_NEAR(change[0][i], d[i], 0.0, 1e-5); /* truncation and condition number */
+    ASSERT_NEAR(change[0][i], d[i], 0.0, 1e-5); /* truncation x condition number */
   }
   baum_i_step_matrix_destroy(matrix);
   baum_workspace_destroy(w);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A line of a study file is read back bit for bit; lines that no study writes are refused. */
+/* Lines of study files: numbers are read back bit for bit, and lines that no study writes are
+ * refused. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -58,7 +59,7 @@ static void lines_that_no_study_writes_are_refused(void **state)
   (void)state;
   const baum_i_field fields[] = {
     {"steps", "", "", BAUM_I_COUNT, true, true, offsetof(baum_study_entry, steps)},
-    {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)}, /* not filed */
+    {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)}, /* not saved */
     {"repeats", "", "", BAUM_I_INDEX, true, true, offsetof(baum_study_entry, repeats)},
     {"cpu", "", "", BAUM_I_NUMBER, true, true, offsetof(baum_study_entry, cpu)},
     {.key = NULL}};
@@ -72,7 +73,8 @@ static void lines_that_no_study_writes_are_refused(void **state)
   }
 }
 
-/* The first three fields of an entry are its state, its status and a flag. */
+/* The first three fields of an entry are its state, its status and a flag. Only values that exist
+ * are read; the fourth number tells whether. */
 static void states_and_statuses_are_those_that_there_are(void **state)
 {
   (void)state;

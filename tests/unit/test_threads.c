@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several threads use one mechanism, and make variants of it. Also run under the thread sanitizer.
+/* Several threads use one mechanism and make variants of it. This test also runs under the thread
+ * sanitizer.
  *
  * Only the main thread may use cmocka's checks; the other threads return their results.
  */
@@ -24,16 +25,16 @@ static const double END = 0.2;
 
 /* ---- the work of a thread ---- */
 
-/* A run from the start to END and its result. */
+/* What a thread has to do, a run to END, and its result. */
 typedef struct job {
   const baum_mechanism *mechanism;
   const baum_integrator *integrator;
-  bool variable; /* variable steps, if the method has both kinds */
+  bool variable; /* use variable steps, if the method has both kinds */
   baum_status status;
   double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
-  const every_element *parts; /* for a variant */
+  const every_element *parts; /* for jobs that make a variant */
   double mass;                /* likewise */
 } job;
 
@@ -71,7 +72,7 @@ static void *run_simulate(void *argument)
   return NULL;
 }
 
-/* Runs each job in a thread of its own and waits for all. */
+/* Runs each job in its own thread and waits for all of them. */
 static void in_threads(void *(*function)(void *), job jobs[THREADS])
 {
   pthread_t threads[THREADS];
@@ -83,7 +84,7 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* The k-th integrator that this build can run with a mechanism with degrees of freedom. */
+/* Returns the k-th integrator if it can run the mechanism in this build, otherwise rk4. */
 static const baum_integrator *choose(int k)
 {
   int count = 0;
@@ -125,7 +126,7 @@ static void runs_that_share_a_mechanism_are_those_of_one_thread(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The same method and kind of step in all threads, which must not share any data. */
+/* All threads use the same method and kind of step. They must not share any data. */
 static void runs_of_one_method_do_not_disturb_each_other(void **state)
 {
   (void)state;
@@ -150,7 +151,7 @@ static void runs_of_one_method_do_not_disturb_each_other(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Destroys the mechanism while other threads use theirs. */
+/* Runs with its own copy of the mechanism and destroys it, while other threads use theirs. */
 static void *share_and_destroy(void *argument)
 {
   job *j = argument;
@@ -247,7 +248,7 @@ static void *fail_by_number(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* another message than expected */
+      j->status = BAUM_ERR_INTEGRATOR; /* this is another thread's message */
     }
   }
   return NULL;
@@ -268,7 +269,7 @@ static void each_thread_has_its_own_message(void **state)
 
 /* ---- cancelling ---- */
 
-/* A run without end that reports when it has begun. */
+/* A run without end that tells when it has started. */
 typedef struct endless {
   baum_simulation *run;
   atomic_bool begun;

@@ -36,7 +36,7 @@ static baum_planar_translational_def good(const planar_scene *scene)
   return def;
 }
 
-/* The design configuration with one slider, not frozen. */
+/* Adds one slider and opens a test point at the design configuration. */
 static void open_with(test_point *p, planar_scene *scene, const baum_planar_translational_def *def)
 {
   assert_int_equal(add(scene->mechanism, def), BAUM_OK);
@@ -82,7 +82,7 @@ static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(voi
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding of lengths of 5 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding of 5 m */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   ASSERT_NEAR(coordinate_of(&p).value, 5.0, 1e-15, 0.0);
   test_point_close(&p);
@@ -98,7 +98,7 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   def.angle = 0.0;
   test_point p;
   open_with(&p, &scene, &def);
-  /* The link is turned by 90 degrees: its second axis is minus the first axis of ground. */
+  /* The link has the angle 90 degrees, so its y axis is the -x axis of ground. */
   const baum_mechanism *m = p.mechanism;
   double *link = p.q + m->bodies[scene.link.index1]->q;
   double *crank = p.q + m->bodies[scene.crank.index1]->q;
@@ -112,9 +112,10 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* Points (0.3, -0.2) and (-0.45, 0.15) in body axes; crank's origin is (5, 7) in link's axes. */
+  /* In body axes the points are (0.3, -0.2) and (-0.45, 0.15). In the axes of the link the centre
+   * of the crank is (5, 7). */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
-  ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0); /* along k x axis = (-1, 0) */
+  ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0); /* across the axis: k x axis = (-1, 0) */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   test_point_close(&p);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives of user constraints: given ones are used, missing ones are computed by differences.
  *
- * Tolerances are in units of the change of the quantity when the state changes by one scale.
+ * Tolerances are relative to the change of the quantity when the state changes by one scale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -22,7 +22,7 @@ enum { KIND_COUNT = 3 };
 
 /* ---- derivatives ---- */
 
-/* The same constraint twice: with the derivatives to be tested, and with all given. */
+/* The same constraint twice: `got` with missing derivatives, `want` with all derivatives given. */
 typedef struct pair {
   user_model model;
   const user_kind *kind;
@@ -44,7 +44,8 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Random positions within two scales, velocities within three scales times the rate. */
+/* Draws the time, positions of up to two scales and velocities of up to three scales times the
+ * rate, for both. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
@@ -61,7 +62,7 @@ static void move_pair(pair *s, uint64_t *seed)
   test_point_update(&s->want);
 }
 
-/* Change of Phi when a coordinate changes by one scale. */
+/* Returns the change of Phi when a coordinate changes by one scale. */
 static double phi_size(const pair *s)
 {
   double l = s->model.length;
@@ -75,7 +76,8 @@ static void compare(const double *got, const double *want, int count, double all
   }
 }
 
-/* Rate of change of the state, by v or by the model's explicit time. */
+/* Returns the rate of change of Phi [1/s], which is due to v or to the explicit time of the
+ * model. */
 static double rate_of(const pair *s)
 {
   double rate = s->model.rate;
@@ -85,7 +87,8 @@ static double rate_of(const pair *s)
   return rate;
 }
 
-/* nu is proportional to the rate, gamma to its square. */
+/* Compares J, nu and gamma. Tolerances of nu are proportional to the rate, those of gamma to its
+ * square. */
 static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
                        double gamma_tolerance)
 {
@@ -105,7 +108,7 @@ static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
   compare(got, want, s->got.nc, gamma_tolerance * unit * rate * rate);
 }
 
-/* All kinds, lengths and rates at random states. */
+/* Compares all kinds of constraints, lengths and rates, at random states. */
 static void for_each_pair(int given, double jacobian_tolerance, double nu_tolerance,
                           double gamma_tolerance)
 {
@@ -129,7 +132,7 @@ static void given_derivatives_are_used_as_they_are(void **state)
   for_each_pair(GIVE_ALL, 0.0, 0.0, 0.0);
 }
 
-/* Error of one seven-point second difference with a step of 1/64: measured 3e-11. */
+/* A second difference of seven points with a step of 1/64 has a measured error of 3e-11. */
 static void from_phi_alone_gamma_is_good_to_1e_10(void **state)
 {
   (void)state;
@@ -181,8 +184,9 @@ static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **stat
   }
 }
 
-/* At rest, v does not indicate the time scale: 300 1/s has to be found by the search for a step. If
- * two orders agree by chance, the search ends one step early: 1e-8. */
+/* Normally v indicates the time scale. At rest the search for the step of the difference has to
+ * find the rate 300 1/s. It ends too early if the differences of two orders agree by chance, which
+ * causes errors of up to 1e-8. */
 static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
 {
   (void)state;
@@ -198,7 +202,7 @@ static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
   close_pair(&s);
 }
 
-/* A mechanism with motions of microseconds or of years; v indicates the time scale. */
+/* Motions with time scales of 1e-8 s or of years, which v indicates. */
 static void slow_and_fast_motion_is_differenced_alike(void **state)
 {
   (void)state;
@@ -247,7 +251,7 @@ static void check_blocks(pair *s, double tolerance)
   compare(got.jtl_q, want.jtl_q, s->got.nv * s->got.nv, tolerance);
   compare(got.gamma_v, want.gamma_v, rows, 10.0 * tolerance);
   compare(got.nu_q, want.nu_q, rows, tolerance);
-  /* Third derivatives. */
+  /* gamma_q contains third derivatives of Phi. */
   compare(got.gamma_q, want.gamma_q, rows, 100.0 * tolerance);
 }
 
@@ -305,7 +309,7 @@ static void a_block_that_is_not_wanted_is_not_written(void **state)
 
 enum { WIDE = 12 };
 
-/* Rows of sines of sums of all coordinates; `user` is the number of rows. */
+/* Every row is the sine of a sum of all coordinates. `user` points to the number of rows. */
 static int wide_phi(double t, const double *q, double *out, void *user)
 {
   int rows = *(int *)user;
@@ -319,7 +323,8 @@ static int wide_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Asserts in the library test the memory; missing derivatives need most of it. */
+/* Asserts in the library check that the scratch memory suffices. Constraints without derivatives
+ * need the most. */
 static void scratch_memory_is_enough_for_wide_and_for_tall_constraints(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User forces. The example acts on two bodies of user coordinates, (x, y) and (b, th, ga), which
- * the definition lists in the other order, so that it receives (b, th, ga, x, y). f = k (y - sin b)
- * pulls y back and acts on b, and there is a damper on x. */
+/* User forces. The example acts on two bodies with user coordinates, (x, y) and (b, th, ga). Its
+ * definition lists them in the other order, so it receives (b, th, ga, x, y). It is a spring, f = k
+ * (y - sin b), between y and b, and a cubic damper on x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ typedef struct spring {
   double k;
   double d;
   int answer;
-  const char *says; /* explanation of the return value */
+  const char *says; /* message that explains the return value */
 } spring;
 
 static int spring_force(double t, const double *q, const double *v, const double *inputs,
@@ -121,7 +121,7 @@ static void a_force_is_added_to_its_bodies(void **state)
   fixture f;
   test_point p;
   open_fixture(&f);
-  assert_int_equal(add(f.mechanism, &f.good), BAUM_OK); /* twice */
+  assert_int_equal(add(f.mechanism, &f.good), BAUM_OK); /* the same force twice */
   open_point(&f, &p);
   p.v[0] = 2.0;
   test_point_update(&p);
@@ -195,7 +195,8 @@ static void check_blocks(bool given, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of order 6 have a measured error of 2e-12 for values up to 20. */
+/* Differences of order 6 replace derivatives that are not given. Their measured error is 2e-12 for
+ * values up to 20. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;

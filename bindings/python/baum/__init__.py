@@ -60,6 +60,7 @@ from .integrators import (
     stability_statement,
 )
 from .mechanism import Mechanism, Mobility, Report, Sizes
+from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
@@ -93,10 +94,13 @@ __all__ = [
     "AccuracyWarning",
     "Amplification",
     "Body",
+    "Box",
     "BranchWarning",
     "Channel",
+    "Circle",
     "ContradictionWarning",
     "Counters",
+    "Cylinder",
     "DoubtWarning",
     "EnergyAccount",
     "EnergyAccountWarning",
@@ -112,9 +116,12 @@ __all__ = [
     "Joint",
     "LooseVelocitiesWarning",
     "Mechanism",
+    "Mesh",
     "Mobility",
     "NearSingular",
     "NoisyDerivativesWarning",
+    "Outline",
+    "Polygon",
     "Recommendation",
     "RedundantRowsWarning",
     "ReferenceSamples",
@@ -125,6 +132,7 @@ __all__ = [
     "SingularStartWarning",
     "SingularityCrossedWarning",
     "Sizes",
+    "Sphere",
     "Status",
     "Study",
     "StudyEntry",

@@ -451,6 +451,38 @@ class baum_warning(Structure):
     ]
 
 
+class baum_outline_form(enum.IntEnum):
+    BAUM_OUTLINE_POLYGON = 0
+    BAUM_OUTLINE_CIRCLE = 1
+    BAUM_OUTLINE_BOX = 2
+    BAUM_OUTLINE_CYLINDER = 3
+    BAUM_OUTLINE_SPHERE = 4
+    BAUM_OUTLINE_MESH = 5
+
+
+class baum_outline(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("form", c_int),
+        ("points", c_void_p),
+        ("point_count", c_int32),
+        ("triangles", POINTER(c_int32)),
+        ("triangle_count", c_int32),
+        ("center", c_double * 3),
+        ("size", c_double * 3),
+        ("start", c_double * 3),
+        ("end", c_double * 3),
+        ("radius", c_double),
+        ("color", c_char_p),
+    ]
+
+
+class baum_mark_kind(enum.IntEnum):
+    BAUM_MARK_WARNING = 0
+    BAUM_MARK_SINGULAR = 1
+    BAUM_MARK_EVENT = 2
+
+
 class baum_page(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -468,6 +500,7 @@ class baum_page(Structure):
         ("trace_count", c_int32),
         ("mark_times", c_void_p),
         ("mark_texts", POINTER(c_char_p)),
+        ("mark_kinds", POINTER(c_int32)),
         ("mark_count", c_int32),
     ]
 
@@ -1284,8 +1317,17 @@ PROTOTYPES = {
     "baum_simulation_schedule_input": (c_int, [
         c_void_p, baum_input_id, c_void_p, c_void_p, c_int32,
     ]),
+    "baum_outline_init": (None, [POINTER(baum_outline), c_size_t]),
+    "baum_mechanism_set_outlines": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_outline), c_int32,
+    ]),
+    "baum_mechanism_outline_count": (c_int32, [c_void_p, baum_body_id]),
+    "baum_mechanism_get_outline": (c_int, [
+        c_void_p, baum_body_id, c_int32, POINTER(baum_outline), c_size_t,
+    ]),
     "baum_mechanism_svg": (c_int, [c_void_p, c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_mechanism_write_svg": (c_int, [c_void_p, c_void_p, c_char_p]),
+    "baum_mechanism_svg_assembled": (c_int, [c_void_p, c_char_p, c_size_t, POINTER(c_size_t)]),
     "baum_page_init": (None, [POINTER(baum_page), c_size_t]),
     "baum_page_write": (c_int, [c_void_p, POINTER(baum_page), c_char_p]),
     "baum_page_print": (c_int, [
@@ -1702,6 +1744,7 @@ DEFAULTS = {
     baum_joint_spring_def: "baum_joint_spring_def_init",
     baum_simulation_options: "baum_simulation_options_init",
     baum_channel: "baum_channel_init",
+    baum_outline: "baum_outline_init",
     baum_page: "baum_page_init",
     baum_event_def: "baum_event_def_init",
     baum_planar_body_def: "baum_planar_body_def_init",
@@ -1757,6 +1800,7 @@ STRUCTS = [
     baum_energy_account,
     baum_near_singular,
     baum_warning,
+    baum_outline,
     baum_page,
     baum_dae,
     baum_sparse,

@@ -23,6 +23,7 @@ TABLE: list[tuple[str, Union[str, Callable[[re.Match[str]], str]]]] = [
         lambda found: {"entry": "entries"}.get(found[1], f"{found[1]}s"),
     ),
     (r"\bbaum_study_set_(error|reference|solution)\(\)", r"\1"),
+    (r"\bbaum_mechanism_svg\(\)", "draw()"),
     (r"\bbaum_(?:mechanism|simulation|workspace|study)_(\w+)\(\)", r"\1()"),
     (r"\bbaum_channel_of\(\)", "baum.Channel"),
     (r"\bbaum_(\w+)\(\)", r"baum.\1()"),

@@ -11,6 +11,7 @@ from ._lib import lib
 from ._values import number
 from .definitions import KINDS, Definition, sizes
 from .elements import Body, Element, Entry, Force, Input, Joint, one
+from .outlines import OutlineLike, Structs
 from .typing import (
     ArrayLike,
     BodyLike,
@@ -70,13 +71,15 @@ class Adding:
         velocity: ArrayLike | None = None,
         angular_velocity: Scalar | None = None,
         held: bool = False,
+        outline: OutlineLike = None,
     ) -> Body:
         """Add a rigid body in the plane.
 
         mass: [kg] > 0. inertia: about the centre of mass [kg m^2] > 0. position: of the centre of
         mass in the design configuration, x and y [m]. angle: in the design configuration [rad].
         velocity, angular_velocity: at the start [m/s], [rad/s]; None or NaN: free, so that assembly
-        chooses them. held: assembly does not move the body.
+        chooses them. held: assembly does not move the body. outline: how it is drawn, as
+        Body.outline.
         """
         return self._add(Body, "planar_body", locals())
 
@@ -88,11 +91,13 @@ class Adding:
         position: ArrayLike = (0.0, 0.0),
         velocity: ArrayLike | None = None,
         held: bool = False,
+        outline: OutlineLike = None,
     ) -> Body:
         """Add a point mass in the plane.
 
         mass: [kg] > 0. position: in the design configuration, x and y [m]. velocity: at the start
         [m/s]; None or NaN: free, so that assembly chooses it. held: assembly does not move it.
+        outline: how it is drawn, as Body.outline.
         """
         return self._add(Body, "planar_particle", locals())
 
@@ -523,12 +528,16 @@ class Adding:
         """Add an element. given: the arguments of one of the methods above, by name."""
         kind = KINDS[kind_name]
         fields = {field: value for field, value in given.items() if field != "self"}
+        outline = Structs(fields.pop("outline", None))
         name = fields["name"] = self._new_name(fields["name"], kind.family)
         definition = Definition(kind, f'{kind.family} "{name}"', self.find)
         definition.fill(fields)
         id = kind.id_type()
+        outline.check()
         self._hold(definition)
         self._owner.call(kind.function("add"), ctypes.byref(definition.struct), ctypes.byref(id))
+        if outline.count:
+            outline.set(self._owner.address, id)
         self._entries[name] = Entry(kind.family, kind, id, *sizes(kind, definition.struct))
         handle: Added = self[name]
         return handle

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .elements import Body, Element, Force, Joint
+from .outlines import OutlineLike
 from .typing import ArrayLike, BodyLike, InputLike, LawOfLength, OrientationLike, Scalar
 
 Added = TypeVar("Added", bound=Element)
@@ -39,6 +40,7 @@ class AddingInSpace:
         velocity: ArrayLike | None = None,
         angular_velocity: ArrayLike | None = None,
         held: bool = False,
+        outline: OutlineLike = None,
     ) -> Body:
         """Add a rigid body in space.
 
@@ -49,7 +51,7 @@ class AddingInSpace:
         3 x 3 whose columns are the body axes, or a Rotation of scipy.spatial.transform. velocity:
         of the centre of mass at the start, ground axes [m/s]. angular_velocity: at the start, body
         axes [rad/s]. Velocities None or NaN: assembly chooses them. held: assembly does not move
-        the body.
+        the body. outline: how it is drawn, as Body.outline.
         """
         return self._add(Body, "spatial_body", locals())
 
@@ -61,11 +63,13 @@ class AddingInSpace:
         position: ArrayLike = (0.0, 0.0, 0.0),
         velocity: ArrayLike | None = None,
         held: bool = False,
+        outline: OutlineLike = None,
     ) -> Body:
         """Add a point mass in space.
 
         mass: [kg] > 0. position: in the design configuration, x, y, z [m]. velocity: at the start
-        [m/s]; None or NaN: assembly chooses it. held: assembly does not move the particle.
+        [m/s]; None or NaN: assembly chooses it. held: assembly does not move the particle. outline:
+        how it is drawn, as Body.outline.
         """
         return self._add(Body, "spatial_particle", locals())
 

@@ -7,10 +7,11 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from . import _abi
+from . import _abi, outlines
 from ._values import vector
 from .channels import Channel
 from .definitions import COORDINATES, Kind, as_dict
+from .outlines import Outline, OutlineLike
 from .typing import ArrayLike
 
 if TYPE_CHECKING:
@@ -122,6 +123,18 @@ class Body(Element):
     def acceleration_of(self, point: ArrayLike) -> Channel:
         """Channel: `acceleration` of a point, given in body axes [m]."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
+
+    @property
+    def outline(self) -> list[Outline]:
+        """The shapes that replace the shape of the body in drawings; empty if it draws itself. Can
+        be set at any time, also for ground, but not while another thread draws: to a shape
+        (baum.Polygon, Circle, Box, Cylinder, Sphere, Mesh), to the corners (n, 2) of a polygon, to
+        an SVG path (str, y upward), to a list of these, or to None."""
+        return outlines.read(self)
+
+    @outline.setter
+    def outline(self, value: OutlineLike) -> None:
+        outlines.Structs(value).set(self.mechanism.handle, self.id)
 
     def _channel(self, attribute: str, quantity: int, point: ArrayLike | None = None) -> Channel:
         key, at = f"{self.name}.{attribute}", [0.0, 0.0, 0.0]

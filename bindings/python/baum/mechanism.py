@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import ctypes
 import inspect
+import os
+import types
 import weakref
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .drawings import Drawing
+from .drawings import Drawing, Page, TraceLike
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
 from .simulation import Simulation, takes_options
@@ -144,9 +146,11 @@ class Mechanism(Adding, AddingInSpace):
         return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
     def _repr_html_(self) -> str:
-        """A table of the elements for notebooks."""
+        """A drawing and a table of the elements for notebooks."""
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
-        return _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
+        drawing = str(self.draw())
+        return drawing + table if "<title>" in drawing else table  # nothing has a place
 
     def _count(self, family: str) -> int:
         return sum(
@@ -326,12 +330,12 @@ class Mechanism(Adding, AddingInSpace):
         With another position, angle or orientation of a body, the copy is the same mechanism in
         another design configuration: joints and forces keep their points and axes in body axes, and
         they keep the lengths, angles and offsets that they took from the design configuration.
-        Definitions in the copy contain these numbers. Assembly closes the joints, which may move
-        the changed body too: give position and angle that fit, or held=True. A joint or force whose
-        `point`, `point_a` or `point_b` is also changed is placed in the new design configuration.
-        Angles of spatial joints are 0 in the new design configuration. ValueError if this would
-        change an angle that a driver, a coupling or a spring uses, or the relative orientation of a
-        spatial weld or prismatic joint.
+        In the copy's definitions all of these are given as numbers. Assembly closes the joints,
+        which may move the changed body too: give position and angle that fit, or held=True. A joint
+        or force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
+        configuration. Angles of spatial joints are 0 in the new design configuration. ValueError if
+        this would change an angle that a driver, a coupling or a spring uses, or the relative
+        orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -448,14 +452,40 @@ class Mechanism(Adding, AddingInSpace):
             raise KeyError(f"no channel {value!r}; {name!r} has {', '.join(_channels(element))}")
         return channel
 
-    def draw(self, q: ArrayLike | None = None) -> Drawing:
-        """A picture of the design configuration, or of positions q (nq) [m], [rad], which need a
-        frozen mechanism. Notebooks show it; save("x.svg") writes it. A red line joins the two
-        points of a joint that is open.
+    def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
+        """A picture of the design configuration, of the "assembled" configuration, or of positions
+        q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
+        it.
 
-        Bodies draw themselves from the points of their joints, or as large as their inertia.
+        Red lines show where a joint is open: between points that should coincide, from a point to
+        the line, plane or curve on which it should be, and between axes that should be parallel. If
+        the mechanism cannot be assembled, "assembled" shows where assembly gave up.
         """
         return drawings.draw(self, q)
+
+    def page(
+        self,
+        t: ArrayLike,
+        q: ArrayLike,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        title: str | None = None,
+        traces: Sequence[TraceLike] = (),
+        plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
+        marks: Sequence[tuple[Scalar, str]] = (),
+    ) -> Page:
+        """A page that shows any motion of a frozen mechanism, such as one that was computed
+        elsewhere or joined from several runs. Run.page() shows a run.
+
+        t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
+        traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
+        neighbours with the same unit share a plot. marks: times [s] and texts of events on the time
+        axis. Constraint violations of q are shown as they are.
+        """
+        made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
+        if path is not None:
+            made.save(path)
+        return made
 
     # ---- runs ------------------------------------------------------------------------------------
 

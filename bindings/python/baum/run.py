@@ -336,7 +336,7 @@ class Run:
             key = plot.key if isinstance(plot, Channel) else plot
             for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
                 columns.append((f"{name} [{unit}]" if unit else name, values))
-        return drawings.page(self, title, traces, shown, columns)
+        return drawings.of_run(self, title, traces, shown, columns)
 
 
 def _place(body: Body) -> Place:

@@ -151,9 +151,8 @@ static baum_status verdict(const column *c, const baum_i_local *at, const trial 
 {
   for (int i = 0; i < c->field->size; i++) {
     if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
-      char text[BAUM_I_ENTRY_SIZE];
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but differences of %s give %.9g",
-                         baum_i_user_entry(c->claim->function, c->first + i * c->stride, text),
+                         baum_i_user_entry(c->claim->function, c->first + i * c->stride).text,
                          given(c, i), c->claim->source, t->value[i]);
     }
   }
@@ -311,10 +310,9 @@ baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
   BAUM_I_TRY(field->evaluate(field->context, &here, resting));
   for (int i = 0; i < field->size; i++) {
     if (moving[i] != resting[i]) {
-      char text[BAUM_I_ENTRY_SIZE];
       return baum_i_fail(BAUM_ERR_ARGUMENT,
                          "%s is %.9g at rest and %.9g in motion, but depends_on_velocity is false",
-                         baum_i_user_entry(function, i, text), resting[i], moving[i]);
+                         baum_i_user_entry(function, i).text, resting[i], moving[i]);
     }
   }
   return BAUM_OK;

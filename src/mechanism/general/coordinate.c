@@ -39,15 +39,15 @@ static int find(const baum_i_joint_type *type, baum_joint_coordinate which)
 static baum_status fail_which(const baum_i_joint *joint, baum_joint_coordinate which,
                               const char *label, const char *field)
 {
-  char text[BAUM_I_LABEL_SIZE];
-  char list[BAUM_I_LABEL_SIZE] = "";
+  baum_i_text list = {""};
   const baum_joint_coordinate *has = joint->type->coordinates;
   for (int k = 0; has[k] != BAUM_COORDINATE_FIRST; k++) {
-    baum_i_append(list, sizeof list, k > 0 ? ", \"%s\"" : "\"%s\"", baum_i_coordinate_name(has[k]));
+    baum_i_append(list.text, sizeof list.text, k > 0 ? ", \"%s\"" : "\"%s\"",
+                  baum_i_coordinate_name(has[k]));
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is \"%s\", but %s, a %s, has %s", label, field,
-                     baum_i_coordinate_name(which), baum_i_label(&joint->element, text),
-                     joint->type->definition.kind, list);
+                     baum_i_coordinate_name(which), baum_i_label(&joint->element).text,
+                     joint->type->definition.kind, list.text);
 }
 
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
@@ -57,9 +57,8 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
   BAUM_I_TRY(baum_i_check_joint(mechanism, id, label, fields->joint));
   const baum_i_joint *joint = mechanism->joints[baum_i_joint_index(mechanism, id)];
   if (!joint->type->coordinate) {
-    char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, a %s, which has no coordinate %s", label,
-                       fields->joint, baum_i_label(&joint->element, text),
+                       fields->joint, baum_i_label(&joint->element).text,
                        joint->type->definition.kind, fields->purpose);
   }
   if (find(joint->type, which) < 0) {

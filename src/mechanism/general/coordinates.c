@@ -258,7 +258,6 @@ static baum_status linearize(const baum_i_body *body, baum_i_point *point, const
 static baum_status check_symmetry(const baum_i_body *body, const double *block)
 {
   int n = body->nv;
-  char label[BAUM_I_LABEL_SIZE];
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < i; j++) {
       double a = block[i * n + j];
@@ -270,7 +269,7 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
         return baum_i_fail(BAUM_ERR_ARGUMENT,
                            "%s: mass()[%d][%d] is %.9g but mass()[%d][%d] is %.9g; must be "
                            "symmetric",
-                           baum_i_label(&body->element, label), i, j, a, j, i, b);
+                           baum_i_label(&body->element).text, i, j, a, j, i, b);
       }
     }
   }
@@ -284,12 +283,11 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   int n = body->nv;
   const double *design_q = at->point->mechanism->design_q + body->q;
   bool design_pose = memcmp(at->q, design_q, (size_t)body->nq * sizeof *design_q) == 0;
-  char text[BAUM_I_ENTRY_SIZE];
   baum_i_user_function f = function(body, "mass", n, n);
   for (int i = 0; i < n && design_pose; i++) {
     if (block[i * (n + 1)] < 0.0) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g in the design configuration, must be >= 0",
-                         baum_i_user_entry(&f, i * (n + 1), text), block[i * (n + 1)]);
+                         baum_i_user_entry(&f, i * (n + 1)).text, block[i * (n + 1)]);
     }
   }
   return BAUM_OK;
@@ -300,7 +298,6 @@ static baum_status check_constant(const baum_i_body *body, const baum_i_local *a
                                   const double *block)
 {
   int n = body->nv;
-  char text[BAUM_I_ENTRY_SIZE];
   baum_i_local here = *at;
   here.t = 0.0;
   here.q = at->point->mechanism->design_q + body->q;
@@ -313,7 +310,7 @@ static baum_status check_constant(const baum_i_body *body, const baum_i_local *a
       return baum_i_fail(
         BAUM_ERR_ARGUMENT,
         "%s is %.9g in the design configuration and %.9g near it, but constant_mass is true",
-        baum_i_user_entry(&f, i, text), there[i], block[i]);
+        baum_i_user_entry(&f, i).text, there[i], block[i]);
     }
   }
   return BAUM_OK;
@@ -343,10 +340,7 @@ static baum_status check_derivatives(const void *given, baum_i_point *point)
 }
 
 static const baum_i_body_type type = {
-  .definition = {.kind = "user coordinates",
-                 .size = sizeof(baum_coordinates_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(coordinates, "user coordinates", fields), .check = check,
                  .check_derivatives = check_derivatives},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,

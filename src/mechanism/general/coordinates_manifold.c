@@ -162,10 +162,9 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
   difference(body, at->q, q, dx);
   for (int i = 0; i < body->nv; i++) {
     if (!(fabs(dx[i] - 0.3 * at->v[i]) <= AGREEMENT * at->scale[i] * baum_i_local_rate(at))) {
-      char text[BAUM_I_ENTRY_SIZE];
       baum_i_user_function f = function(body, "difference", body->nv);
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g, but move() moved q by %.9g",
-                         baum_i_user_entry(&f, i, text), dx[i], 0.3 * at->v[i]);
+                         baum_i_user_entry(&f, i).text, dx[i], 0.3 * at->v[i]);
     }
   }
   return BAUM_OK;
@@ -181,12 +180,11 @@ static baum_status compare_normalized(const baum_i_body *body, const double *sca
 {
   for (int i = 0; i < body->nq; i++) {
     if (fabs(normal[i] - moved[i]) > (way + ROUNDING) * scale[i]) {
-      char text[BAUM_I_ENTRY_SIZE];
       baum_i_user_function f = function(body, "normalize", body->nq);
       return baum_i_fail(
         BAUM_ERR_ARGUMENT,
         "%s is %.9g after move() gave %.9g; normalize() must return the nearest q on the manifold",
-        baum_i_user_entry(&f, i, text), normal[i], moved[i]);
+        baum_i_user_entry(&f, i).text, normal[i], moved[i]);
     }
   }
   return BAUM_OK;

@@ -67,13 +67,12 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   const baum_coupling_def *def = given;
   BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_a, def->coordinate_a, label, &a));
   BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_b, def->coordinate_b, label, &b));
-  char text[BAUM_I_LABEL_SIZE];
   const baum_i_joint *joint = mechanism->joints[def->joint_a.index1 - 1];
   bool same = def->joint_a.index1 == def->joint_b.index1;
   if (same && coupled(mechanism, def, 0).number == coupled(mechanism, def, 1).number) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: joint_a and joint_b are both %s, with the same coordinate", label,
-                       baum_i_label(&joint->element, text));
+                       baum_i_label(&joint->element).text);
   }
   return BAUM_OK;
 }
@@ -292,12 +291,8 @@ static baum_status check_derivatives(const void *element, baum_i_point *point)
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "coupling",
-                 .size = sizeof(baum_coupling_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(coupling, "coupling", fields), .check = check,
+                 .parameter_count = PARAMETER_COUNT, .check_derivatives = check_derivatives},
   .scleronomic = true,
   .row_count = 1,
   .lower = lower,

@@ -53,11 +53,10 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
   static const char *const per[3] = {"", "/s", "/s^2"};
   for (int i = 0; i < 3; i++) {
     if (!isfinite(s[i])) {
-      char label[BAUM_I_LABEL_SIZE];
       point->retry = true;
       const baum_i_joint_coordinate driven = driven_by(driver, point);
       return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
-                         baum_i_label(&driver->element, label), source, s[i], names[i],
+                         baum_i_label(&driver->element).text, source, s[i], names[i],
                          baum_i_is_angle(&driven) ? "rad" : "m", per[i]);
     }
   }

@@ -98,12 +98,8 @@ static baum_status check_derivatives(const void *element, baum_i_point *point)
 /* ---- type ---- */
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "driver",
-                 .size = sizeof(baum_driver_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = BAUM_I_DRIVER_NUMBERS,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(driver, "driver", fields), .check = check,
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS, .check_derivatives = check_derivatives},
   BAUM_I_DRIVER_MEMBERS(driven, law),
   .lower = lower,
 };

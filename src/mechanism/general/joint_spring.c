@@ -8,8 +8,6 @@
  *
  * The type of the joint gives c and its derivatives.
  */
-#include <math.h>
-
 #include "mechanism/definition.h"
 #include "mechanism/general/columns.h"
 #include "mechanism/general/coordinate.h"
@@ -17,15 +15,13 @@
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
+BAUM_I_CHECK_SPRING_DEF(baum_joint_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_FIELD(baum_joint_spring_def, joint, JOINT),
   BAUM_I_FIELD(baum_joint_spring_def, coordinate, COORDINATE),
-  BAUM_I_NUMBERS(baum_joint_spring_def, stiffness, NOT_NEGATIVE, "N m/rad or N/m", 0.0),
-  BAUM_I_NUMBERS(baum_joint_spring_def, damping, NOT_NEGATIVE, "N m s/rad or N s/m", 0.0),
-  BAUM_I_OPTIONAL(baum_joint_spring_def, free_value, OPTIONAL, "rad or m"),
-  BAUM_I_FIELD(baum_joint_spring_def, law, OPTIONAL_FUNCTION),
-  BAUM_I_FIELD(baum_joint_spring_def, user, USER),
-  BAUM_I_FIELD(baum_joint_spring_def, depends_on_velocity, CLAIM),
+  BAUM_I_SPRING_FIELDS(baum_joint_spring_def, "N m/rad or N/m", "N m s/rad or N s/m", free_value,
+                       OPTIONAL, "rad or m"),
   {0},
 };
 
@@ -38,12 +34,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return baum_i_check_coordinate(mechanism, def->joint, def->coordinate, label, &names);
 }
 
-static bool depends_on_velocity(const void *given)
-{
-  const baum_joint_spring_def *def = given;
-  return def->law ? def->depends_on_velocity : def->damping != 0.0;
-}
-
 static baum_i_joint_coordinate sprung(const baum_mechanism *mechanism, const baum_i_force *force)
 {
   const baum_joint_spring_def *def = force->element.def;
@@ -53,12 +43,8 @@ static baum_i_joint_coordinate sprung(const baum_mechanism *mechanism, const bau
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
-  const baum_joint_spring_def *def = force->element.def;
   const baum_i_joint_coordinate of = sprung(mechanism, force);
-  parameters[BAUM_I_STIFFNESS] = def->stiffness;
-  parameters[BAUM_I_DAMPING] = def->damping;
-  parameters[BAUM_I_FREE_LENGTH] =
-    isnan(def->free_value) ? baum_i_design_coordinate(mechanism, &of) : def->free_value;
+  baum_i_spring_lower(force, baum_i_design_coordinate(mechanism, &of), parameters);
   return BAUM_OK;
 }
 
@@ -74,13 +60,17 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
 {
   const baum_joint_spring_def *def = force->element.def;
   spring s = {.of = sprung(point->mechanism, force),
-              .law = {.element = &force->element,
-                      .numbers = point->parameters + force->element.parameter,
-                      .law = def->law,
-                      .user = def->user,
-                      .depends_on_rate = def->depends_on_velocity}};
+              .law = baum_i_spring_law_of(force, (const void *)&def->stiffness,
+                                          point->parameters + force->element.parameter)};
   baum_i_coordinate_at(&s.of, point, &s.c);
   return s;
+}
+
+static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
+{
+  const spring s = spring_at(force, point);
+  double scale = baum_i_is_angle(&s.of) ? 1.0 : point->mechanism->length;
+  return (baum_i_stretch){s.c.value, s.c.rate, scale, false};
 }
 
 /* ---- type ---- */
@@ -99,20 +89,6 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, width, wide, out);
   }
   return BAUM_OK;
-}
-
-static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
-{
-  const spring s = spring_at(element, point);
-  *sum += baum_i_spring_potential(&s.law, s.c.value);
-  return BAUM_OK;
-}
-
-static baum_status power(const baum_i_force *element, baum_i_point *point,
-                         double sum[BAUM_I_POWERS])
-{
-  const spring s = spring_at(element, point);
-  return baum_i_spring_power(&s.law, point, s.c.value, s.c.rate, sum);
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
@@ -141,26 +117,15 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const void *element, baum_i_point *point)
-{
-  const spring s = spring_at(element, point);
-  double scale = baum_i_is_angle(&s.of) ? 1.0 : point->mechanism->length;
-  return baum_i_check_spring_law(&s.law, point, s.c.value, s.c.rate, scale);
-}
-
 static const baum_i_force_type type = {
-  .definition = {.kind = "joint spring",
-                 .size = sizeof(baum_joint_spring_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(joint_spring, "joint spring", fields), .check = check,
                  .parameter_count = BAUM_I_SPRING_NUMBERS,
-                 .check_derivatives = check_derivatives},
+                 .check_derivatives = baum_i_spring_check},
   .lower = lower,
   .force = force,
-  .depends_on_velocity = depends_on_velocity,
-  .potential = potential,
   .linearize = linearize,
-  .power = power,
+  BAUM_I_SPRING_MEMBERS(baum_joint_spring_def),
+  .stretch = stretch,
 };
 
 BAUM_I_DEFINE(force, joint_spring, type)

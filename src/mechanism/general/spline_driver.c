@@ -170,12 +170,8 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 /* ---- type ---- */
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "spline driver",
-                 .size = sizeof(baum_spline_driver_def),
-                 .fields = fields,
-                 .check = check,
-                 .own = own,
-                 .release = release,
+  .definition = {BAUM_I_DEFINITION(spline_driver, "spline driver", fields), .check = check,
+                 .own = own, .release = release,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
   BAUM_I_DRIVER_MEMBERS(driven, motion),
 };

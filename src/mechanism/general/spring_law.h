@@ -14,6 +14,32 @@
 /* Parameters of a linear spring, in this order. */
 enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBERS };
 
+/* The fields that all definitions of springs have, one after the other. */
+typedef struct baum_i_spring_def {
+  double stiffness;
+  double damping;
+  double free_length;
+  baum_spring_fn *law;
+  void *user;
+  bool depends_on_velocity;
+} baum_i_spring_def;
+
+#define BAUM_I_SPRING_OFFSET(DEF, field) (offsetof(DEF, field) - offsetof(DEF, stiffness))
+#define BAUM_I_HAS_SPRING_FIELD(DEF, field) \
+  (BAUM_I_SPRING_OFFSET(DEF, field) == offsetof(baum_i_spring_def, field))
+/* Checks that a public definition has these fields in this order. */
+#define BAUM_I_CHECK_SPRING_DEF(DEF)                                                           \
+  _Static_assert(BAUM_I_HAS_SPRING_FIELD(DEF, damping) && BAUM_I_HAS_SPRING_FIELD(DEF, law) && \
+                   BAUM_I_HAS_SPRING_FIELD(DEF, user) &&                                       \
+                   BAUM_I_HAS_SPRING_FIELD(DEF, depends_on_velocity),                          \
+                 #DEF " has the fields of baum_i_spring_def in another order")
+
+#define BAUM_I_SPRING_FIELDS(DEF, PER_LENGTH, PER_RATE, FREE, RULE, UNIT)              \
+  BAUM_I_NUMBERS(DEF, stiffness, NOT_NEGATIVE, PER_LENGTH, 0.0),                       \
+    BAUM_I_NUMBERS(DEF, damping, NOT_NEGATIVE, PER_RATE, 0.0),                         \
+    BAUM_I_OPTIONAL(DEF, FREE, RULE, UNIT), BAUM_I_FIELD(DEF, law, OPTIONAL_FUNCTION), \
+    BAUM_I_FIELD(DEF, user, USER), BAUM_I_FIELD(DEF, depends_on_velocity, CLAIM)
+
 typedef struct baum_i_spring_law {
   const baum_i_element *element;
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
@@ -46,29 +72,34 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* V */
-static inline double baum_i_spring_potential(const baum_i_spring_law *spring, double length)
+/* Return the law of a spring. The numbers are its last parameters. */
+static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
+                                                     const baum_i_spring_def *def,
+                                                     const double *numbers)
 {
-  double stretch = length - spring->numbers[BAUM_I_FREE_LENGTH];
-  return spring->law ? 0.0 : 0.5 * spring->numbers[BAUM_I_STIFFNESS] * stretch * stretch;
+  return (baum_i_spring_law){.element = &force->element,
+                             .numbers = numbers,
+                             .law = def->law,
+                             .user = def->user,
+                             .depends_on_rate = def->depends_on_velocity};
 }
 
-/* Add the power of the tension, except the part that changes V. A user's law has no V. */
-static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
-                                              double length, double rate, double sum[BAUM_I_POWERS])
-{
-  if (!spring->law) {
-    sum[BAUM_I_POWER_DAMPERS] -= spring->numbers[BAUM_I_DAMPING] * rate * rate;
-    return BAUM_OK;
-  }
-  baum_i_tension t;
-  baum_status status = baum_i_call_spring_law(spring, point, length, rate, &t);
-  sum[BAUM_I_POWER_SPRINGS] -= t.value * rate;
-  return status;
-}
+/* Set the numbers; `design` is the length in the design configuration. */
+void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers);
 
-/* Compare the derivatives that a user's law gives with differences. scale is that of the length. */
-baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
-                                    double length, double rate, double scale);
+/* ---- members of the types of springs ---- */
+
+#define BAUM_I_SPRING_MEMBERS(DEF)                                                         \
+  .spring_fields = offsetof(DEF, stiffness), .depends_on_velocity = baum_i_spring_depends, \
+  .potential = baum_i_spring_potential, .power = baum_i_spring_power
+
+bool baum_i_spring_depends(const baum_i_force *force);
+/* Adds V. */
+baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *point, double *sum);
+/* Adds the power of the tension, except the part that changes V. A user's law has no V. */
+baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
+                                double sum[BAUM_I_POWERS]);
+/* Compares the derivatives that a user's law gives with differences. */
+baum_status baum_i_spring_check(const void *force, baum_i_point *point);
 
 #endif

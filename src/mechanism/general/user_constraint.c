@@ -437,9 +437,7 @@ static baum_status check_derivatives(const void *given, baum_i_point *point)
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "user constraint",
-                 .size = sizeof(baum_user_constraint_def),
-                 .fields = fields,
+  .definition = {BAUM_I_DEFINITION(user_constraint, "user constraint", fields),
                  .check_derivatives = check_derivatives},
   .rows = rows,
   .evaluate = baum_i_evaluate_each,

@@ -18,9 +18,9 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-static bool depends_on_velocity(const void *def)
+static bool depends_on_velocity(const baum_i_force *force)
 {
-  return ((const baum_user_force_def *)def)->depends_on_velocity;
+  return ((const baum_user_force_def *)force->element.def)->depends_on_velocity;
 }
 
 static baum_i_given_force given(const baum_i_force *element)
@@ -79,9 +79,7 @@ static baum_status check_derivatives(const void *force, baum_i_point *point)
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "user force",
-                 .size = sizeof(baum_user_force_def),
-                 .fields = fields,
+  .definition = {BAUM_I_DEFINITION(user_force, "user force", fields),
                  .check_derivatives = check_derivatives},
   .force = force,
   .depends_on_velocity = depends_on_velocity,

@@ -4,7 +4,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
@@ -70,39 +69,31 @@ void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local 
   memset(out, 0, (size_t)values(function) * sizeof *out);
 }
 
-const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
-                              char text[BAUM_I_ENTRY_SIZE])
+baum_i_text baum_i_user_entry(const baum_i_user_function *function, int entry)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_label(function->element, label);
-  if (function->cols > 0) {
-    (void)snprintf(text, BAUM_I_ENTRY_SIZE, "%s: %s()[%d][%d]", label, function->name,
-                   entry / function->cols, entry % function->cols);
-  } else {
-    (void)snprintf(text, BAUM_I_ENTRY_SIZE, "%s: %s()[%d]", label, function->name, entry);
-  }
-  return text;
+  const baum_i_text label = baum_i_label(function->element);
+  return function->cols > 0 ? baum_i_text_of("%s: %s()[%d][%d]", label.text, function->name,
+                                             entry / function->cols, entry % function->cols)
+                            : baum_i_text_of("%s: %s()[%d]", label.text, function->name, entry);
 }
 
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
                                  baum_i_point *point)
 {
-  char label[BAUM_I_LABEL_SIZE];
   const char *said = baum_i_heard();
   point->retry = answer > 0;
   return baum_i_fail(BAUM_ERR_CALLBACK, "%s: %s() returned %d (%s)%s%.300s",
-                     baum_i_label(element, label), name, answer, answer > 0 ? "retry" : "stop",
+                     baum_i_label(element).text, name, answer, answer > 0 ? "retry" : "stop",
                      said ? ": " : "", said ? said : "");
 }
 
 static baum_status fail_not_finite(const baum_i_user_function *function, const baum_i_local *at,
                                    int entry, double value)
 {
-  char text[BAUM_I_ENTRY_SIZE];
   const char *what = isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
   at->point->retry = true;
   return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s is %s at t = %g s",
-                     baum_i_user_entry(function, entry, text), what, at->t);
+                     baum_i_user_entry(function, entry).text, what, at->t);
 }
 
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,

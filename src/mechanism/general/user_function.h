@@ -75,10 +75,7 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
                                  baum_i_point *point);
 
-/* Write `joint 2 "circle": jacobian()[0][1]` to text; returns text. `entry` is an index into the
- * output. */
-enum { BAUM_I_ENTRY_SIZE = BAUM_I_LABEL_SIZE + 80 };
-const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
-                              char text[BAUM_I_ENTRY_SIZE]);
+/* Return `joint 2 "circle": jacobian()[0][1]`. `entry` is an index into the output. */
+baum_i_text baum_i_user_entry(const baum_i_user_function *function, int entry);
 
 #endif

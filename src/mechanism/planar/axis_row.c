@@ -10,9 +10,11 @@
 
 /* ---- an axis in definitions ---- */
 
-void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
-                       double along[2], double normal[2])
+void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2])
 {
+  const baum_i_planar_axis_head *def = joint->element.def;
+  const double *axis = def->axis;
+  baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   /* Divided by the largest number first, so that squares neither overflow nor vanish. */
   double largest = fmax(fabs(axis[0]), fabs(axis[1]));
   double x = axis[0] / largest;
@@ -20,13 +22,9 @@ void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i
   double length = hypot(x, y);
   x /= length;
   y /= length;
-  bool on_ground = !isnan(point[0]);
-  along[0] = on_ground ? a->c * x + a->s * y : x;
-  along[1] = on_ground ? -a->s * x + a->c * y : y;
-  if (normal) {
-    normal[0] = -along[1];
-    normal[1] = along[0];
-  }
+  bool on_ground = !isnan(def->head.point[0]);
+  along[0] = on_ground ? a.c * x + a.s * y : x;
+  along[1] = on_ground ? -a.s * x + a.c * y : y;
 }
 
 /* ---- the row ---- */
@@ -100,36 +98,4 @@ void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double dire
   memcpy(out->jtl_q, row.jtl_q, BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS * sizeof *row.jtl_q);
   memcpy(out->gamma_q, row.gamma_q, BAUM_I_PLANAR_COLUMNS * sizeof *row.gamma_q);
   memcpy(out->gamma_v, row.gamma_v, BAUM_I_PLANAR_COLUMNS * sizeof *row.gamma_v);
-}
-
-/* ---- members of types ---- */
-
-static void linearize_normal(const baum_i_planar_pair *pair, const double *w, const double *lambda,
-                             baum_i_planar_blocks *out)
-{
-  baum_i_axis_row_linearize(pair, pair->numbers + BAUM_I_AXIS_NORMAL, w, lambda[0], out);
-}
-
-baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
-                                        const double *w, const double *lambda,
-                                        const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(joint, point, w, lambda, linearize_normal, blocks);
-}
-
-void baum_i_axis_joint_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
-                                  baum_i_coordinate *out)
-{
-  (void)number;
-  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-  baum_i_axis_coordinate(&pair, pair.numbers + BAUM_I_AXIS, out);
-}
-
-void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, int number,
-                                            const baum_i_point *point, const double w[6],
-                                            double lambda, baum_i_coordinate_blocks *out)
-{
-  (void)number;
-  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-  baum_i_axis_linearize(&pair, pair.numbers + BAUM_I_AXIS, w, lambda, out);
 }

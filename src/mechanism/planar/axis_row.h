@@ -27,11 +27,18 @@
 
 /* ---- an axis in definitions ---- */
 
-/* Find the unit axis `along` and its normal k x along in the axes of body_a, whose design frame is
- * `a`. normal may be NULL. If `point` is given (not NaN), both point and axis of the definition are
- * in ground axes. */
-void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
-                       double along[2], double normal[2]);
+/* The fields that definitions with an axis begin with. */
+typedef struct baum_i_planar_axis_head {
+  baum_i_planar_head head;
+  double axis[2];
+} baum_i_planar_axis_head;
+
+#define BAUM_I_PLANAR_AXIS_FIELDS(DEF) \
+  BAUM_I_PLANAR_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "", 1.0, 0.0)
+
+/* Find the unit axis in the axes of body_a. If `point` is given (not NaN), both point and axis of
+ * the definition are in ground axes. */
+void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
 /* ---- the row; inline, so that the compiler evaluates common terms once ---- */
 
@@ -109,19 +116,5 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
 /* Compute the second derivatives for the first row of a joint. */
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
-
-/* ---- members of types whose own numbers begin with an axis and its normal, and whose only
- * nonlinear row is the distance along the normal ---- */
-
-enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
-
-baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
-                                        const double *w, const double *lambda,
-                                        const baum_i_joint_blocks *blocks);
-void baum_i_axis_joint_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,
-                                  baum_i_coordinate *out);
-void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, int number,
-                                            const baum_i_point *point, const double w[6],
-                                            double lambda, baum_i_coordinate_blocks *out);
 
 #endif

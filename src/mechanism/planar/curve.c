@@ -20,13 +20,6 @@
 /* Entries of the result of the curve function. */
 enum { F, F_X, F_Y, F_XX, F_XY, F_YY, CURVE_SIZE };
 
-static const baum_i_def_field fields[] = {
-  BAUM_I_PLANAR_FIELDS(baum_planar_curve_def),
-  BAUM_I_FIELD(baum_planar_curve_def, curve, FUNCTION),
-  BAUM_I_FIELD(baum_planar_curve_def, user, USER),
-  {0},
-};
-
 static const double axes[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
 
 /* ---- the curve ---- */
@@ -115,7 +108,7 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
 {
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
-  double by_column[6]; /* F_xx, F_xy, F_yy by x and by y */
+  double by_column[6]; /* F_xx by x, by y; F_xy by x, by y; F_yy by x, by y */
   BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column));
   s->g.third[0] = by_column[0];
   s->g.third[1] = by_column[1];
@@ -170,7 +163,10 @@ static baum_status check_derivatives(const void *element, baum_i_point *point)
 
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_PLANAR_DEFINITION(planar_curve, "planar point on a curve",
-                                          baum_i_planar_check_axis, 0),
+                                          baum_i_planar_check_axis, 0,
+                                          BAUM_I_PLANAR_FIELDS(baum_planar_curve_def),
+                                          BAUM_I_FIELD(baum_planar_curve_def, curve, FUNCTION),
+                                          BAUM_I_FIELD(baum_planar_curve_def, user, USER)),
                  .check_derivatives = check_derivatives},
   BAUM_I_PLANAR_MEMBERS(1),
   .evaluate = baum_i_evaluate_each,

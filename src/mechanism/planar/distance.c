@@ -20,12 +20,6 @@
 /* Parameters of the joint, which follow the two points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
-static const baum_i_def_field fields[] = {
-  BAUM_I_PLANAR_FIELDS(baum_planar_distance_def),
-  BAUM_I_OPTIONAL(baum_planar_distance_def, length, OPTIONAL_POSITIVE, "m"),
-  {0},
-};
-
 /* ---- definition ---- */
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -39,11 +33,10 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
     numbers[LENGTH] = baum_i_separation_in_design(mechanism, &joint->span, parameters);
   }
   if (!(numbers[LENGTH] > 0.0)) {
-    char label[BAUM_I_LABEL_SIZE];
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: length is not given and is 0 m in the design configuration, must be > 0",
-      baum_i_label(&joint->element, label));
+      baum_i_label(&joint->element).text);
   }
   return BAUM_OK;
 }
@@ -97,8 +90,8 @@ static void set_gamma_q(const baum_i_planar_pair *pair, const baum_i_separation 
   }
 }
 
-static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
-                          baum_i_planar_blocks *out)
+static void one_second(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                       baum_i_planar_blocks *out)
 {
   double v[6];
   baum_i_planar_velocities(pair->frame_a, pair->frame_b, v);
@@ -119,15 +112,15 @@ static void one_linearize(const baum_i_planar_pair *pair, const double *w, const
 
 /* ---- type ---- */
 
-BAUM_I_PLANAR_EVALUATE(1, one_phi, one_jacobian, one_gamma)
-
-BAUM_I_PLANAR_LINEARIZE(one_linearize)
+BAUM_I_PLANAR_EVALUATE(planar_distance, 1, one_phi, one_jacobian, one_gamma)
+BAUM_I_PLANAR_LINEARIZE(one, one_second)
 
 static const baum_i_joint_type type = {
   BAUM_I_PLANAR_JOINT(planar_distance, "planar distance joint", baum_i_planar_check_apart,
-                      OWN_COUNT, 1),
+                      OWN_COUNT, 1, BAUM_I_PLANAR_FIELDS(baum_planar_distance_def),
+                      BAUM_I_OPTIONAL(baum_planar_distance_def, length, OPTIONAL_POSITIVE, "m")),
   .lower = lower,
-  .linearize = linearize,
+  .linearize = one_linearize,
 };
 
 BAUM_I_DEFINE(joint, planar_distance, type)

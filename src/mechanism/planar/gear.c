@@ -40,10 +40,9 @@ static baum_status check_carrier(const baum_mechanism *mechanism, const baum_pla
   int carrier = baum_i_body_index(mechanism, def->carrier);
   bool is_a = carrier == baum_i_body_index(mechanism, def->body_a);
   if (is_a || carrier == baum_i_body_index(mechanism, def->body_b)) {
-    char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: carrier and %s are both %s", label,
                        is_a ? "body_a" : "body_b",
-                       baum_i_label(&mechanism->bodies[carrier]->element, text));
+                       baum_i_label(&mechanism->bodies[carrier]->element).text);
   }
   return BAUM_OK;
 }
@@ -113,10 +112,7 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar gear",
-                 .size = sizeof(baum_planar_gear_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(planar_gear, "planar gear", fields), .check = check,
                  .parameter_count = PARAMETER_COUNT},
   .scleronomic = true,
   .row_count = 1,

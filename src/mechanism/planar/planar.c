@@ -29,9 +29,8 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
   baum_i_frame_kind kind = baum_i_frame_of(body);
   if (kind == BAUM_I_FRAME_NONE || baum_i_is_spatial(kind)) {
-    char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no position in the plane", label,
-                       field, baum_i_label(&body->element, text));
+                       field, baum_i_label(&body->element).text);
   }
   return BAUM_OK;
 }
@@ -43,10 +42,9 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
   BAUM_I_TRY(baum_i_planar_check_body(mechanism, head->body_a, label, "body_a"));
   BAUM_I_TRY(baum_i_planar_check_body(mechanism, head->body_b, label, "body_b"));
   if (head->body_a.index1 == head->body_b.index1) {
-    char text[BAUM_I_LABEL_SIZE];
     const baum_i_body *both = mechanism->bodies[baum_i_body_index(mechanism, head->body_a)];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                       baum_i_label(&both->element, text));
+                       baum_i_label(&both->element).text);
   }
   return BAUM_OK;
 }
@@ -58,9 +56,8 @@ baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body
   if (has_angle(body)) {
     return BAUM_OK;
   }
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no angle", label, field,
-                     baum_i_label(&body->element, text));
+                     baum_i_label(&body->element).text);
 }
 
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
@@ -79,40 +76,17 @@ static bool is_given(const double point[2])
   return !isnan(point[0]);
 }
 
-static baum_status check_with_point(const baum_i_planar_head *head, const char *label,
-                                    bool point_allowed)
+static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
+                                 bool point_allowed)
 {
-  if (!point_allowed) {
+  bool point = is_given(head->point);
+  if (point && !point_allowed) {
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: point is given, but the length would be zero; give point_a and point_b instead", label);
   }
-  bool a = is_given(head->point_a);
-  if (a || is_given(head->point_b)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: point and %s are both given; give point alone, or point_a and point_b",
-                       label, a ? "point_a" : "point_b");
-  }
-  return BAUM_OK;
-}
-
-static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
-                                 bool point_allowed)
-{
-  if (is_given(head->point)) {
-    return check_with_point(head, label, point_allowed);
-  }
-  bool a = is_given(head->point_a);
-  bool b = is_given(head->point_b);
-  if (a != b) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
-                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
-  }
-  if (!a) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
-                       label, point_allowed ? "point, or " : "");
-  }
-  return BAUM_OK;
+  return baum_i_check_points_given(label, point, is_given(head->point_a), is_given(head->point_b),
+                                   point_allowed);
 }
 
 static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_id id,
@@ -122,9 +96,8 @@ static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_
   if (has_angle(body) || !is_given(s) || (s[0] == 0.0 && s[1] == 0.0)) {
     return BAUM_OK;
   }
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (%g, %g) m, must be (0, 0) on the particle %s",
-                     label, field, s[0], s[1], baum_i_label(&body->element, text));
+                     label, field, s[0], s[1], baum_i_label(&body->element).text);
 }
 
 static baum_status check_points(const baum_mechanism *mechanism, const void *def, const char *label,
@@ -182,12 +155,10 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
   if (hypot(x, y) <= SAME_PLACE * (hypot(point[0], point[1]) + hypot(frame.x, frame.y))) {
     return BAUM_OK;
   }
-  char label[BAUM_I_LABEL_SIZE];
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: point is (%g, %g) m, must be at the particle %s, at (%g, %g) m",
-                     baum_i_label(element, label), point[0], point[1],
-                     baum_i_label(&body->element, text), frame.x, frame.y);
+                     baum_i_label(element).text, point[0], point[1],
+                     baum_i_label(&body->element).text, frame.x, frame.y);
 }
 
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,

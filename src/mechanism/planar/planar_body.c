@@ -106,9 +106,7 @@ static void scale_body(const void *def, double length, double *out)
 }
 
 static const baum_i_body_type body_type = {
-  .definition = {.kind = "planar body",
-                 .size = sizeof(baum_planar_body_def),
-                 .fields = body_fields,
+  .definition = {BAUM_I_DEFINITION(planar_body, "planar body", body_fields),
                  .parameter_count = PARAMETER_COUNT},
   BODY_MEMBERS,
   .frame = BAUM_I_FRAME_BODY,
@@ -146,9 +144,7 @@ static void design_particle(const void *given, double *q, double *v, bool *held)
 }
 
 static const baum_i_body_type particle_type = {
-  .definition = {.kind = "planar particle",
-                 .size = sizeof(baum_planar_particle_def),
-                 .fields = particle_fields,
+  .definition = {BAUM_I_DEFINITION(planar_particle, "planar particle", particle_fields),
                  .parameter_count = 1},
   BODY_MEMBERS,
   .frame = BAUM_I_FRAME_PARTICLE,

@@ -183,12 +183,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "planar load",
-                 .size = sizeof(baum_planar_load_def),
-                 .fields = fields,
-                 .former = former,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT},
+  .definition = {BAUM_I_DEFINITION(planar_load, "planar load", fields), .former = former,
+                 .check = check, .parameter_count = PARAMETER_COUNT},
   .lower = lower,
   .force = force,
   .potential = potential,

@@ -165,33 +165,35 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* Define `evaluate` and `linearize` of a type by its kernels. */
-#define BAUM_I_PLANAR_EVALUATE(ROWS, PHI, JACOBIAN, GAMMA)                          \
-  static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point, \
-                              const baum_i_rows *out)                               \
-  {                                                                                 \
-    static const baum_i_planar_kernels kernels = {ROWS, PHI, JACOBIAN, GAMMA};      \
-    return baum_i_planar_evaluate(group, point, &kernels, out);                     \
+/* Define NAME_evaluate() and NAME_linearize() of a type by its kernels. */
+#define BAUM_I_PLANAR_EVALUATE(NAME, ROWS, PHI, JACOBIAN, GAMMA)                           \
+  static baum_status NAME##_evaluate(const baum_i_joint_group *group, baum_i_point *point, \
+                                     const baum_i_rows *out)                               \
+  {                                                                                        \
+    static const baum_i_planar_kernels kernels = {ROWS, PHI, JACOBIAN, GAMMA};             \
+    return baum_i_planar_evaluate(group, point, &kernels, out);                            \
   }
 
-#define BAUM_I_PLANAR_LINEARIZE(KERNEL)                                                         \
-  static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w, \
-                               const double *lambda, const baum_i_joint_blocks *blocks)         \
-  {                                                                                             \
-    return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
+#define BAUM_I_PLANAR_LINEARIZE(NAME, KERNEL)                                         \
+  static baum_status NAME##_linearize(const baum_i_joint *joint, baum_i_point *point, \
+                                      const double *w, const double *lambda,          \
+                                      const baum_i_joint_blocks *blocks)              \
+  {                                                                                   \
+    return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);          \
   }
 
 /* Common members of definitions and types of joints with two bodies. The parameters are the two
- * points, followed by OWN numbers. */
-#define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)                                 \
-  .kind = (TITLE), .size = sizeof(baum_##NAME##_def), .fields = fields, .check = (CHECK), \
+ * points, followed by OWN numbers. The last arguments are the fields of the definition. */
+#define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN, ...)              \
+  .kind = (TITLE), .size = sizeof(baum_##NAME##_def),                       \
+  .fields = (const baum_i_def_field[]){__VA_ARGS__, {0}}, .check = (CHECK), \
   .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)
 #define BAUM_I_PLANAR_MEMBERS(ROWS)                                                                \
   .width = BAUM_I_PLANE, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
   .place = baum_i_planar_place
-#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                 \
-  .definition = {BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)}, .evaluate = evaluate, \
-  BAUM_I_PLANAR_MEMBERS(ROWS)
+#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS, ...)                   \
+  .definition = {BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN, __VA_ARGS__)}, \
+  .evaluate = NAME##_evaluate, BAUM_I_PLANAR_MEMBERS(ROWS)
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 

@@ -23,37 +23,23 @@
 /* Parameters. s_a and s_b precede the numbers of the law. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
+BAUM_I_CHECK_SPRING_DEF(baum_planar_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_FIELDS(baum_planar_spring_def),
-  BAUM_I_NUMBERS(baum_planar_spring_def, stiffness, NOT_NEGATIVE, "N/m", 0.0),
-  BAUM_I_NUMBERS(baum_planar_spring_def, damping, NOT_NEGATIVE, "N s/m", 0.0),
-  BAUM_I_OPTIONAL(baum_planar_spring_def, free_length, OPTIONAL_NOT_NEGATIVE, "m"),
-  BAUM_I_FIELD(baum_planar_spring_def, law, OPTIONAL_FUNCTION),
-  BAUM_I_FIELD(baum_planar_spring_def, user, USER),
-  BAUM_I_FIELD(baum_planar_spring_def, depends_on_velocity, CLAIM),
+  BAUM_I_SPRING_FIELDS(baum_planar_spring_def, "N/m", "N s/m", free_length, OPTIONAL_NOT_NEGATIVE,
+                       "m"),
   {0},
 };
 
 /* ---- definition ---- */
 
-static bool depends_on_velocity(const void *given)
-{
-  const baum_planar_spring_def *def = given;
-  return def->law ? def->depends_on_velocity : def->damping != 0.0;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
-  const baum_planar_spring_def *def = force->element.def;
   BAUM_I_TRY(baum_i_planar_points(mechanism, &force->element, parameters));
-  double *numbers = parameters + LAW;
-  numbers[BAUM_I_STIFFNESS] = def->stiffness;
-  numbers[BAUM_I_DAMPING] = def->damping;
-  numbers[BAUM_I_FREE_LENGTH] = def->free_length;
-  if (isnan(def->free_length)) {
-    numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_in_design(mechanism, &force->span, parameters);
-  }
+  baum_i_spring_lower(force, baum_i_separation_in_design(mechanism, &force->span, parameters),
+                      parameters + LAW);
   return BAUM_OK;
 }
 
@@ -87,11 +73,14 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
 static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
 {
   const baum_planar_spring_def *def = force->element.def;
-  return (baum_i_spring_law){.element = &force->element,
-                             .numbers = point->parameters + force->element.parameter + LAW,
-                             .law = def->law,
-                             .user = def->user,
-                             .depends_on_rate = def->depends_on_velocity};
+  return baum_i_spring_law_of(force, (const void *)&def->stiffness,
+                              point->parameters + force->element.parameter + LAW);
+}
+
+static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
+{
+  const spring s = spring_at(force, point);
+  return (baum_i_stretch){s.length, s.rate, point->mechanism->length, s.length == 0.0};
 }
 
 /* l_qq */
@@ -170,21 +159,6 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
-{
-  baum_i_spring_law law = law_of(element, point);
-  *sum += baum_i_spring_potential(&law, spring_at(element, point).length);
-  return BAUM_OK;
-}
-
-static baum_status power(const baum_i_force *element, baum_i_point *point,
-                         double sum[BAUM_I_POWERS])
-{
-  spring s = spring_at(element, point);
-  baum_i_spring_law law = law_of(element, point);
-  return s.length > 0.0 ? baum_i_spring_power(&law, point, s.length, s.rate, sum) : BAUM_OK;
-}
-
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
@@ -210,29 +184,15 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const void *given, baum_i_point *point)
-{
-  const baum_i_force *element = given;
-  spring s = spring_at(element, point);
-  baum_i_spring_law law = law_of(element, point);
-  return s.length == 0.0
-           ? BAUM_OK
-           : baum_i_check_spring_law(&law, point, s.length, s.rate, point->mechanism->length);
-}
-
 static const baum_i_force_type type = {
-  .definition = {.kind = "planar spring",
-                 .size = sizeof(baum_planar_spring_def),
-                 .fields = fields,
-                 .check = baum_i_planar_check_apart,
-                 .parameter_count = PARAMETER_COUNT,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(planar_spring, "planar spring", fields),
+                 .check = baum_i_planar_check_apart, .parameter_count = PARAMETER_COUNT,
+                 .check_derivatives = baum_i_spring_check},
   .lower = lower,
   .force = force,
-  .depends_on_velocity = depends_on_velocity,
-  .potential = potential,
   .linearize = linearize,
-  .power = power,
+  BAUM_I_SPRING_MEMBERS(baum_planar_spring_def),
+  .stretch = stretch,
 };
 
 BAUM_I_DEFINE(force, planar_spring, type)

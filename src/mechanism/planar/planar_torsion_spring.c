@@ -11,20 +11,16 @@
  *
  * A user's law T(phi, phi') has no V, and k and c are its derivatives.
  */
-#include <math.h>
-
 #include "mechanism/definition.h"
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/planar.h"
 
+BAUM_I_CHECK_SPRING_DEF(baum_planar_torsion_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_PLANAR_BODIES(baum_planar_torsion_spring_def),
-  BAUM_I_NUMBERS(baum_planar_torsion_spring_def, stiffness, NOT_NEGATIVE, "N m/rad", 0.0),
-  BAUM_I_NUMBERS(baum_planar_torsion_spring_def, damping, NOT_NEGATIVE, "N m s/rad", 0.0),
-  BAUM_I_OPTIONAL(baum_planar_torsion_spring_def, free_angle, OPTIONAL, "rad"),
-  BAUM_I_FIELD(baum_planar_torsion_spring_def, law, OPTIONAL_FUNCTION),
-  BAUM_I_FIELD(baum_planar_torsion_spring_def, user, USER),
-  BAUM_I_FIELD(baum_planar_torsion_spring_def, depends_on_velocity, CLAIM),
+  BAUM_I_SPRING_FIELDS(baum_planar_torsion_spring_def, "N m/rad", "N m s/rad", free_angle, OPTIONAL,
+                       "rad"),
   {0},
 };
 
@@ -36,56 +32,32 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return baum_i_planar_check_angles(mechanism, def, label);
 }
 
-static bool depends_on_velocity(const void *given)
-{
-  const baum_planar_torsion_spring_def *def = given;
-  return def->law ? def->depends_on_velocity : def->damping != 0.0;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
-  const baum_planar_torsion_spring_def *def = force->element.def;
-  parameters[BAUM_I_STIFFNESS] = def->stiffness;
-  parameters[BAUM_I_DAMPING] = def->damping;
-  parameters[BAUM_I_FREE_LENGTH] = def->free_angle;
-  if (isnan(def->free_angle)) {
-    parameters[BAUM_I_FREE_LENGTH] = baum_i_design_frame(mechanism, force->span.bodies[1]).angle -
-                                     baum_i_design_frame(mechanism, force->span.bodies[0]).angle;
-  }
+  double a = baum_i_design_frame(mechanism, force->span.bodies[0]).angle;
+  double b = baum_i_design_frame(mechanism, force->span.bodies[1]).angle;
+  baum_i_spring_lower(force, b - a, parameters);
   return BAUM_OK;
 }
 
 /* ---- one spring ---- */
 
 /* phi and its rate. */
-typedef struct twist {
-  double angle;
-  double rate;
-} twist;
-
-static twist twist_at(const baum_i_force *force, const baum_i_point *point)
+static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
 {
   const baum_i_frame *a = &point->frames[force->span.bodies[0]];
   const baum_i_frame *b = &point->frames[force->span.bodies[1]];
-  return (twist){b->angle - a->angle, b->w - a->w};
-}
-
-static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
-{
-  const baum_planar_torsion_spring_def *def = force->element.def;
-  return (baum_i_spring_law){.element = &force->element,
-                             .numbers = point->parameters + force->element.parameter,
-                             .law = def->law,
-                             .user = def->user,
-                             .depends_on_rate = def->depends_on_velocity};
+  return (baum_i_stretch){b->angle - a->angle, b->w - a->w, 1.0, false};
 }
 
 static baum_status torque_at(const baum_i_force *force, baum_i_point *point, baum_i_tension *out)
 {
-  twist now = twist_at(force, point);
-  baum_i_spring_law law = law_of(force, point);
-  return baum_i_tension_at(&law, point, now.angle, now.rate, out);
+  const baum_planar_torsion_spring_def *def = force->element.def;
+  const baum_i_stretch now = stretch(force, point);
+  baum_i_spring_law law = baum_i_spring_law_of(force, (const void *)&def->stiffness,
+                                               point->parameters + force->element.parameter);
+  return baum_i_tension_at(&law, point, now.length, now.rate, out);
 }
 
 /* -factor h h^T */
@@ -111,21 +83,6 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
-{
-  baum_i_spring_law law = law_of(element, point);
-  *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
-  return BAUM_OK;
-}
-
-static baum_status power(const baum_i_force *element, baum_i_point *point,
-                         double sum[BAUM_I_POWERS])
-{
-  twist now = twist_at(element, point);
-  baum_i_spring_law law = law_of(element, point);
-  return baum_i_spring_power(&law, point, now.angle, now.rate, sum);
-}
-
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
@@ -136,27 +93,15 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const void *given, baum_i_point *point)
-{
-  const baum_i_force *element = given;
-  twist now = twist_at(element, point);
-  baum_i_spring_law law = law_of(element, point);
-  return baum_i_check_spring_law(&law, point, now.angle, now.rate, 1.0);
-}
-
 static const baum_i_force_type type = {
-  .definition = {.kind = "planar torsion spring",
-                 .size = sizeof(baum_planar_torsion_spring_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = BAUM_I_SPRING_NUMBERS,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(planar_torsion_spring, "planar torsion spring", fields),
+                 .check = check, .parameter_count = BAUM_I_SPRING_NUMBERS,
+                 .check_derivatives = baum_i_spring_check},
   .lower = lower,
   .force = force,
-  .depends_on_velocity = depends_on_velocity,
-  .potential = potential,
   .linearize = linearize,
-  .power = power,
+  BAUM_I_SPRING_MEMBERS(baum_planar_torsion_spring_def),
+  .stretch = stretch,
 };
 
 BAUM_I_DEFINE(force, planar_torsion_spring, type)

@@ -20,14 +20,6 @@
 /* Parameters of the joint, which follow the two points. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
-static const baum_i_def_field fields[] = {
-  BAUM_I_PLANAR_FIELDS(baum_planar_rack_and_pinion_def),
-  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, axis, DIRECTION, "", 1.0, 0.0),
-  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, radius, NOT_ZERO, "m", 0.0),
-  BAUM_I_OPTIONAL(baum_planar_rack_and_pinion_def, offset, OPTIONAL, "m"),
-  {0},
-};
-
 /* ---- definition ---- */
 
 /* Return the displacement along the rack minus the arc length that the pinion has rolled. */
@@ -45,7 +37,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_design_frame(mechanism, joint->span.bodies[1]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
-  baum_i_axis_lower(def->axis, def->point, &a, numbers + AXIS, NULL);
+  baum_i_axis_lower(mechanism, joint, numbers + AXIS);
   numbers[RADIUS] = def->radius;
   baum_i_planar_pair design = baum_i_planar_pair_of(parameters, &a, &b);
   numbers[OFFSET] = isnan(def->offset) ? rolled(&design) : def->offset;
@@ -71,23 +63,24 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
   out[0] = baum_i_axis_gamma(pair, pair->numbers + AXIS);
 }
 
-static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
-                          baum_i_planar_blocks *out)
+static void one_second(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                       baum_i_planar_blocks *out)
 {
   baum_i_axis_row_linearize(pair, pair->numbers + AXIS, w, lambda[0], out);
 }
 
 /* ---- type ---- */
 
-BAUM_I_PLANAR_EVALUATE(1, one_phi, one_jacobian, one_gamma)
-
-BAUM_I_PLANAR_LINEARIZE(one_linearize)
+BAUM_I_PLANAR_EVALUATE(planar_rack_and_pinion, 1, one_phi, one_jacobian, one_gamma)
+BAUM_I_PLANAR_LINEARIZE(one, one_second)
 
 static const baum_i_joint_type type = {
   BAUM_I_PLANAR_JOINT(planar_rack_and_pinion, "planar rack and pinion", baum_i_planar_check_turning,
-                      OWN_COUNT, 1),
+                      OWN_COUNT, 1, BAUM_I_PLANAR_AXIS_FIELDS(baum_planar_rack_and_pinion_def),
+                      BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, radius, NOT_ZERO, "m", 0.0),
+                      BAUM_I_OPTIONAL(baum_planar_rack_and_pinion_def, offset, OPTIONAL, "m")),
   .lower = lower,
-  .linearize = linearize,
+  .linearize = one_linearize,
 };
 
 BAUM_I_DEFINE(joint, planar_rack_and_pinion, type)

@@ -149,11 +149,10 @@ static baum_status lower_axis(const baum_mechanism *mechanism, const baum_i_join
 
 static baum_status fail_opposite(const baum_i_joint *joint)
 {
-  char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: axis and axis_b point in opposite directions in the design "
                      "configuration; turn one of them round",
-                     baum_i_label(&joint->element, label));
+                     baum_i_label(&joint->element).text);
 }
 
 /* Rotates x_a by the smallest rotation that takes z_a to z_b, and makes it x_b. Hence the angle is
@@ -213,7 +212,6 @@ static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_
   double z_a[3];
   double z_b[3];
   double normal[3];
-  char label[BAUM_I_LABEL_SIZE];
   BAUM_I_TRY(lower_points(mechanism, joint, parameters));
   const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z_a);
   const baum_i_spatial_frame b = design_axis(mechanism, joint, 1, z_b);
@@ -224,7 +222,7 @@ static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_
               : baum_i_fail(BAUM_ERR_ARGUMENT,
                             "%s: axis and axis_b are parallel in the design configuration, must "
                             "be perpendicular",
-                            baum_i_label(&joint->element, label));
+                            baum_i_label(&joint->element).text);
 }
 
 static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -235,7 +233,6 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   double *axes = parameters + BAUM_I_SPATIAL_AXES_A;
   double z[3];
   double x[3];
-  char label[BAUM_I_LABEL_SIZE];
   BAUM_I_TRY(lower_points(mechanism, joint, parameters));
   const baum_i_spatial_frame a = design_axis(mechanism, joint, 0, z);
   bool given = baum_i_spatial_is_given(def->x_axis);
@@ -245,7 +242,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   if (!(given ? put_axes(&a, z, x, axes)
               : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is along axis, must not be",
-                       baum_i_label(&joint->element, label));
+                       baum_i_label(&joint->element).text);
   }
   return lower_axes_b(mechanism, joint, parameters);
 }
@@ -309,26 +306,17 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
 
 /* ---- the joints ---- */
 
-static const baum_i_def_field spatial_spherical_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_spherical_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type spherical = {
-  {BAUM_I_SPATIAL_JOINT(spatial_spherical, "spatial spherical joint", check_points, lower_points,
-                        3)},
+  {BAUM_I_SPATIAL_JOINT(spatial_spherical, "spatial spherical joint", check_points, lower_points, 3,
+                        BAUM_I_SPATIAL_FIELDS(baum_spatial_spherical_def))},
   .rows = {POINT_ROWS},
 };
 
 BAUM_I_DEFINE(joint, spatial_spherical, spherical.type)
 
-static const baum_i_def_field spatial_revolute_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type revolute = {
-  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5),
+  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE)},
   .rows = {POINT_ROWS, PARALLEL_ROWS},
   .coordinate_rows = {ANGLE},
@@ -337,14 +325,9 @@ static const baum_i_spatial_joint_type revolute = {
 
 BAUM_I_DEFINE(joint, spatial_revolute, revolute.type)
 
-static const baum_i_def_field spatial_universal_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_universal_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type universal = {
   {BAUM_I_SPATIAL_JOINT(spatial_universal, "spatial universal joint", check_two_axes,
-                        lower_two_axes, 4),
+                        lower_two_axes, 4, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_universal_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE, BAUM_COORDINATE_ANGLE_B)},
   .rows = {POINT_ROWS, {BAUM_I_Z_A, BAUM_I_Z_B}},
   /* The first angle is that of z_b about z_a relative to body_a. The second is that of body_b about
@@ -355,14 +338,9 @@ static const baum_i_spatial_joint_type universal = {
 
 BAUM_I_DEFINE(joint, spatial_universal, universal.type)
 
-static const baum_i_def_field spatial_cylindrical_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type cylindrical = {
-  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes,
-                        4),
+  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes, 4,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, LINE_ROWS},
   .coordinate_rows = {ALONG(BAUM_I_Z_A), ANGLE},
@@ -371,13 +349,9 @@ static const baum_i_spatial_joint_type cylindrical = {
 
 BAUM_I_DEFINE(joint, spatial_cylindrical, cylindrical.type)
 
-static const baum_i_def_field spatial_prismatic_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type prismatic = {
-  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5),
+  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {PARALLEL_ROWS, LINE_ROWS, {BAUM_I_X_A, BAUM_I_Y_B}},
   .coordinate_rows = {ALONG(BAUM_I_Z_A)},
@@ -387,14 +361,10 @@ static const baum_i_spatial_joint_type prismatic = {
 
 BAUM_I_DEFINE(joint, spatial_prismatic, prismatic.type)
 
-static const baum_i_def_field spatial_planar_fields[] = {
-  BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
-  BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-"),
-  {0},
-};
-
 static const baum_i_spatial_joint_type planar = {
-  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3),
+  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3,
+                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
+                        BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-")),
    COORDINATES(BAUM_COORDINATE_X, BAUM_COORDINATE_Y, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, {BAUM_I_Z_A, BAUM_I_APART}},
   .coordinate_rows = {ALONG(BAUM_I_X_A), ALONG(BAUM_I_Y_A), ANGLE},
@@ -403,13 +373,9 @@ static const baum_i_spatial_joint_type planar = {
 
 BAUM_I_DEFINE(joint, spatial_planar, planar.type)
 
-static const baum_i_def_field spatial_fixed_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_fixed_def),
-  {0},
-};
-
 static const baum_i_spatial_joint_type fixed = {
-  {BAUM_I_SPATIAL_JOINT(spatial_fixed, "spatial fixed joint", check_turning, lower_fixed, 6)},
+  {BAUM_I_SPATIAL_JOINT(spatial_fixed, "spatial fixed joint", check_turning, lower_fixed, 6,
+                        BAUM_I_SPATIAL_FIELDS(baum_spatial_fixed_def))},
   .rows = {POINT_ROWS,
            {BAUM_I_X_A, BAUM_I_Y_B},
            {BAUM_I_Y_A, BAUM_I_Z_B},
@@ -420,15 +386,11 @@ static const baum_i_spatial_joint_type fixed = {
 
 BAUM_I_DEFINE(joint, spatial_fixed, fixed.type)
 
-static const baum_i_def_field spatial_point_on_line_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_line_def),
-  BAUM_I_NUMBERS(baum_spatial_point_on_line_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0),
-  {0},
-};
-
 static const baum_i_spatial_joint_type point_on_line = {
-  {BAUM_I_SPATIAL_JOINT(spatial_point_on_line, "spatial point on a line", check_axis, lower_axis,
-                        2),
+  {BAUM_I_SPATIAL_JOINT(
+     spatial_point_on_line, "spatial point on a line", check_axis, lower_axis, 2,
+     BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_line_def),
+     BAUM_I_NUMBERS(baum_spatial_point_on_line_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {LINE_ROWS},
   .coordinate_rows = {ALONG(BAUM_I_Z_A)},
@@ -436,15 +398,11 @@ static const baum_i_spatial_joint_type point_on_line = {
 
 BAUM_I_DEFINE(joint, spatial_point_on_line, point_on_line.type)
 
-static const baum_i_def_field spatial_point_on_plane_fields[] = {
-  BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_plane_def),
-  BAUM_I_NUMBERS(baum_spatial_point_on_plane_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0),
-  {0},
-};
-
 static const baum_i_spatial_joint_type point_on_plane = {
-  {BAUM_I_SPATIAL_JOINT(spatial_point_on_plane, "spatial point on a plane", check_axis, lower_axis,
-                        1)},
+  {BAUM_I_SPATIAL_JOINT(
+    spatial_point_on_plane, "spatial point on a plane", check_axis, lower_axis, 1,
+    BAUM_I_SPATIAL_FIELDS(baum_spatial_point_on_plane_def),
+    BAUM_I_NUMBERS(baum_spatial_point_on_plane_def, axis, DIRECTION, "-", 0.0, 0.0, 1.0))},
   .rows = {{BAUM_I_Z_A, BAUM_I_APART}},
 };
 

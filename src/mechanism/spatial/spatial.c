@@ -29,9 +29,8 @@ static bool has_axes(const baum_i_body *body)
 static baum_status fail_body(const baum_i_body *body, const char *label, const char *field,
                              const char *what)
 {
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no %s", label, field,
-                     baum_i_label(&body->element, text), what);
+                     baum_i_label(&body->element).text, what);
 }
 
 baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
@@ -59,43 +58,24 @@ static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_sp
   if (head->body_a.index1 != head->body_b.index1) {
     return BAUM_OK;
   }
-  char text[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = body_of(mechanism, head->body_a);
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                     body->type ? baum_i_label(&body->element, text) : "ground");
+                     body->type ? baum_i_label(&body->element).text : "ground");
 }
 
 /* ---- points ---- */
 
-static baum_status check_with_point(const char *label, bool a, bool b, bool has_length)
+static baum_status check_one_way(const baum_i_spatial_head *head, const char *label,
+                                 bool has_length)
 {
-  if (has_length) {
+  bool point = baum_i_spatial_is_given(head->point);
+  if (point && has_length) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: point is given and leaves no length; give point_a and point_b instead",
                        label);
   }
-  return !a && !b ? BAUM_OK
-                  : baum_i_fail(BAUM_ERR_ARGUMENT,
-                                "%s: point and %s are both given; give point alone, or point_a "
-                                "and point_b",
-                                label, a ? "point_a" : "point_b");
-}
-
-static baum_status check_one_way(const baum_i_spatial_head *head, const char *label,
-                                 bool has_length)
-{
-  bool a = baum_i_spatial_is_given(head->point_a);
-  bool b = baum_i_spatial_is_given(head->point_b);
-  if (baum_i_spatial_is_given(head->point)) {
-    return check_with_point(label, a, b, has_length);
-  }
-  if (a != b) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
-                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
-  }
-  return a ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
-                         label, has_length ? "" : "point, or ");
+  return baum_i_check_points_given(label, point, baum_i_spatial_is_given(head->point_a),
+                                   baum_i_spatial_is_given(head->point_b), !has_length);
 }
 
 baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
@@ -107,10 +87,9 @@ baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanis
   if (has_axes(body) || !baum_i_spatial_is_given(s) || is_zero) {
     return BAUM_OK;
   }
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: %s is (%g, %g, %g) %s, must be (0, 0, 0) on the particle %s", label,
-                     field, s[0], s[1], s[2], unit, baum_i_label(&body->element, text));
+                     field, s[0], s[1], s[2], unit, baum_i_label(&body->element).text);
 }
 
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
@@ -145,11 +124,10 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
     memset(s, 0, 3 * sizeof *s);
     return BAUM_OK;
   }
-  char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: point is (%g, %g, %g) m, must be at the particle %s, whose design "
                      "position is (%g, %g, %g) m",
-                     label, point[0], point[1], point[2], baum_i_label(&body->element, text),
+                     label, point[0], point[1], point[2], baum_i_label(&body->element).text,
                      frame.r[0], frame.r[1], frame.r[2]);
 }
 
@@ -164,10 +142,9 @@ baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_
   }
   int a = baum_i_body_index(mechanism, head->body_a);
   int b = baum_i_body_index(mechanism, head->body_b);
-  char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_label(element, label);
-  BAUM_I_TRY(place_on(mechanism, a, head->point, label, s));
-  return place_on(mechanism, b, head->point, label, s + 3);
+  const baum_i_text label = baum_i_label(element);
+  BAUM_I_TRY(place_on(mechanism, a, head->point, label.text, s));
+  return place_on(mechanism, b, head->point, label.text, s + 3);
 }
 
 /* ---- extent ---- */

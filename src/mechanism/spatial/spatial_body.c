@@ -272,10 +272,7 @@ static baum_status linearize(const baum_i_body *body, baum_i_point *point, const
 }
 
 static const baum_i_body_type body_type = {
-  .definition = {.kind = "spatial body",
-                 .size = sizeof(baum_spatial_body_def),
-                 .fields = body_fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(spatial_body, "spatial body", body_fields), .check = check,
                  .parameter_count = PARAMETER_COUNT},
   .frame = BAUM_I_FRAME_SPATIAL_BODY,
   .scleronomic = true,
@@ -342,9 +339,7 @@ static baum_status particle_masses(const baum_i_body_group *group, baum_i_point 
 }
 
 static const baum_i_body_type particle_type = {
-  .definition = {.kind = "spatial particle",
-                 .size = sizeof(baum_spatial_particle_def),
-                 .fields = particle_fields,
+  .definition = {BAUM_I_DEFINITION(spatial_particle, "spatial particle", particle_fields),
                  .parameter_count = 1},
   .frame = BAUM_I_FRAME_SPATIAL_PARTICLE,
   .scleronomic = true,

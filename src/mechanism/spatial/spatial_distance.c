@@ -37,11 +37,10 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
                          ? baum_i_spatial_design_length(mechanism, &joint->span, parameters)
                          : def->length;
   if (!(parameters[LENGTH] > 0.0)) {
-    char label[BAUM_I_LABEL_SIZE];
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: length is not given and is 0 m in the design configuration, must be > 0",
-      baum_i_label(&joint->element, label));
+      baum_i_label(&joint->element).text);
   }
   return BAUM_OK;
 }
@@ -99,11 +98,8 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "spatial distance joint",
-                 .size = sizeof(baum_spatial_distance_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT},
+  .definition = {BAUM_I_DEFINITION(spatial_distance, "spatial distance joint", fields),
+                 .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = 1,

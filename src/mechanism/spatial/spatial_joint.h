@@ -49,10 +49,11 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, int number,
                                          const baum_i_point *point, const double *w, double lambda,
                                          baum_i_coordinate_blocks *out);
 
-#define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS)                        \
+/* The last arguments are the fields of the definition. */
+#define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS, ...)                   \
   .definition = {.kind = (TITLE),                                                    \
                  .size = sizeof(baum_##NAME##_def),                                  \
-                 .fields = NAME##_fields,                                            \
+                 .fields = (const baum_i_def_field[]){__VA_ARGS__, {0}},             \
                  .check = (CHECK),                                                   \
                  .parameter_count = BAUM_I_SPATIAL_NUMBERS},                         \
   .width = BAUM_I_SPACE, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \

@@ -188,10 +188,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "spatial load",
-                 .size = sizeof(baum_spatial_load_def),
-                 .fields = fields,
-                 .check = check,
+  .definition = {BAUM_I_DEFINITION(spatial_load, "spatial load", fields), .check = check,
                  .parameter_count = PARAMETER_COUNT},
   .spatial = true,
   .lower = lower,

@@ -23,14 +23,12 @@ enum { LAW = 6, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};
 
+BAUM_I_CHECK_SPRING_DEF(baum_spatial_spring_def);
+
 static const baum_i_def_field fields[] = {
   BAUM_I_SPATIAL_FIELDS(baum_spatial_spring_def),
-  BAUM_I_NUMBERS(baum_spatial_spring_def, stiffness, NOT_NEGATIVE, "N/m", 0.0),
-  BAUM_I_NUMBERS(baum_spatial_spring_def, damping, NOT_NEGATIVE, "N s/m", 0.0),
-  BAUM_I_OPTIONAL(baum_spatial_spring_def, free_length, OPTIONAL_NOT_NEGATIVE, "m"),
-  BAUM_I_FIELD(baum_spatial_spring_def, law, OPTIONAL_FUNCTION),
-  BAUM_I_FIELD(baum_spatial_spring_def, user, USER),
-  BAUM_I_FIELD(baum_spatial_spring_def, depends_on_velocity, CLAIM),
+  BAUM_I_SPRING_FIELDS(baum_spatial_spring_def, "N/m", "N s/m", free_length, OPTIONAL_NOT_NEGATIVE,
+                       "m"),
   {0},
 };
 
@@ -41,23 +39,12 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return baum_i_spatial_check_head(mechanism, def, label, true);
 }
 
-static bool depends_on_velocity(const void *given)
-{
-  const baum_spatial_spring_def *def = given;
-  return def->law ? def->depends_on_velocity : def->damping != 0.0;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
-  const baum_spatial_spring_def *def = force->element.def;
   BAUM_I_TRY(baum_i_spatial_points(mechanism, &force->element, parameters));
-  double *numbers = parameters + LAW;
-  numbers[BAUM_I_STIFFNESS] = def->stiffness;
-  numbers[BAUM_I_DAMPING] = def->damping;
-  numbers[BAUM_I_FREE_LENGTH] =
-    isnan(def->free_length) ? baum_i_spatial_design_length(mechanism, &force->span, parameters)
-                            : def->free_length;
+  baum_i_spring_lower(force, baum_i_spatial_design_length(mechanism, &force->span, parameters),
+                      parameters + LAW);
   return BAUM_OK;
 }
 
@@ -76,11 +63,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   const baum_spatial_spring_def *def = force->element.def;
   const double *numbers = point->parameters + force->element.parameter;
   spring s = {.pair = baum_i_spatial_pair_at(&force->span, numbers, false, point),
-              .law = {.element = &force->element,
-                      .numbers = numbers + LAW,
-                      .law = def->law,
-                      .user = def->user,
-                      .depends_on_rate = def->depends_on_velocity}};
+              .law = baum_i_spring_law_of(force, (const void *)&def->stiffness, numbers + LAW)};
   baum_i_coordinate square;
   baum_i_spatial_row_at(&s.pair, SQUARE, &square);
   double length = sqrt(square.value);
@@ -92,6 +75,12 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
     }
   }
   return s;
+}
+
+static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
+{
+  const spring s = spring_at(force, point);
+  return (baum_i_stretch){s.length, s.rate, point->mechanism->length, s.length == 0.0};
 }
 
 /* ---- type ---- */
@@ -112,20 +101,6 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, BAUM_I_SPACE, wide, out);
   }
   return BAUM_OK;
-}
-
-static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
-{
-  const spring s = spring_at(element, point);
-  *sum += baum_i_spring_potential(&s.law, s.length);
-  return BAUM_OK;
-}
-
-static baum_status power(const baum_i_force *element, baum_i_point *point,
-                         double sum[BAUM_I_POWERS])
-{
-  const spring s = spring_at(element, point);
-  return s.length > 0.0 ? baum_i_spring_power(&s.law, point, s.length, s.rate, sum) : BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
@@ -156,29 +131,15 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const void *element, baum_i_point *point)
-{
-  const spring s = spring_at(element, point);
-  return s.length == 0.0
-           ? BAUM_OK
-           : baum_i_check_spring_law(&s.law, point, s.length, s.rate, point->mechanism->length);
-}
-
 static const baum_i_force_type type = {
-  .definition = {.kind = "spatial spring",
-                 .size = sizeof(baum_spatial_spring_def),
-                 .fields = fields,
-                 .check = check,
-                 .parameter_count = PARAMETER_COUNT,
-                 .check_derivatives = check_derivatives},
+  .definition = {BAUM_I_DEFINITION(spatial_spring, "spatial spring", fields), .check = check,
+                 .parameter_count = PARAMETER_COUNT, .check_derivatives = baum_i_spring_check},
   .spatial = true,
   .lower = lower,
   .force = force,
-  .depends_on_velocity = depends_on_velocity,
-  .potential = potential,
   .linearize = linearize,
-  .power = power,
-
+  BAUM_I_SPRING_MEMBERS(baum_spatial_spring_def),
+  .stretch = stretch,
 };
 
 BAUM_I_DEFINE(force, spatial_spring, type)

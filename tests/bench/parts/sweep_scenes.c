@@ -185,7 +185,7 @@ static void build_linkage(sweep_scene *s, const linkage *k, const long double th
     if (i == 0) {
       set_turning(&def, s->rate);
     }
-    body[i] = baum_i_parts_body(&parts, &def, NULL, NULL);
+    body[i] = baum_i_parts_body(&parts, &def);
   }
   baum_i_parts_pin(&parts, "A", (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
                    (baum_i_spot){body[0], {-length[0] / 2.0, 0.0}});
@@ -294,7 +294,7 @@ static void build_taut(sweep_scene *s, const double v[2])
   baum_i_parts_gravity(&parts, 0.0);
   baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
   slot.body_a = BAUM_GROUND;
-  slot.body_b = baum_i_parts_body(&parts, &rod, NULL, NULL);
+  slot.body_b = baum_i_parts_body(&parts, &rod);
   slot.point_a[0] = slot.point_a[1] = slot.point_b[1] = 0.0;
   slot.point_b[0] = -0.5;
   sweep_must(baum_mechanism_add_planar_pin_in_slot(parts.mechanism, &slot, NULL) == BAUM_OK,
@@ -407,7 +407,7 @@ static baum_status build_slider(model *m)
     if (i == 0) {
       set_turning(&def, 2.0);
     }
-    body[i] = baum_i_parts_body(&parts, &def, NULL, NULL);
+    body[i] = baum_i_parts_body(&parts, &def);
   }
   baum_i_parts_pin(&parts, "A", (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
                    (baum_i_spot){body[0], {-0.5, 0.0}});

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two legs of Theo Jansen's beach animals on one driven crank. His thirteen numbers are the lengths
+of the rods; with them, a foot moves along a nearly straight line while it is on the ground. Writes
+a page that shows the motion, and a drawing."""
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import baum
+import numpy as np
+from baum.typing import Array
+from support.report import Report
+
+# [m] His thirteen numbers. The hip is at (-a, -l) from the axle of the crank, whose length is m.
+LENGTH = SimpleNamespace(
+    **{"a": 0.38, "b": 0.415, "c": 0.393, "d": 0.401, "e": 0.558, "f": 0.394, "g": 0.367},
+    **{"h": 0.657, "i": 0.49, "j": 0.5, "k": 0.619, "l": 0.078, "m": 0.15},
+)
+OMEGA = 2 * np.pi  # [rad/s] of the crank
+MASS = 0.1  # [kg] of a body at each of its points
+
+LEG = {  # the bodies of a leg, and their points
+    "upper rod": ("wrist", "knee"),
+    "lower rod": ("wrist", "ankle"),
+    "thigh": ("hip", "knee", "back"),
+    "front rod": ("hip", "ankle"),
+    "back rod": ("back", "heel"),
+    "shin": ("ankle", "heel", "foot"),
+}
+
+
+def meet(a: Array, from_a: float, b: Array, from_b: float) -> Array:
+    """The points at given distances from points a and b (n x 2), left of the line from a to b."""
+    x = b - a
+    apart = np.hypot(x[:, :1], x[:, 1:])
+    along = (apart**2 + from_a**2 - from_b**2) / (2 * apart)
+    y = x[:, ::-1] * (-1, 1)
+    found: Array = a + (along * x + np.sqrt(from_a**2 - along**2) * y) / apart
+    return found
+
+
+def leg_at(angle: Array, side: int) -> dict[str, Array]:
+    """The points of a leg (n x 2) [m] in closed form. side: 1 left, -1 right, its mirror image."""
+    mirror, n = np.array([side, 1]), LENGTH
+    wrist = n.m * np.stack([np.cos(angle), np.sin(angle)], axis=1) * mirror
+    hip = np.full_like(wrist, (-n.a, -n.l))
+    knee = meet(hip, n.b, wrist, n.j)
+    ankle = meet(wrist, n.k, hip, n.c)
+    back = meet(hip, n.d, knee, n.e)
+    heel = meet(ankle, n.g, back, n.f)
+    foot = meet(ankle, n.i, heel, n.h)
+    found = dict(wrist=wrist, hip=hip, knee=knee, ankle=ankle, back=back, heel=heel, foot=foot)
+    return {name: point * mirror for name, point in found.items()}
+
+
+def add_body(m: baum.Mechanism, name: str, points: Array) -> baum.Body:
+    centre = points.mean(axis=0)
+    inertia = MASS * ((points - centre) ** 2).sum()
+    return m.planar_body(name, mass=MASS * len(points), inertia=inertia, position=centre)
+
+
+def add_leg(m: baum.Mechanism, which: str, side: int) -> None:
+    at = {name: points[0] for name, points in leg_at(np.zeros(1), side).items()}
+    foot = m.planar_particle(f"{which} foot", mass=MASS, position=at["foot"])
+    owners: dict[str, list[baum.Body]] = {"wrist": [m["crank"]], "hip": [m.ground], "foot": [foot]}
+    for name, corners in LEG.items():
+        body = add_body(m, f"{which} {name}", np.array([at[corner] for corner in corners]))
+        for corner in corners:
+            owners.setdefault(corner, []).append(body)
+    for corner, bodies in owners.items():
+        for k, pair in enumerate(zip(bodies, bodies[1:])):
+            m.revolute(f"{which} {corner} {k + 1}", *pair, point=at[corner])
+
+
+def mechanism() -> baum.Mechanism:
+    m = baum.Mechanism()
+    crank = add_body(m, "crank", np.array([(0, 0), (LENGTH.m, 0)]))
+    axle = m.revolute("axle", m.ground, crank, point=(0, 0))
+    m.driver("motor", axle, rate=OMEGA)
+    add_leg(m, "left", 1)
+    add_leg(m, "right", -1)
+    return m.freeze()
+
+
+def main() -> int:
+    report = Report("jansen_leg", folder="write the page and the drawing into this folder")
+    page = Path(report.options.folder or ".") / "jansen_leg.html"
+    m = mechanism()
+    turn = 200  # samples
+    times = np.arange(3 * turn) * 2 * np.pi / OMEGA / turn
+    run = m.simulate(times, "kinematics", record=["motor.effort"])
+    feet = [m["left foot"], m["right foot"]]
+    run.page(page, title="Jansen's leg", traces=feet)
+    m.draw(run.q[0]).save(page.with_suffix(".svg"))
+
+    for foot, side in zip(feet, (1, -1)):
+        path = run[foot.pose][:, :2]
+        exact = leg_at(OMEGA * times, side)["foot"]
+        report.expect(f"{foot.name}: off the closed form [m]", abs(path - exact).max(), 1e-10)
+        report.expect(
+            f"{foot.name}: gap after a turn [m]", abs(path[turn:] - path[:-turn]).max(), 1e-12
+        )
+        down = path[:, 1] < path[:, 1].min() + 0.02
+        print(f"{foot.name}: down for {down.mean():.0%} of a turn, {np.ptp(path[down, 0]):.2f} m")
+        report.expect(f"{foot.name}: a turn / the part on the ground", 1 / down.mean(), 2)
+    # Nothing dissipates energy.
+    report.expect("mean torque of the motor [N m]", abs(run["motor.effort"].mean()), 1e-9)
+    return report.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

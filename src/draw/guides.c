@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Symbols of joints whose bodies slide along each other. */
+#include <string.h>
+
+#include <baum/planar_joints.h>
+
+#include "draw/symbols.h"
+
+static const double REACH = 11.0; /* half the length of a guide without samples */
+
+/* A guide on body_a. Its place is in the middle of the path of body_b's point; `half` is half of
+ * its length in units. */
+typedef struct guide {
+  baum_i_place place;
+  baum_i_symbol symbol; /* of that place */
+  double half;
+} guide;
+
+/* Displacement of body_b's point from body_a's point along the axis [m]. */
+static double displacement(const baum_i_place *place, const baum_i_spatial_frame *a,
+                           const baum_i_spatial_frame *b)
+{
+  double at[3], on_a[3];
+  baum_i_turn(b->axes, place->point[1], at);
+  baum_i_add_scaled3(1.0, b->r, at);
+  baum_i_add_scaled3(-1.0, a->r, at);
+  baum_i_turn_back(a->axes, at, on_a);
+  return baum_i_dot3(place->axis[0], on_a) - baum_i_dot3(place->axis[0], place->point[0]);
+}
+
+static void find_guide(const baum_i_symbol *s, double margin, guide *out)
+{
+  enum { SAMPLES = 100 };
+  const baum_mechanism *m = s->drawing->mechanism;
+  const baum_i_place *place = s->place;
+  const baum_i_samples *motion = &s->drawing->motion;
+  double low = INFINITY, high = -INFINITY;
+  for (int64_t k = 0; k < motion->count; k += 1 + motion->count / SAMPLES) {
+    const double *q = motion->q + k * motion->stride;
+    const baum_i_spatial_frame a = baum_i_drawing_frame(m->bodies[place->body[0]], q);
+    const baum_i_spatial_frame b = baum_i_drawing_frame(m->bodies[place->body[1]], q);
+    low = fmin(low, displacement(place, &a, &b));
+    high = fmax(high, displacement(place, &a, &b));
+  }
+  out->half = 0.5 * (high - low) / s->drawing->unit + margin;
+  if (!isfinite(out->half)) {
+    low = high =
+      displacement(place, &s->drawing->design[place->body[0]], &s->drawing->design[place->body[1]]);
+    out->half = REACH;
+  }
+  out->place = *place;
+  baum_i_add_scaled3(0.5 * (low + high), place->axis[0], out->place.point[0]);
+  out->symbol = *s;
+  out->symbol.place = &out->place;
+}
+
+/* Draws a line of the ground along a guide in the plane. */
+static void draw_edge(const guide *g, double below)
+{
+  double up[3];
+  baum_i_find_free_side(&g->symbol, up);
+  const double along[3] = {up[1], -up[0], 0.0};
+  baum_i_draw_hatch(&g->symbol, 0, g->half, below, along, up);
+}
+
+void baum_i_draw_guide(const baum_i_symbol *s)
+{
+  guide g;
+  find_guide(s, 4.0, &g);
+  if (s->place->body[0] == 0) {
+    draw_edge(&g, 2.0);
+  } else {
+    baum_i_symbol_axis(&g.symbol, BAUM_I_ROD, 0, 0.35, g.half);
+  }
+}
+
+void baum_i_draw_slot(const baum_i_symbol *s)
+{
+  guide g;
+  find_guide(s, 1.5, &g);
+  if (s->place->body[0] == 0) {
+    draw_edge(&g, 1.1);
+  }
+  baum_i_symbol_axis(&g.symbol, BAUM_I_SLOT, 0, 0.75, g.half);
+  baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.5);
+}
+
+/* Draws a rack whose pitch line is y units from the place, on the side of `side`. */
+static void draw_teeth(const guide *g, double y, double side, const double left[3])
+{
+  enum { TEETH = 28 };
+  static const double tooth[4][2] = {{0.05, -0.5}, {0.25, 0.6}, {0.55, 0.6}, {0.75, -0.5}};
+  double xy[4 * TEETH + 2][2];
+  const double step = fmax(1.6, 2.0 * g->half / TEETH);
+  const int teeth = (int)(2.0 * g->half / step);
+  const double end = 0.5 * teeth * step;
+  for (int k = 0; k < 4 * teeth; k++) {
+    xy[k][0] = -end + (k / 4 + tooth[k % 4][0]) * step;
+    xy[k][1] = y - side * tooth[k % 4][1];
+  }
+  for (int k = 0; k < 2; k++) {
+    xy[4 * teeth + k][0] = k ? -end : end;
+    xy[4 * teeth + k][1] = y + 1.5 * side;
+  }
+  baum_i_symbol_area(&g->symbol, BAUM_I_BODY, 0, 4 * teeth + 2, (const double(*)[2])xy,
+                     g->place.axis[0], left);
+}
+
+/* The rack is on the left of the axis for a positive radius. */
+void baum_i_draw_rack(const baum_i_symbol *s)
+{
+  guide g;
+  find_guide(s, 4.0, &g);
+  const double radius = baum_i_find_number(s->element, "radius");
+  const double *axis = s->place->axis[0];
+  const double left[3] = {-axis[1], axis[0], 0.0};
+  double disc[2][3] = {{0.0}, {0.0, 0.0, 1.0}};
+  double centre[3];
+  memcpy(disc[0], s->place->point[1], sizeof disc[0]);
+  baum_i_draw_move(s->drawing, s->place->body[1], s->place->body[0], s->place->point[1], centre);
+  baum_i_add_scaled3(-1.0, g.place.point[0], centre);
+  double y = (baum_i_dot3(centre, left) + radius) / s->drawing->unit;
+  const double line[2][2] = {{-g.half, y}, {g.half, y}};
+  draw_teeth(&g, y, radius > 0.0 ? 1.0 : -1.0, left);
+  baum_i_symbol_line(&g.symbol, BAUM_I_PITCH, 0, 0.0, 2, line, axis, left);
+  baum_i_symbol_shape(s, BAUM_I_PITCH, BAUM_I_DISC, s->place->body[1],
+                      fabs(radius) / s->drawing->unit, 2, (const double(*)[3])disc);
+}
+
+/* ---- a curve F = 0 ---- */
+
+/* Moves a point onto the curve by Newton's method; false if the curve has no tangent there. */
+static bool find_on_curve(const baum_planar_curve_def *def, double xy[2], double tangent[2])
+{
+  for (int k = 0; k < 5; k++) {
+    double f[6] = {0.0};
+    if (def->curve(xy, f, def->user) != 0) {
+      return false;
+    }
+    double square = f[1] * f[1] + f[2] * f[2];
+    if (!(square > 0.0) || !isfinite(f[0]) || !isfinite(square)) {
+      return false;
+    }
+    xy[0] -= f[0] * f[1] / square;
+    xy[1] -= f[0] * f[2] / square;
+    tangent[0] = -f[2] / sqrt(square);
+    tangent[1] = f[1] / sqrt(square);
+  }
+  return true;
+}
+
+enum { CURVE_STEPS = 240, TRACK_STEPS = 60 }; /* of one unit, in both directions */
+
+typedef struct path {
+  double points[2 * CURVE_STEPS + 1][3]; /* in the axes of body_a */
+  int first, last;
+  bool closed;
+} path;
+
+/* Follows the curve from its middle in one direction, until it closes or ends. */
+static void follow_curve(const baum_i_symbol *s, const double start[2], int way, int most,
+                         path *out)
+{
+  const double h = s->drawing->unit;
+  const double *origin = s->place->point[0];
+  const double *middle = out->points[CURVE_STEPS];
+  double xy[2] = {start[0] - origin[0], start[1] - origin[1]}, tangent[2];
+  for (int k = 0; k < most && find_on_curve(s->element->def, xy, tangent); k++) {
+    const int at = CURVE_STEPS + way * k;
+    double *point = out->points[at];
+    point[0] = origin[0] + xy[0];
+    point[1] = origin[1] + xy[1];
+    *(way < 0 ? &out->first : &out->last) = at;
+    if (k > 3 && hypot(point[0] - middle[0], point[1] - middle[1]) < h) {
+      memcpy(point, middle, sizeof *out->points);
+      out->closed = true;
+      return;
+    }
+    xy[0] += way * h * tangent[0];
+    xy[1] += way * h * tangent[1];
+  }
+}
+
+/* Finds a closed curve, or a part of it that is as long as the mechanism. */
+static void find_path(const baum_i_symbol *s, path *out)
+{
+  double start[3];
+  baum_i_draw_move(s->drawing, s->place->body[1], s->place->body[0], s->place->point[1], start);
+  out->first = out->last = CURVE_STEPS;
+  follow_curve(s, start, -1, CURVE_STEPS, out);
+  if (!out->closed) {
+    const int least = CURVE_STEPS - TRACK_STEPS;
+    out->first = out->first < least ? least : out->first;
+    follow_curve(s, start, 1, TRACK_STEPS, out);
+  }
+}
+
+/* A closed curve on a body is a cam, other curves are tracks. */
+void baum_i_draw_curve(const baum_i_symbol *s)
+{
+  const int body = s->place->body[0];
+  path curve = {.closed = false};
+  find_path(s, &curve);
+  const int count = curve.last - curve.first + 1;
+  double(*points)[3] = curve.points + curve.first;
+  if (curve.closed && body != 0) {
+    baum_i_symbol_shape(s, BAUM_I_WHEEL, BAUM_I_AREA, body, 0.0, count, (const double(*)[3])points);
+  } else if (count > 1) {
+    baum_i_symbol_shape(s, BAUM_I_GUIDE, BAUM_I_LINE, body, 0.15, count,
+                        (const double(*)[3])points);
+  }
+  if (count > 1) {
+    baum_i_draw_gap_to_line(s->drawing, s->place, count, (const double(*)[3])points);
+  }
+  baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.4);
+}
+
+/* ---- space ---- */
+
+/* Draws the rail of body_a, with feet under its ends if it is on the ground. */
+static void draw_rail(const baum_i_symbol *s, double radius, guide *g)
+{
+  find_guide(s, 6.0, g);
+  baum_i_symbol_axis(&g->symbol, BAUM_I_GUIDE, 0, radius, g->half);
+  for (int sign = -1; sign <= 1 && s->place->body[0] == 0; sign += 2) {
+    const baum_i_place end = baum_i_move_place(&g->symbol, sign * g->half, g->place.axis[0]);
+    baum_i_symbol foot = g->symbol;
+    foot.place = &end;
+    baum_i_draw_foot(&foot);
+  }
+}
+
+void baum_i_draw_cylinder(const baum_i_symbol *s)
+{
+  guide g;
+  draw_rail(s, 0.5, &g);
+  baum_i_symbol_axis(s, BAUM_I_JOINT, 1, 1.1, 1.8);
+}
+
+/* A square sleeve, which does not rotate about its rail. */
+void baum_i_draw_slide(const baum_i_symbol *s)
+{
+  static const double face[4][2] = {{-2.4, -1.3}, {2.4, -1.3}, {2.4, 1.3}, {-2.4, 1.3}};
+  guide g;
+  double across[2][3];
+  const double *axis = s->place->axis[1];
+  draw_rail(s, 0.5, &g);
+  baum_i_complete_axes(axis, across[0], across[1]);
+  for (int k = 0; k < 4; k++) {
+    baum_i_place place = *s->place;
+    const baum_i_symbol moved = {s->drawing, s->number, s->element, &place};
+    baum_i_add_scaled3((k < 2 ? 1.3 : -1.3) * s->drawing->unit, across[k % 2], place.point[1]);
+    baum_i_symbol_area(&moved, BAUM_I_JOINT, 1, 4, face, axis, across[1 - k % 2]);
+  }
+}
+
+void baum_i_draw_point_on_line(const baum_i_symbol *s)
+{
+  guide g;
+  draw_rail(s, 0.25, &g);
+  baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.9);
+}
+
+/* ---- drivers ---- */
+
+void baum_i_draw_guide_arrow(const baum_i_symbol *s)
+{
+  static const double arrow[5][2] = {{-4.0, 3.0}, {4.0, 3.0}, {3.0, 3.6}, {4.0, 3.0}, {3.0, 2.4}};
+  guide g;
+  double up[3], y[3];
+  find_guide(s, 0.0, &g);
+  if (s->drawing->spatial) {
+    baum_i_complete_axes(s->place->axis[0], up, y);
+  } else {
+    baum_i_find_free_side(s, up);
+  }
+  baum_i_symbol_line(&g.symbol, BAUM_I_DRIVER, 0, 0.0, 5, arrow, s->place->axis[0], up);
+}

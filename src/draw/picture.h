@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Pictures as part of larger texts. */
+#ifndef BAUM_I_DRAW_PICTURE_H
+#define BAUM_I_DRAW_PICTURE_H
+
+#include <baum/mechanism.h>
+
+#include "base/buffer.h"
+
+/* Append the picture of baum_mechanism_svg(). `call` begins the messages. */
+baum_status baum_i_put_svg(const baum_mechanism *mechanism, const double *q, const char *call,
+                           baum_i_buffer *out);
+
+#endif

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the files of SVG pictures share. */
+#ifndef BAUM_I_DRAW_SVG_H
+#define BAUM_I_DRAW_SVG_H
+
+#include "base/buffer.h"
+#include "draw/drawing.h"
+
+enum { BAUM_I_CIRCLE = 24 /* corners of a circle in space */ };
+
+/* Colours are "#rrggbb" or "none". */
+typedef struct baum_i_look {
+  char fill[8];
+  char stroke[8];
+  double width; /* [px] */
+  const char *dash;
+} baum_i_look;
+
+typedef struct baum_i_picture {
+  const baum_i_drawing *drawing;
+  const baum_i_spatial_frame *frames; /* (body_count + 1) */
+  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
+  double scale;                       /* [px/m] */
+  double left, top;                   /* [m] */
+  baum_i_buffer *out;
+} baum_i_picture;
+
+/* ---- svg.c ---- */
+
+/* Transform a point of a body to the axes right, up and towards the eye [m]. */
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
+                            double out[3]);
+
+baum_i_look baum_i_picture_look(const baum_i_shape *shape);
+void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
+/* Draw an area with a thin edge. */
+void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,
+                             const double (*at)[3]);
+
+/* ---- svg_solids.c ---- */
+
+/* Set `out` to a color times a factor: darker below 1. */
+void baum_i_shade(const char color[8], double factor, char out[8]);
+
+void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *shape);
+
+/* The mean distance of a triangle of a mesh towards the eye [m]. */
+double baum_i_picture_depth(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
+void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
+
+#endif

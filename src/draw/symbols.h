@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Symbols of joints and forces. Lengths are in units unless they have another one. */
+#ifndef BAUM_I_DRAW_SYMBOLS_H
+#define BAUM_I_DRAW_SYMBOLS_H
+
+#include "draw/drawing.h"
+
+/* The joint or force that a function draws. */
+typedef struct baum_i_symbol {
+  baum_i_drawing *drawing;
+  int number;
+  const baum_i_element *element;
+  const baum_i_place *place; /* its element is NULL if the kind has no place */
+} baum_i_symbol;
+
+/* ---- symbols.c ---- */
+
+void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form form, int body,
+                         double radius, int count, const double (*points)[3]);
+
+/* Connect a point of a place with body_b's point of another; springs and dampers are moved to the
+ * left by `shift`. */
+void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
+                           int side, const baum_i_place *to, double radius, double shift);
+
+/* Draw a line or an area through points that are x and y units from the point of the place, along
+ * two directions. */
+void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
+                        int count, const double (*xy)[2], const double along[3],
+                        const double across[3]);
+void baum_i_symbol_area(const baum_i_symbol *s, baum_i_style style, int side, int count,
+                        const double (*xy)[2], const double along[3], const double across[3]);
+
+/* Draw a straight line along the axis, from -reach to reach. */
+void baum_i_symbol_axis(const baum_i_symbol *s, baum_i_style style, int side, double radius,
+                        double reach);
+void baum_i_symbol_point(const baum_i_symbol *s, baum_i_style style, int side, double radius);
+
+/* Copy a place with its point on body_a moved by a vector. */
+baum_i_place baum_i_move_place(const baum_i_symbol *s, double by, const double along[3]);
+
+/* Return the place of a joint, or NULL if it has none. */
+const baum_i_place *baum_i_place_of(const baum_i_symbol *s, baum_joint_id id);
+
+/* ---- ground.c ---- */
+
+/* Draw hatches below a line of the ground. */
+void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double below,
+                       const double along[3], const double across[3]);
+
+/* Draw the foot of a joint on the ground: below the joint, as gravity pulls, unless the other body
+ * hangs there. */
+void baum_i_draw_foot(const baum_i_symbol *s);
+
+/* Draw the wall in which a body is welded, opposite to the body. */
+void baum_i_draw_wall(const baum_i_symbol *s);
+
+/* Draw the ground at the end of a spring in the plane, opposite to its other end. */
+void baum_i_draw_anchor(const baum_i_symbol *s, int side);
+
+/* Find the direction from a guide on the ground in the plane to its free side: opposite to gravity,
+ * or towards the mechanism if the guide is vertical. */
+void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
+
+/* ---- one function for each kind: pins.c, guides.c, loads.c ---- */
+
+void baum_i_draw_pin(const baum_i_symbol *s);
+void baum_i_draw_rod(const baum_i_symbol *s);
+void baum_i_draw_weld(const baum_i_symbol *s);
+void baum_i_draw_gear(const baum_i_symbol *s);
+void baum_i_draw_ball(const baum_i_symbol *s);
+void baum_i_draw_hinge(const baum_i_symbol *s);
+void baum_i_draw_cross(const baum_i_symbol *s);
+void baum_i_draw_plane(const baum_i_symbol *s);
+void baum_i_draw_plane_point(const baum_i_symbol *s);
+void baum_i_draw_clamp(const baum_i_symbol *s);
+
+void baum_i_draw_guide(const baum_i_symbol *s);
+void baum_i_draw_slot(const baum_i_symbol *s);
+void baum_i_draw_rack(const baum_i_symbol *s);
+void baum_i_draw_curve(const baum_i_symbol *s);
+void baum_i_draw_cylinder(const baum_i_symbol *s);
+void baum_i_draw_slide(const baum_i_symbol *s);
+void baum_i_draw_point_on_line(const baum_i_symbol *s);
+/* An arrow beside a guide. */
+void baum_i_draw_guide_arrow(const baum_i_symbol *s);
+
+void baum_i_draw_spring(const baum_i_symbol *s);
+void baum_i_draw_torsion(const baum_i_symbol *s);
+void baum_i_draw_planar_load(const baum_i_symbol *s);
+void baum_i_draw_spatial_load(const baum_i_symbol *s);
+void baum_i_draw_coupling(const baum_i_symbol *s);
+void baum_i_draw_joint_spring(const baum_i_symbol *s);
+void baum_i_draw_driver(const baum_i_symbol *s);
+void baum_i_draw_user(const baum_i_symbol *s);
+
+#endif
