@@ -5,12 +5,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <baum/breaks.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "base/platform.h"
 #include "mechanism/definition.h"
 
 /* ---- create, share, destroy ---- */
@@ -20,10 +20,8 @@
  * state. */
 static uint32_t make_tag(const void *address)
 {
-  struct timespec now = {0};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
   uint64_t x = (uint64_t)(uintptr_t)address;
-  x ^= (uint64_t)now.tv_sec * 1000000007u + (uint64_t)now.tv_nsec * 0x9e3779b97f4a7c15u;
+  x ^= (uint64_t)baum_i_wall_nanoseconds() * 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   uint32_t tag = (uint32_t)(x ^ (x >> 31));

@@ -8,6 +8,7 @@
  * High gains and stiff forces need far fewer steps: 1e6 for this time, for example. */
 #include <math.h>
 
+#include "base/platform.h"
 #include "simulate/run.h"
 
 enum { PACE_STEPS = 10000 };
@@ -54,20 +55,13 @@ baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *ca
            : baum_i_run_may_be_read(run, call);
 }
 
-double baum_i_seconds_since(const struct timespec *then)
-{
-  struct timespec now;
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
-}
-
 static bool progress_cancels(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
-  if (!o->progress || baum_i_seconds_since(&run->last_progress) < o->progress_interval) {
+  if (!o->progress || baum_i_wall_seconds() - run->last_progress < o->progress_interval) {
     return false;
   }
-  (void)clock_gettime(CLOCK_MONOTONIC, &run->last_progress);
+  run->last_progress = baum_i_wall_seconds();
   run->reporting = true;
   int answer = o->progress(run, run->state.t, o->user);
   run->reporting = false;

@@ -4,7 +4,6 @@
 #define BAUM_I_SIMULATE_RUN_H
 
 #include <stdatomic.h>
-#include <time.h>
 
 #include "base/message.h"
 #include "integrate/integrator.h"
@@ -89,9 +88,9 @@ struct baum_simulation {
   baum_i_gain_choice gains;
 
   atomic_int cancelled;
-  struct timespec last_progress;
-  bool reporting;  /* within progress() */
-  double paced_at; /* [s] time of the last check of the pace of this call */
+  double last_progress; /* [s] */
+  bool reporting;       /* within progress() */
+  double paced_at;      /* [s] time of the last check of the pace of this call */
 };
 
 /* ---- run.c ---- */
@@ -231,9 +230,6 @@ baum_status baum_i_run_is_wanted(baum_simulation *run);
  * (BAUM_ERR_ARGUMENT). progress() may read the run. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
-
-/* Return the wall time [s] since `then`. */
-double baum_i_seconds_since(const struct timespec *then);
 
 /* ---- one_step.c ---- */
 
