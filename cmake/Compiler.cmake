@@ -20,6 +20,8 @@ endforeach()
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
   # clang objects to the standard's NAN and INFINITY, which are floats by definition; gcc holds the rule.
   list(REMOVE_ITEM BAUM_WARNINGS -Wdouble-promotion)
+  # Integer constants are enums here, and new releases object to their use with doubles.
+  list(APPEND BAUM_WARNINGS -Wno-enum-float-conversion)
 endif()
 check_c_compiler_flag(-ffp-contract=off BAUM_KNOWS_fp_contract)
 check_linker_flag(C LINKER:--as-needed BAUM_KNOWS_as_needed)

@@ -4,7 +4,7 @@
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie   only if named
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels   if named
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 # BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -173,6 +173,8 @@ stage_browser() {
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_motion.py build/browser
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$venv/bin/python" tests/browser/check_live.py build/browser
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_shapes.py build/browser
 }
 
@@ -245,6 +247,12 @@ stage_packages() {
   mkdir build/packages
   cp build/debian/*.deb build/packages
   fresh_run bookworm "sh tests/install/packages.sh packages"
+}
+
+# Builds the Python packages of all systems and runs them where that is possible on Linux.
+stage_wheels() {
+  need_packages debootstrap qemu-user-static wine64 nodejs binutils python3-venv
+  as_root sh tests/install/wheels.sh "$PWD"
 }
 
 stage_analyzer() {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Everything. Each header is the manual of its topic.
- */
+ *  Includes all public headers except catalog.h. Each header is the manual of its topic. */
 #ifndef BAUM_BAUM_H
 #define BAUM_BAUM_H
 

@@ -15,15 +15,16 @@ extern "C" {
 /** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
  *  have a kink. At its break time a function must return the value after the break.
  *
- *  No step crosses a break, forward or backward in time. One step ends a few rounding errors before
- *  it, and the next begins at it. Methods that use past steps restart there (counters.restarts). A
- *  fixed-step method shortens the step before a break that is off its grid (counters.short_steps)
- *  and begins a new grid at the break. Breaks do not change the times of outputs. A target closer
- *  to a break than the rounding of time is moved to the break.
+ *  No step crosses a break, forward or backward in time. Forward in time, a step ends a few
+ *  rounding errors before the break, and the next step begins at the break. Methods that use past
+ *  steps restart there (counters.restarts). A fixed-step method shortens the step before a break
+ *  that is off its grid (counters.short_steps) and begins a new grid at the break. Breaks do not
+ *  change the times of outputs. A requested time that differs from a break only by rounding is
+ *  moved to the break.
  *
- *  Positions and velocities stay continuous. A jump in the law of a driver is therefore a
- *  constraint violation, as with baum_simulation_set_driver(). Only kinematics takes the new
- *  velocities from the law.
+ *  Positions and velocities stay continuous. After a jump in the law of a driver, the state
+ *  therefore violates the constraint of the driver, as after baum_simulation_set_driver(). Only
+ *  baum_kinematics() takes the new velocities from the law.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param[in] times      (count) [s] finite, in any order, in addition to earlier ones. Copied.
  *                        NULL if count is 0.
@@ -39,9 +40,9 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
  *  none */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
-/** Schedule the values of an input: values[k] holds from times[k] to times[k + 1], and the last
- *  value for good. Before times[0] the input has its value at the time of this call. The schedule
- *  is a function of time: it also holds backward in time, at past times, and after
+/** Schedule the values of an input: values[k] holds from times[k] to times[k + 1]. The last value
+ *  holds from the last time on. Before times[0] the input has its value at the time of this call.
+ *  The schedule is a function of time: it also holds backward in time, at past times, and after
  *  baum_simulation_set_state().
  *
  *  Each time at which the value changes is a break time of this run, see

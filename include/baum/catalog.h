@@ -11,9 +11,8 @@
  *  in structs are constant and must not be freed.
  *
  *  A reference is either stored samples or formulas (`exact`). Samples hold for the default
- *  parameters only. Formulas hold for all parameters and times; a value of which rounding errors
- *  spoil the stated digits is refused. The library refuses comparisons with a reference that does
- *  not hold for the parameters or the time.
+ *  parameters only. Formulas hold for all parameters, and for all times at which rounding errors do
+ *  not exceed the stated digits. The library refuses comparisons where the reference does not hold.
  *
  *  Threads: every function may be called from any thread. A mechanism from baum_catalog_build()
  *  depends on no other object. */
@@ -48,12 +47,12 @@ typedef struct baum_catalog_entry {
   /** How its reference was computed and checked; "" if it has none. */
   const char *provenance;
   const char *note;        /**< Advice for running it; may be "". */
-  int32_t parameter_count; /**< [-] see baum_catalog_parameter_at(). */
-  int32_t sample_count;    /**< [-] samples of the reference, with the start; 0: no reference. */
+  int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
+  int32_t sample_count;    /**< [-] samples of the reference; 0: it has none. */
   double start_time;       /**< [s] start of the problem and its reference. */
   double end_time;         /**< [s] end of the problem and its reference. */
-  /** [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN if it has
-   *  none. */
+  /** [-] digits of the reference positions that can be trusted, relative to max(1, |q|); NaN
+   *  without a reference. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
   bool exact;      /**< The reference consists of formulas. */
@@ -156,9 +155,9 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
 /** Errors of states relative to the reference. Errors of lengths are divided by the characteristic
  *  length of the mechanism; errors of angles [rad] and user coordinates are not scaled. The error
  *  of an orientation in space has three components: the rotation from the reference to the state
- *  about the body axes [rad]. Errors of velocities are scaled likewise and divided by the largest
- *  velocity of the reference. A floor is the uncertainty of the reference: errors below it have no
- *  meaning. */
+ *  about the body axes [rad]. Errors of velocities are scaled in the same way and then divided by
+ *  the largest scaled velocity of the reference. A floor is the uncertainty of the reference:
+ *  errors below it have no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */

@@ -2,7 +2,7 @@
 /** @file
  *  Drawings of mechanisms, and HTML pages that show a run in any browser.
  *
- *    double rows[401 * 9];  // channels: BAUM_Q of nine positions
+ *    double rows[401 * 9];  // 401 samples of BAUM_Q with nine columns
  *    baum_simulation_sample(run, times, 401, &channel, 1, rows, NULL);
  *    baum_page page = baum_page_default();
  *    page.times = times, page.count = 401;
@@ -10,8 +10,8 @@
  *    baum_page_write(mechanism, &page, "slider_crank.html");
  *
  *  The shapes follow from the elements: links are bars between their joints, sliders are blocks,
- *  wheels are discs, other bodies have the size that corresponds to their inertia, and joints and
- *  forces are symbols. Outlines replace the shape of a body.
+ *  and wheels are discs. The size of other bodies corresponds to their inertia. Joints and forces
+ *  are symbols. Outlines replace the shape of a body.
  *
  *  Files replace older ones as described for baum_study_write(). Drawing does not change the
  *  mechanism.
@@ -33,8 +33,8 @@ extern "C" {
 
 /** Forms of outlines. */
 typedef enum baum_outline_form {
-  BAUM_OUTLINE_POLYGON = 0,  /**< Plane, with the corners `points`; may be concave. */
-  BAUM_OUTLINE_CIRCLE = 1,   /**< Parallel to the x-y plane. */
+  BAUM_OUTLINE_POLYGON = 0,  /**< Flat, with the corners `points`; may be concave. */
+  BAUM_OUTLINE_CIRCLE = 1,   /**< A disc parallel to the x-y plane. */
   BAUM_OUTLINE_BOX = 2,      /**< Its edges are parallel to the axes of the body. */
   BAUM_OUTLINE_CYLINDER = 3, /**< Circular, from `start` to `end`. */
   BAUM_OUTLINE_SPHERE = 4,   /**< About `center`. */
@@ -51,8 +51,8 @@ typedef struct baum_outline {
    *  vertices of a mesh. Default: NULL, must be set. */
   const double *points;
   int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
-  /** (triangle_count x 3) [-] corners of the triangles of a mesh: rows of `points`, from 0.
-   *  Default: NULL, must be set. */
+  /** (triangle_count x 3) [-] vertices of the triangles of a mesh: indices of rows of `points`,
+   *  from 0. Default: NULL, must be set. */
   const int32_t *triangles;
   int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
   double center[3];       /**< [m] of a circle, box or sphere. Default: (0, 0, 0). */
@@ -61,7 +61,7 @@ typedef struct baum_outline {
   double start[3];   /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
   double end[3];     /**< [m] centre of the other end, not `start`. Default: (0, 0, 0). */
   double radius;     /**< [m] > 0, of a circle, cylinder or sphere. Default: 0, must be set. */
-  const char *color; /**< "#rrggbb". Default: NULL, a color for each body. */
+  const char *color; /**< "#rrggbb". Default: NULL, chosen for each body. */
 } baum_outline;
 
 /** Set every field to its default.
@@ -82,9 +82,9 @@ static inline baum_outline baum_outline_default(void)
  *  other effect. Copies of the mechanism have the same outlines. No other thread may draw or copy
  *  the mechanism during the call.
  *  @param     mechanism  unchanged on failure
- *  @param     body       not user coordinates, which have no place
+ *  @param     body       not user coordinates, which have no position in space
  *  @param[in] outlines   (count) replace earlier ones. Copied. NULL if count is 0.
- *  @param     count      [-] >= 0; 0: the body draws itself
+ *  @param     count      [-] >= 0; 0: the shape follows from the joints again
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum_body_id body,
                                                  const baum_outline *outlines, int32_t count);
@@ -108,8 +108,8 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 /* ---- one configuration ----------------------------------------------------------------------- */
 
 /** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
- *  view from above. Red lines show where a joint is open: between points that should coincide, from
- *  a point to the line, plane or curve on which it should be, and between axes that should be
+ *  view from above. Red lines show where the constraints of a joint are violated: between points
+ *  that should coincide, from a point to its line, plane or curve, and between axes that should be
  *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
@@ -130,7 +130,7 @@ BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, c
                                               const char *path);
 
 /** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
- *  configuration at which assembly gave up: red lines show the joints that contradict each other.
+ *  configuration in which assembly stopped; red lines then show the joints in conflict.
  *  @param      mechanism  need not be frozen
  *  @param[out] text       (capacity) as in baum_mechanism_svg()
  *  @param      capacity   [byte]
@@ -164,14 +164,16 @@ typedef struct baum_page {
   const baum_channel *channels;
   int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
   const double *rows;    /**< (count x baum_channels_width()). Default: NULL, must be set. */
-  /** (count x plot_count) columns to plot, such as `rows` + 9. Default: NULL. */
+  /** (count x plot_count) columns to plot. May point into `rows`, such as `rows` + 9 for the
+   *  columns from index 9 on. Default: NULL, none. */
   const double *plots;
   int32_t plot_count;  /**< [-] >= 0. Default: 0. */
-  int32_t plot_stride; /**< [-] numbers in a row of `plots`. Default: 0, plot_count. */
+  int32_t plot_stride; /**< [-] numbers from row to row. Default: 0, plot_count. */
   /** (plot_count) such as "slider velocity [m/s]". Consecutive columns with the same unit share a
    *  plot. Default: NULL. */
   const char *const *plot_labels;
-  const baum_channel *traces;    /**< (trace_count) BAUM_BODY_POSE of points. Default: NULL. */
+  /** (trace_count) BAUM_BODY_POSE of the points whose paths are drawn. Default: NULL, none. */
+  const baum_channel *traces;
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
   const char *const *mark_texts; /**< (mark_count) Default: NULL. */
@@ -211,6 +213,19 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
  *  @return  as baum_page_write() without BAUM_ERR_FILE */
 BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum_page *page,
                                      char *text, size_t capacity, size_t *size);
+
+/** Draw one sample of a page as an SVG picture, with the paths of the traces up to this sample, and
+ *  with reactions as arrows. The view holds the whole motion, so that pictures of several samples
+ *  have the same scale. Plots, marks and the title are not shown.
+ *  @param      mechanism  frozen
+ *  @param[in]  page       the motion
+ *  @param      sample     [-] >= 0, < count of the page
+ *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param      capacity   [byte]
+ *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
+ *  @return  as baum_page_print(), and BAUM_ERR_NOT_FINITE for positions that are not finite */
+BAUM_API baum_status baum_page_svg(const baum_mechanism *mechanism, const baum_page *page,
+                                   int64_t sample, char *text, size_t capacity, size_t *size);
 
 #ifdef __cplusplus
 }

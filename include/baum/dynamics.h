@@ -38,7 +38,7 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
 /** Read the design configuration and the given initial velocities.
  *  @param      workspace  of the mechanism
- *  @param[out] q,v        (nq), (nv), NaN where free. Each may be NULL.
+ *  @param[out] q,v        (nq), (nv); v is NaN where it is free. Each may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
@@ -56,7 +56,7 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
  *  @return  its present value; NaN for NULL and other ids */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
-/** Compute q' = N(q) v, which is v if q is a vector, as in the plane.
+/** Compute q' = N(q) v. It equals v if q is a vector, as for planar bodies.
  *  @param      workspace  of the mechanism
  *  @param[in]  q,v        (nq), (nv)
  *  @param[out] dq         (nq)
@@ -132,26 +132,29 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
 /** Solve M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7) for accelerations and
  *  multipliers; alpha = beta = 0 gives (5).
  *
- *  Redundant rows are omitted from the solution. Multipliers that are not unique are chosen with
- *  least norm, in rows scaled by M. They balance the forces to 1e-9. The set of omitted redundant
- *  rows changes if the active rows become nearly dependent and another set is less so. This change
- *  allocates memory; baum_workspace_residual() then omits the same rows.
+ *  Redundant rows are omitted from the solution. Where multipliers are not unique, the function
+ *  returns those of least norm, with lambda_i multiplied by |row i of J M^-1/2|. They balance the
+ *  forces to a relative 1e-9. If the remaining rows become nearly dependent, the workspace looks
+ *  for a better choice of omitted rows. A new choice allocates memory; baum_workspace_residual()
+ *  then omits the same rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
  *  @param[out] lambda           (nc) May be NULL.
- *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (no acceleration fulfils
- *           the omitted rows, too; the message names a joint) */
+ *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (the accelerations
+ *           violate an omitted row; the message names a joint) */
 BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
 
-/** Compute force and moment of a planar joint on its body_b, see planar.h; for user constraints,
- *  gears and couplings, the generalized force -J^T lambda on the velocities of their bodies.
+/** Compute the reaction of a joint: force and moment on its body_b, see planar.h and spatial.h. For
+ *  user constraints, gears and couplings it is the generalized force -J^T lambda on the velocities
+ *  of their bodies.
  *  @param      workspace,t,q  see the top of this file
  *  @param[in]  lambda         (nc)
  *  @param      joint          one of the mechanism
- *  @param[out] reaction       (width) as the channel BAUM_JOINT_REACTION; 3 for planar joints
+ *  @param[out] reaction       (width) as the channel BAUM_JOINT_REACTION; 3 for planar, 6 for
+ *                             spatial joints
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
                                              const double *lambda, baum_joint_id joint,
@@ -161,10 +164,10 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
  *  constraints below.
  *
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first equation by q' - N (v - W^-1 J^T mu) and
- *  adds one unknown mu for each row. The mu are zero except for errors of the method. W is constant
- *  and diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk below m /
- *  s_k^2 are raised to m / s_k^2, where m is a millionth of the largest M_jj s_j^2 and s_j is the
- *  scale of a coordinate. */
+ *  adds one unknown mu for each row. All mu of the exact solution are zero. W is constant and
+ *  diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk below m / s_k^2
+ *  are raised to m / s_k^2, where s_k is the scale of coordinate k and m is a millionth of the
+ *  largest M_jj s_j^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
@@ -188,8 +191,8 @@ typedef struct baum_sparse {
 } baum_sparse;
 
 /** Evaluate the residual F(t, y, y') of the differential-algebraic equations with y = (q, v,
- *  lambda); for GGL y = (q, v, lambda, mu). Redundant rows are replaced by lambda_i = 0, and for
- *  GGL mu_i = 0.
+ *  lambda); for GGL y = (q, v, lambda, mu). The equations of an omitted redundant row i are
+ *  replaced by lambda_i = 0, for GGL also by mu_i = 0.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
@@ -199,14 +202,14 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
                                              double t, const double *y, const double *dy,
                                              double *residual);
 
-/** Evaluate the Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only.
- *  To learn the number of entries, first call the function with all arrays of `out` NULL. The
- *  function allocates memory, so do not use it in inner loops.
+/** Evaluate the Jacobian dF/dy + c dF/dy' of the residual F of baum_workspace_residual(). Its
+ *  pattern depends on dae->index only. To learn the number of entries, first call the function with
+ *  all arrays of `out` NULL. The function allocates memory, so do not use it in inner loops.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param      c            [1/s] finite
  *  @param[in]  y,dy         as for baum_workspace_residual()
- *  @param[out] out          receives nonzeros, and fills the arrays that are not NULL
+ *  @param[out] out          receives nonzeros; its arrays are filled unless they are NULL
  *  @return  also BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const baum_dae *dae, double c, double t,

@@ -39,19 +39,19 @@ BAUM_API baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, 
 /** Find an input by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Find the first body of a name; "ground" gives BAUM_GROUND.
+/** Find the first body with a name; "ground" gives BAUM_GROUND.
  *  @param     mechanism  may be NULL
  *  @param[in] name       may be NULL
  *  @return  its id; none (all-zero) if there is no such element */
 BAUM_API baum_body_id baum_mechanism_find_body(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first joint of a name. @copydetails baum_mechanism_find_body() */
+/** Find the first joint with a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_joint_id baum_mechanism_find_joint(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first force of a name. @copydetails baum_mechanism_find_body() */
+/** Find the first force with a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_force_id baum_mechanism_find_force(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first input of a name. @copydetails baum_mechanism_find_body() */
+/** Find the first input with a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism, const char *name);
 
 /** Name of a force.

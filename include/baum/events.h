@@ -4,18 +4,19 @@
  *  passes a value.
  *
  *  Detection: the run evaluates its event functions after every step, at the quarters of the step
- *  and at outputs. After a change of sign it searches for the time of the event on the motion that
- *  outputs return: for variable-step methods the interpolant of the last step, for fixed-step
- *  methods shorter steps from its start. The search is the same for every integrator. Two zeros
- *  between two evaluations are not detected; reduce max_step or the step.
+ *  and at outputs. After a change of sign it searches for the time of the event. The search uses
+ *  the same states inside the last step as outputs do: variable-step methods interpolate the step,
+ *  fixed-step methods take shorter steps from its start. The search is the same for every
+ *  integrator. Two zeros between two evaluations are not detected; reduce max_step or the step.
  *
- *  Zero at the start: if an event function is zero at the start, after baum_simulation_set_state()
- *  or where a run reverses, leaving zero is not an event; the next crossing of zero is. The
- *  function is treated as zero there if it reaches zero within the tolerance of the event or within
- *  1e-10 T, where T is 1 over the rate that baum_simulation_explain() states. For IDA, which first
- *  moves the state onto the constraints, this is 10 rtol T. baum_simulation_set_input() and
- *  baum_simulation_set_driver() trigger no event: a function that jumps there continues with its
- *  new sign.
+ *  Zero at the start: an event function may be zero where a run starts, after
+ *  baum_simulation_set_state(), or where a run reverses. When it leaves zero there, this is not an
+ *  event; its next crossing of zero is. A crossing shortly after such a start does not count,
+ *  either, because the function may be zero up to rounding. Shortly means within 1e-10 T, where T
+ *  is 1 over the rate that baum_simulation_explain() states, or within the tolerance of the event
+ *  if that is longer. For IDA, which first moves the state onto the constraints, it means 10 rtol T
+ *  instead of 1e-10 T. baum_simulation_set_input() and baum_simulation_set_driver() trigger no
+ *  event: a function that jumps there continues with its new sign.
  *
  *  Events do not alter the motion, with one exception: a fixed-step run that stops at an event
  *  begins a new grid there, as at a target off the grid. */
@@ -32,8 +33,8 @@ extern "C" {
 typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after a step.
-   *  Therefore it cannot ask for a smaller step: any non-zero result ends the advance of the run.
+  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after a step. Therefore it
+   *  cannot ask for a smaller step: any non-zero return value ends the call that advances the run.
    *  Default: NULL, the coordinate of `joint`. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
@@ -41,7 +42,7 @@ typedef struct baum_event_def {
   /** [-] 1: only rising in time, -1: only falling, 0: both. Default: 0. */
   int32_t direction;
   bool terminal;    /**< The call stops at the event with BAUM_STOP_EVENT. Default: true. */
-  double tolerance; /**< [s] > 0, accuracy of the event's time. Default: NaN, rounding. */
+  double tolerance; /**< [s] > 0, accuracy of the event's time. Default: NaN, its rounding. */
   void *user;       /**< Passed to function. Not owned. Default: NULL. */
   baum_joint_coordinate coordinate; /**< [-] of joint. Default: BAUM_COORDINATE_FIRST. */
 } baum_event_def;
@@ -59,8 +60,8 @@ static inline baum_event_def baum_event_def_default(void)
 /** Add an event to a run, from the present state on. A run that stops at an event returns
  *  BAUM_STOP_EVENT, and its state is that at the event; the next call continues.
  *  baum_simulation_sample() has then filled the rows of the times before the event. Events at the
- *  same time are all recorded before the run stops. An event at the end of a call belongs to that
- *  call.
+ *  same time are all recorded before the run stops. If an event happens at the time at which a call
+ *  ends, that call records it, not the next one.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives its number 0, 1, ... in the order of adding; not written on

@@ -2,22 +2,26 @@
 /** @file
  *  Mechanisms: what is simulated. A mechanism consists of bodies, joints, forces and inputs.
  *
- *  Life: add elements, freeze the mechanism, then run simulations. A frozen mechanism is constant
+ *  Use: add elements, freeze the mechanism, then run simulations. A frozen mechanism is constant
  *  and may be shared between threads.
- *  - A *body* is anything with coordinates: planar bodies and particles (planar.h) or user
- *    coordinates.
- *  - A *joint* is anything with constraint rows: planar joints (planar.h, planar_joints.h),
- *    drivers, couplings or user constraints.
+ *  - A *body* is anything with coordinates: rigid bodies and particles (planar.h, spatial.h), or
+ *    user coordinates.
+ *  - A *joint* is anything with constraint rows: joints (planar.h, planar_joints.h,
+ *    spatial_joints.h), drivers, couplings or user constraints.
  *  - A *force* is anything else that acts on bodies.
  *
- *  A mechanism given by functions alone is one body of user coordinates and one user constraint.
+ *  Equations of your own, without predefined elements, are one body of user coordinates and one
+ *  user constraint.
  *
- *  Equations (Flores et al. 2008, equation numbers in brackets): constraints Phi(q, t) = 0 (1),
- *  their first derivative Phi' = J v - nu (3), their second derivative Phi'' = J a - gamma, zero by
- *  (4), and the equations of motion M a + J^T lambda = g (2).
+ *  Equations (numbers in parentheses are those of Flores et al. 2008): constraints Phi(q, t) = 0
+ *  (1), their first derivative Phi' = J v - nu = 0 (3), their second derivative Phi'' = J a - gamma
+ *  = 0 (4), and the equations of motion M a + J^T lambda = g (2). docs/notation.md lists all
+ *  symbols.
  *
  *  Units: any consistent set. Only the default gravity assumes SI. Angles are in radians. Comments
- *  give units in SI, [-] for a pure number, and shapes of arrays in parentheses.
+ *  give units in SI, [-] for a pure number, and shapes of arrays in parentheses. The *scale* of a
+ *  coordinate is the characteristic length for a length, 1 for an angle, and `scale` for user
+ *  coordinates.
  *
  *  Order: q, v, constraint rows and lambda follow the order in which bodies and joints were added.
  *
@@ -28,22 +32,21 @@
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- *  baum_mechanism_set_K(). They behave alike for every kind; their comments are at
- *  baum_coordinates_def.
+ *  baum_mechanism_set_K(). They behave alike for every kind. The comments after
+ *  baum_coordinates_def hold for all kinds.
  *
  *  Versions: fields are only ever appended to a struct. `struct_size` tells the library which
  *  fields a program knows. A program that was compiled with an older version passes a smaller
- *  struct, and the missing fields have their defaults. Any other size, such as that of an all-zero
- *  struct or of a newer version, is refused (BAUM_ERR_STRUCT). Structs that the library fills are
- *  cut to caller_size.
+ *  struct, and the missing fields have their defaults. Any other size, such as 0 in an all-zero
+ *  struct or the size of a newer version, is refused (BAUM_ERR_STRUCT). In a struct that the
+ *  library fills, it writes the first caller_size bytes only.
  *
  *  Callbacks: q and v hold the coordinates of the named bodies one after the other. Matrices are
  *  dense and row-major. Outputs are zeroed before the call. Return 0 on success, > 0 to ask for a
  *  smaller step, < 0 to stop the run. If threads share the mechanism, callbacks must be reentrant.
- *  A callback may call the library, but must not change or advance the workspace or run that is
- *  calling it: functions that return a status fail with BAUM_ERR_STATE, and destroying it does
- *  nothing. It may read time, q, v, inputs and texts, and cancel the run.
- */
+ *  A callback may call the library, but must not use the workspace or run that is calling it:
+ *  functions of this object that return a status fail with BAUM_ERR_STATE, and destroying it does
+ *  nothing. The callback may only read its time, q, v, inputs and texts, and cancel the run. */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H
 
@@ -107,8 +110,8 @@ typedef int baum_force_fn(double t, const double *q, const double *v, const doub
 
 /** The law of a driver: s[0] is the value, s[1] the first and s[2] the second derivative at time t.
  *  s[1] and s[2] must be the exact derivatives; baum_mechanism_check_derivatives() compares them.
- *  The library also calls the law at times outside the run: to check derivatives, and to explore
- *  the constraints around the start. Returns the same as baum_q_fn. */
+ *  The library also calls the law at times outside the run: to check derivatives, and to find
+ *  redundant rows in configurations near the start. Returns the same as baum_q_fn. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
@@ -130,11 +133,11 @@ typedef void baum_normalize_fn(double *q, void *user);
 
 /** A body with user coordinates, whose mass and force are given by functions.
  *
- *  Usually v = q'. If positions are not a vector, such as a unit quaternion, set the last fields;
- *  then q' = N(q) v. All functions but `rate` receive a normalized q. Derivatives with respect to
- *  q, including those of constraints on these coordinates, are then derivatives along displacements
- *  (size): (Phi_q N) in place of Phi_q. The functions of the manifold report failure by writing
- *  NaN. */
+ *  Usually v = q'. If q is not a vector, for example a unit quaternion, set position_scale and the
+ *  fields below it; then q' = N(q) v. All functions but `rate` receive a normalized q. Derivatives
+ *  with respect to q, including those of constraints on these coordinates, are then derivatives
+ *  along displacements (size): (Phi_q N) in place of Phi_q. rate, move, difference and normalize
+ *  report failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
@@ -142,9 +145,10 @@ typedef struct baum_coordinates_def {
   /** (position_count) design positions, on the manifold. Copied. Default: NULL, zeros; must be set
    *  if `rate` is. */
   const double *q;
-  /** (size) initial velocities, NaN = free. Copied. Default: NULL, all free. */
+  /** (size) initial velocities; NaN: free, determined by assembly. Copied. Default: NULL, all free.
+   */
   const double *v;
-  /** (size) > 0, a relevant change of each coordinate; tolerances are relative to it. Copied.
+  /** (size) > 0, a typical change of each coordinate; tolerances are relative to it. Copied.
    *  Default: NULL, ones. */
   const double *scale;
   /** out (size x size), symmetric and positive semidefinite. Default: NULL, must be set. */
@@ -157,7 +161,7 @@ typedef struct baum_coordinates_def {
   bool held;                /**< Assembly keeps the design positions. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< force() reads v. RATTLE requires false. Default: true. */
-  /** (position_count) > 0, a relevant change of each position. Copied. Used if `rate` is set.
+  /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
    *  Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
@@ -268,10 +272,11 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
- *  Angles of planar joints are continuous over revolutions. In space a run counts them; calls of a
- *  workspace take angles between -pi and pi. */
+ *  Angles of planar joints are continuous over revolutions. For angles of spatial joints, a run
+ *  counts the revolutions; functions of a workspace know one state only and use angles between -pi
+ *  and pi. */
 typedef enum baum_joint_coordinate {
-  BAUM_COORDINATE_FIRST = 0, /**< The first of the list above; of most joints the only one. */
+  BAUM_COORDINATE_FIRST = 0,        /**< The first in the list above; most joints have only one. */
   BAUM_COORDINATE_DISPLACEMENT = 1, /**< [m] of body_b's point from body_a's along the axis. */
   BAUM_COORDINATE_ANGLE = 2,        /**< [rad] of body_b relative to body_a about the axis. */
   BAUM_COORDINATE_ANGLE_B = 3,      /**< [rad] about axis_b. */
@@ -282,8 +287,8 @@ typedef enum baum_joint_coordinate {
 /* ---- drivers --------------------------------------------------------------------------------- */
 
 /** A driver: one row that prescribes the coordinate of a joint, coordinate(q) - s(t) = 0, with s(t)
- *  = value + rate t + acceleration t^2 / 2 or a law of your own. Whole revolutions of an angle in
- *  space do not matter. */
+ *  = value + rate t + acceleration t^2 / 2 or a law of your own. An angle of a spatial joint is
+ *  prescribed up to whole revolutions. */
 typedef struct baum_driver_def {
   size_t struct_size;               /**< Set by the default. Do not write. */
   const char *name;                 /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -318,10 +323,10 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 /* ---- couplings ------------------------------------------------------------------------------- */
 
 /** The law of a coupling: f[0] is the value, f[1] the first and f[2] the second derivative at
- *  coordinate x of joint_a [rad or m]. Angles count revolutions; those in space are between -pi
- *  and pi in calls of a workspace. f is zeroed before the call. Methods that need third derivatives
- *  take differences of f[2]. The check of derivatives also calls the law at coordinates near those
- *  of the motion. Returns the same as baum_q_fn. */
+ *  coordinate x of joint_a [rad or m]. Angles count revolutions, except for angles of spatial
+ *  joints in functions of a workspace, which are between -pi and pi. f is zeroed before the call.
+ *  Methods that need third derivatives take differences of f[2]. The check of derivatives also
+ *  calls the law at coordinates near those of the motion. Returns the same as baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling: one row that ties the coordinates of two joints, coordinate_b - f(coordinate_a) = 0,
@@ -329,8 +334,9 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  along coordinate_b. The joints may share bodies, such as a crank and a slider on the ground.
  *  With angle and displacement of one cylindrical joint it is a screw.
  *
- *  Without a law, whole revolutions of angles in space do not matter, unless both coordinates are
- *  such angles and ratio is no fraction with a denominator up to 1000.
+ *  Without a law, an angle of a spatial joint may change by whole revolutions without violating the
+ *  row. If both coordinates are such angles, this holds only if ratio is a fraction with a
+ *  denominator of at most 1000. With other ratios, revolutions count.
  *
  *  Reaction: the generalized force -J^T lambda on the velocities of the bodies of joint_a, then of
  *  joint_b; each body once, without ground. */
@@ -425,10 +431,10 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
 
 /** A linear spring and damper in parallel on a coordinate of a joint, or a law of your own. It
- *  returns the coordinate to the free value, by a force along the axis or a torque about it.
+ *  drives the coordinate towards free_value, by a force along the axis or a torque about it.
  *
- *  Angles of spatial joints count revolutions in a run, where a spring keeps winding up. Calls of a
- *  workspace take them between -pi and pi. */
+ *  In a run, angles of spatial joints count revolutions, so a spring winds up further with each
+ *  revolution. Functions of a workspace use angles between -pi and pi. */
 typedef struct baum_joint_spring_def {
   size_t struct_size;               /**< Set by the default. Do not write. */
   const char *name;                 /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -436,9 +442,9 @@ typedef struct baum_joint_spring_def {
   baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
   double stiffness;                 /**< [N m/rad or N/m] >= 0. Default: 0. */
   double damping;                   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
-  /** [rad or m] without force. Default: NaN, as in the design configuration. */
+  /** [rad or m] coordinate without force. Default: NaN, the value in the design configuration. */
   double free_value;
-  /** Replaces the three above; without potential energy. Default: NULL. */
+  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
@@ -508,10 +514,11 @@ BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 /** Copy a mechanism. The copy is not frozen. Ids of the original are valid in the copy, and the
  *  other way round, until elements are added to either.
  *
- *  Definitions are copied as they were given. A joint with `point`, and lengths, angles and offsets
- *  that were not given, are therefore taken from the design configuration of the copy. Give
- *  point_a, point_b and these numbers before you set another position or angle of a body. Function
- *  pointers and `user` are shared.
+ *  Definitions are copied as they were given. Values that definitions leave to the design
+ *  configuration therefore follow from the design configuration of the copy. These are the places
+ *  of joints with `point`, and lengths, angles and offsets that were not given. To keep these
+ *  values while you change the position or angle of a body, first give point_a, point_b, lengths,
+ *  angles and offsets as numbers. Function pointers and `user` are shared.
  *  @param      mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure; release it with
  *                         baum_mechanism_destroy()
@@ -644,7 +651,7 @@ typedef struct baum_report {
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
   int32_t constant_rows;  /**< [-] rows that do not depend on time. */
   int32_t islands;        /**< [-] groups of bodies connected by joints, without fixed bodies. */
-  /** [-] bodies welded to ground; solved for only if multipliers are wanted. */
+  /** [-] bodies welded to ground; solved for only if multipliers are requested. */
   int32_t fixed_bodies;
   bool constant_mass;     /**< All masses are constant, so they are inverted only once. */
   bool constant_force;    /**< All forces are constant. */
@@ -669,7 +676,7 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
                                            size_t caller_size);
 
 /** Compare the derivatives that user functions return (jacobian, nu, gamma, force_q, force_v, and
- *  those of laws and curves) with differences. Creating a simulation does this by default.
+ *  those of laws and curves) with finite differences. Creating a simulation does this by default.
  *
  *  The check runs in the design configuration at t = 0 and in three configurations near it at t =
  *  0, 0.37 and 1.3. An entry is wrong if its error exceeds 1e-6 of its own size plus 1e-9 of the

@@ -8,16 +8,15 @@
  *
  *  Points: give joints and springs either `point` or both `point_a` and `point_b`; NaN means not
  *  given. `point` is one point in ground axes that both bodies share in the design configuration.
- *  `point_a` and `point_b` are in the axes of their bodies, for ground in ground axes. A point of a
- *  particle is the particle itself. A spring or distance joint would have no length with `point`
- *  and requires point_a and point_b.
+ *  `point_a` and `point_b` are in the axes of their bodies, for ground in ground axes. On a
+ *  particle the point is the particle itself. Springs and distance joints require point_a and
+ *  point_b, because their length would be 0 with `point`.
  *
  *  Design configuration: the positions and angles of the definitions. Assembly takes them as its
  *  initial guess.
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b. The effort of a driver of the joint is not part of it.
- */
+ *  point on body_b. The reaction does not include the effort of a driver of the joint. */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H
 
@@ -304,7 +303,7 @@ typedef struct baum_planar_torsion_spring_def {
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
   double damping;      /**< [N m s/rad] >= 0. Default: 0. */
-  /** [rad] without torque. Default: NaN, the value in the design configuration. */
+  /** [rad] angle without torque. Default: NaN, the value in the design configuration. */
   double free_angle;
   /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
@@ -336,9 +335,10 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body and a torque, constant or multiplied by an input. The point is
- *  fixed in the body. The direction of the force is fixed in ground axes or in the body. A load in
- *  ground axes without torque and input has a potential; other loads have none. */
+/** A force at a point of a body and a torque on the body, both constant or multiplied by an input.
+ *  The point is fixed in the body. The direction of the force is fixed in ground axes or in the
+ *  body. A load in ground axes with neither torque nor input has a potential; other loads have
+ *  none. */
 typedef struct baum_planar_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -348,7 +348,7 @@ typedef struct baum_planar_load_def {
   double torque;      /**< [N m] counter-clockwise. Default: 0. */
   /** The force rotates with the body. Default: false, it is in ground axes. */
   bool follows_body;
-  baum_input_id input; /**< Its value multiplies force and torque. Default: none, 1. */
+  baum_input_id input; /**< Its value multiplies force and torque. Default: none. */
 } baum_planar_load_def;
 
 /** @copydoc baum_coordinates_def_init() */

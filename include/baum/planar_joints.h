@@ -77,7 +77,8 @@ typedef struct baum_planar_rack_and_pinion_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
-  /** [m] radius of the pitch circle, not 0; sign as above. Default: 0, must be set. */
+  /** [m] radius of the pitch circle, not 0; its sign as described above. Default: 0, must be set.
+   */
   double radius;
   double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
 } baum_planar_rack_and_pinion_def;
@@ -118,7 +119,7 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  BAUM_GROUND. All bodies must have an angle.
  *
  *  Reaction: the generalized force -J^T lambda on the velocities of body_a, body_b and the carrier,
- *  without ground. Its forces are zero. */
+ *  without ground. Its force components are zero, because the row contains angles only. */
 typedef struct baum_planar_gear_def {
   size_t struct_size;   /**< Set by the default. Do not write. */
   const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -158,15 +159,16 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 /** A curve F(x, y) = 0 and the derivatives of F. The derivatives must be exact near the curve, not
  *  only on it. F should change by about 1 per metre across the curve: with |grad F| near 1 the row
  *  is to first order the distance from the curve, and tolerances bound this distance.
- *  @param[in]  xy    (2) [m] in body_a's axes, from its point
- *  @param[out] out   (6) F [m], F_x, F_y [-], F_xx, F_xy, F_yy [1/m]; zeroed before the call
+ *  @param[in]  xy    (2) [m] x and y from body_a's point, in body_a's axes
+ *  @param[out] out   (6) F [m], its first derivatives F_x, F_y [-] and second derivatives F_xx,
+ *                    F_xy, F_yy [1/m]; zeroed before the call
  *  @param      user  the definition's `user`
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
 
 /** A point of body_b stays on a curve fixed in body_a: a cam with a pointed follower, or a bead on
  *  a wire. One row [m]: F at body_b's point. For a roller, give the path of its centre. For a cam
- *  whose follower is a joint, use a coupling with a law (mechanism.h).
+ *  whose follower moves along the coordinate of a joint, use a coupling with a law (mechanism.h).
  *
  *  If `point` is given, the origin of the curve is at this point in the design configuration.
  *  body_a must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares

@@ -22,12 +22,12 @@ extern "C" {
 /** The form of a report. */
 typedef enum baum_report_form {
   BAUM_REPORT_TEXT = 0, /**< Aligned columns for a screen. */
-  /** The entries only, one line each below a line of keys (RFC 4180). */
+  /** The entries only: a header line of keys, then one line for each entry (RFC 4180). */
   BAUM_REPORT_CSV = 1,
   /** Everything; "units" has the unit of every key. Keys are stable. */
   BAUM_REPORT_JSON = 2,
-  /** One HTML page with charts, a sortable table and a picture of the mechanism, for which its
-   *  functions are called; it loads no other files. */
+  /** One HTML page with charts, a sortable table and a picture of the mechanism. The page loads no
+   *  other files. Drawing the picture calls functions of the mechanism. */
   BAUM_REPORT_PAGE = 3
 } baum_report_form;
 

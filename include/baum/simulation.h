@@ -26,10 +26,13 @@ typedef struct baum_simulation baum_simulation;
 
 /* ---- integrators ----------------------------------------------------------------------------- */
 
+/* After the integrator itself, each comment lists the formulations that it offers. The first one is
+ * its default. The default rule for the gains of BAUMGARTE is in parentheses. */
+
 /** @return explicit Euler, order 1, fixed step. BAUMGARTE (dead-beat), UNSTABILIZED, PROJECTION */
 BAUM_API const baum_integrator *baum_euler(void);
-/** @return  semi-implicit (symplectic) Euler, order 1, fixed step: velocities first. Formulations
- *           as baum_euler() */
+/** @return semi-implicit (symplectic) Euler, order 1, fixed step; it updates the velocities first.
+ *  Formulations as baum_euler() */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
 /** @return  explicit midpoint rule, order 2, fixed step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED
  */
@@ -51,17 +54,18 @@ BAUM_API const baum_integrator *baum_rk8(void);
  *  baum_simulation_set_state(), _set_input() and _set_driver(), after a reversal of time and after
  *  a target off the grid.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
- *           BAUMGARTE (best damping), UNSTABILIZED; its past steps cannot be projected */
+ *           BAUMGARTE (best damping), UNSTABILIZED; not PROJECTION, because its past steps cannot
+ *           be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
 /** @return three-step Adams-Bashforth method, order 3; otherwise as baum_ab2() */
 BAUM_API const baum_integrator *baum_ab3(void);
 /** @return four-step Adams-Bashforth method, order 4; otherwise as baum_ab2() */
 BAUM_API const baum_integrator *baum_ab4(void);
-/** For long runs without dissipation: the energy stays in a band of width O(h^2). Takes rigid
- *  bodies in space; the angular momentum of a free one is kept to rounding. Refuses variable masses
- *  and forces that depend on velocities, such as dampers and gyroscopic moments of user
- *  coordinates; it checks user functions at sample states. Phi = 0 and Phi' = 0 hold to rounding
- *  after every step.
+/** For long runs without dissipation: the energy stays in a band of width O(h^2). Also for rigid
+ *  bodies in space; the angular momentum of a free body is conserved to rounding. Refuses variable
+ *  masses and forces that depend on velocities, such as dampers and gyroscopic moments of user
+ *  coordinates. It checks this for user functions at a few states. Phi = 0 and Phi' = 0 hold to
+ *  rounding after every step.
  *  @return  RATTLE, order 2, fixed step, symplectic. INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
 /** For stiff forces, and for comparison at index 3. Phi = 0 holds to rounding after every step,
@@ -69,8 +73,9 @@ BAUM_API const baum_integrator *baum_rattle(void);
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** Solves each step by fixed-point iteration, but the stiff terms of the gains by Newton's method.
- *  High gains therefore do not limit the steps, but stiff forces do. CVODE projects only with BDF.
+/** Solves the implicit equations of a step by fixed-point iteration, but treats the stiff terms of
+ *  the gains by Newton's method. Stiff forces therefore limit the steps, but high gains do not.
+ *  CVODE projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** For stiff forces. Newton iteration with the true sparse Jacobian, including the derivatives of
@@ -104,13 +109,13 @@ BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
 BAUM_API int32_t baum_integrator_order(const baum_integrator *integrator);
 /** Whether an integrator takes `step`. @param integrator  may be NULL @return false for NULL */
 BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
-/** Whether an integrator takes `rtol`. If it takes both, give it one of the two. baum_kinematics()
- *  takes neither.
+/** Whether an integrator takes `rtol`. If it takes both `step` and `rtol`, set one of the two
+ *  options. baum_kinematics() takes neither.
  *  @param integrator  may be NULL
  *  @return  false for NULL */
 BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
 
-/** Form of the equations of motion. */
+/** Form of the equations of motion. docs/notation.md lists the equations (5) and (7). */
 typedef enum baum_formulation {
   BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
   /** (5): J a = gamma; the constraint violation drifts. */
@@ -136,14 +141,15 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 
 /** How a run begins from the design configuration. */
 typedef enum baum_start {
-  /** Assemble; refuse moves above a quarter of the characteristic length, or 1 rad. If drivers
-   *  begin elsewhere than the design configuration, close the joints there and follow the
-   *  drivers. */
+  /** Assemble; refuse displacements above a quarter of the characteristic length, or 1 rad. If
+   *  drivers start away from the design configuration and the displacement is refused, first
+   *  assemble with the drivers in the design configuration, and then move them to their initial
+   *  values in small steps. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse a configuration or velocities that violate the constraints. */
   BAUM_START_EXACT = 1,
-  /** Accept the given configuration and velocities; free velocities are zero. Only bodies welded to
-   *  ground are moved, to the poses that the welds determine. */
+  /** Accept the given configuration and velocities; free velocities are zero. Only bodies that are
+   *  welded to ground move, to the poses that the welds prescribe. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
@@ -156,14 +162,14 @@ typedef enum baum_solver {
   /** Sparse rank-revealing QR; slow. For comparison and singular configurations. */
   BAUM_SOLVER_QR = 2,
   /** Schur complement in blocks of two rows, without a fallback. It is refused if a body has more
-   *  than about 50 joints, if the joints form a dense net, or if the mass matrix is not positive
-   *  definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
+   *  than about 50 joints, if the joints form a dense network, or if the mass matrix is not
+   *  positive definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
-/** Called at intervals while a call advances a run. Each such call starts a new interval. It
- *  may read the run, also with baum_simulation_get(). Functions that change, advance or save the
- *  run fail inside it (BAUM_ERR_STATE), and destroying the run does nothing.
+/** Called every progress_interval while a call advances a run. The first interval begins with that
+ *  call. The function may read the run, also with baum_simulation_get(). Inside it, functions that
+ *  change, advance or save the run fail (BAUM_ERR_STATE), and destroying the run does nothing.
  *  @param simulation  the run
  *  @param t           [s] present time
  *  @param user        the option `user`
@@ -203,10 +209,11 @@ typedef struct baum_simulation_options {
   double tolerance_q;
   double tolerance_v; /**< [-] > 0, finite, the same for velocities. Default: 1. */
   /** [-] > 0, factor on rtol for multipliers; finite only for IDA with BAUMGARTE or UNSTABILIZED.
-   *  Row i has the tolerance tolerance_lambda rtol E / n_i, where n_i is the norm of its J times
-   *  the scales. E is the largest present |lambda_k| n_k, or M_jj s_j^2 r^2 if that is larger,
-   *  where s_j are the scales and r [1/s] is the rate that baum_simulation_explain() states with
-   *  the tolerances. Default: infinity, multipliers are not tested. */
+   *  Row i has the tolerance tolerance_lambda rtol E / n_i, where n_i is the norm of row i of J
+   *  after each column j has been multiplied by the scale s_j of its coordinate. E is the largest
+   *  present |lambda_k| n_k, or the largest M_jj s_j^2 r^2 if that is larger, where r [1/s] is the
+   *  rate that baum_simulation_explain() states with the tolerances. Default: infinity, multipliers
+   *  are not tested. */
   double tolerance_lambda;
   /** Record the works of baum_simulation_energy_account(). Not for kinematics. Default: false. */
   bool energy_account;
@@ -217,8 +224,8 @@ typedef struct baum_simulation_options {
   /** Estimate the error of the motion from the start by a second integration, and warn if it is
    *  large; see counters.error_estimate. The second integration is rk8 at rtol 1e-8 for a run with
    *  a fixed step, and the same method at 0.03 rtol for a run with variable steps; it at least
-   *  doubles the cost. Without this option, fixed-step runs are checked as soon as their error may
-   *  matter. Default: false. */
+   *  doubles the cost. Without this option, a fixed-step run starts such an integration only when
+   *  the sum of its local errors is large enough to matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 
@@ -261,10 +268,11 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  @param simulation  the run
  *  @param t           [s] finite
  *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps is reached, or each of 10000 steps in
- *           a row was shorter than 1e-9 / r, where r is the rate of the motion),
- *           BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK,
- *           BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break), BAUM_ERR_MEMORY */
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps is reached, or 10000 variable steps
+ *           in a row were shorter than 1e-9 / r on average, where r [1/s] is the rate of the
+ *           motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
+ *           BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break),
+ *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
 /** Take whole steps forward, up to the end of the last one.
@@ -278,6 +286,14 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
  *  signal handler.
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
+
+/** Change the option progress_interval. The progress function may call this, too, for example to be
+ *  called after every step from now on.
+ *  @param simulation  the run
+ *  @param interval    [s] of wall time, >= 0, finite
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
+                                                           double interval);
 
 /** Replace time and state; multistep methods restart. If the state violates the constraints no more
  *  than the run already does, it is taken as it is; otherwise the option `start` decides what
@@ -348,8 +364,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 
 /* ---- save and restore ------------------------------------------------------------------------ */
 
-/** Save a run into memory: time, q, v, grid, gains in use, inputs and schedules, laws of drivers,
- *  counters, warnings and energy account.
+/** Save a run into memory: time, q, v, grid of the steps, gains in use, inputs and schedules, laws
+ *  of drivers, counters, warnings and energy account.
  *
  *  Integrator history and pivots are not saved. Saving discards them just as restoring does, so
  *  both runs continue identically, bit for bit. Multistep and variable-step methods therefore
@@ -363,8 +379,9 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param      simulation  the run
  *  @param[out] buffer      (capacity) of any alignment. NULL: only size is written, and the run
  *                          does not change.
- *  @param      capacity    [byte] at least the size that NULL gives. This size is constant during a
- *                          run, plus 32 bytes for each time of a schedule.
+ *  @param      capacity    [byte] at least the size that a call with NULL writes. This size is
+ *                          constant during a run, except that each time of a schedule adds 32
+ *                          bytes.
  *  @param[out] size        [byte] number of bytes written; with NULL the largest number needed
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
@@ -378,8 +395,8 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account
  *  are the same. It cannot check user functions: they must be the same, and the state that they
  *  keep is not saved. Gains and redundant rows chosen at the start are those of the saved run.
- *  Restoring allocates only if the saved run has set drivers, has longer schedules or omits other
- *  rows than this run.
+ *  Restoring allocates memory only if drivers were set in the saved run, or if it has longer
+ *  schedules or omits other redundant rows than this run.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least what baum_simulation_save() wrote
@@ -417,12 +434,13 @@ typedef enum baum_quantity {
   /** Planar body: x, y of `point`, angle (3). Spatial body: x, y, z of `point`, quaternion (7).
    *  Other bodies: their q. */
   BAUM_BODY_POSE = 8,
-  /** The velocities of BAUM_BODY_POSE. Spatial body: the angular velocity in ground axes (6). */
+  /** The velocities of BAUM_BODY_POSE. Spatial body: velocity of `point` and angular velocity, both
+   *  in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
   /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. User constraints,
    *  gears, couplings: -J^T lambda on the velocities of their bodies. */
   BAUM_JOINT_REACTION = 10,
-  /** Coordinate of a joint that has one, and joint velocity (2). */
+  /** Coordinate of a joint that has one, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
   BAUM_BODY_ACCELERATION = 12, /**< The derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] of the driver `joint` on the coordinate it prescribes (1). Times the
@@ -434,7 +452,7 @@ typedef enum baum_quantity {
   BAUM_ENERGY_ACCOUNT = 14
 } baum_quantity;
 
-/** A group of columns. All channels of an array have the same struct_size. */
+/** What to record: a group of columns. All channels of an array have the same struct_size. */
 typedef struct baum_channel {
   size_t struct_size;     /**< Set by the default. Do not write. */
   baum_quantity quantity; /**< What it records. Default: 0, must be set. */
@@ -499,7 +517,7 @@ static inline baum_channel baum_channel_of_joint(baum_quantity quantity, baum_jo
   return channel;
 }
 
-/** Count the columns of some channels together.
+/** Count the columns of all given channels.
  *  @param     mechanism  frozen
  *  @param[in] channels   (count) May be NULL if count is 0.
  *  @param     count      [-] >= 0
@@ -509,8 +527,8 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 
 /** Determine which multipliers are unique at the present state. With redundant rows, joints can
  *  share forces in more than one way. BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then
- *  report the multipliers of least norm, in rows scaled by M; they balance the forces to a relative
- *  1e-9.
+ *  report the multipliers of least norm, with lambda_i multiplied by |row i of J M^-1/2|. They
+ *  balance the forces to a relative 1e-9.
  *  @param      simulation  the run
  *  @param[out] unique      (nc) per row, true if its multiplier is unique
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
@@ -549,7 +567,7 @@ typedef struct baum_counters {
   size_t struct_size; /**< Set by baum_simulation_counters(). */
   int64_t steps;      /**< [-] accepted. */
   int64_t rejected;   /**< [-] steps that failed an error test or an iteration. */
-  /** [-] shorter steps of a fixed-step method to a target off its grid. */
+  /** [-] shorter steps of a fixed-step method to a requested time off its grid. */
   int64_t short_steps;
   /** [-] evaluations of the equations of motion, (7) or the residual of an implicit method. */
   int64_t evaluations;
@@ -561,7 +579,7 @@ typedef struct baum_counters {
   int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
   int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
-  double wall;                  /**< [s] inside advance_to, step and sample. */
+  double wall;                  /**< [s] wall time inside advance_to, step and sample. */
   double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
@@ -570,11 +588,11 @@ typedef struct baum_counters {
    *  Euler methods with stable gains of at least 0.1/h, otherwise NaN. */
   double predicted_phi;
   double predicted_phi_rate; /**< [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|. */
-  /** [J] change of kinetic and potential energy since the start, including the work of drivers,
-   *  inputs and dampers. */
+  /** [J] change of kinetic plus potential energy since the start. It is not only the error of the
+   *  method: the work of drivers, inputs and dampers also changes this energy. */
   double energy_change;
   /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad,
-   *  before drivers are followed to where they begin. */
+   *  without the motion of drivers to their initial values. */
   double start_change;
   double alpha; /**< [1/s] in use. */
   double beta;  /**< [1/s] in use. */
@@ -586,7 +604,7 @@ typedef struct baum_counters {
    *  spectral_radius is. */
   double damping;
   int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
-  /** [-] the part of these intervals after which the motion is or may be on another branch. */
+  /** [-] near-singular intervals after which the motion is or may be on another branch. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration, taken regardless of their error
    *  estimate. */
@@ -597,8 +615,9 @@ typedef struct baum_counters {
   int64_t doubts; /**< [-] kinds of warnings that doubt the motion. */
   /** [-] largest estimated global error of the positions since the start: lengths relative to the
    *  characteristic length, angles in radians. It is 0 while the local errors of fixed steps are
-   *  negligible. It is NaN with variable steps without the option error_check, and if the estimate
-   *  would cost more than the run. */
+   *  negligible. NaN: unknown, because inputs change every few steps, or because the estimate
+   *  failed or would cost too much. With variable steps it is NaN without the option error_check,
+   *  except after a singularity crossing at a loose tolerance. */
   double error_estimate;
 } baum_counters;
 
@@ -610,8 +629,9 @@ typedef struct baum_counters {
 BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                               size_t caller_size);
 
-/** Where the energy of a run came from since its start or the last baum_simulation_set_state();
- *  setting inputs and drivers does not reset it. Positive work adds energy to the mechanism.
+/** Where the energy of the mechanism came from since the start of the run or the last
+ *  baum_simulation_set_state(); setting inputs and drivers does not reset the account. Positive
+ *  work adds energy to the mechanism.
  *
  *  The residual is the energy error of the method. It falls with the step at the order of the
  *  method, or with the tolerance. If an evaluation fails, the account ends with a warning, and
@@ -663,11 +683,11 @@ typedef enum baum_branch {
   BAUM_BRANCH_UNKNOWN = 3 /**< The steps do not allow a decision. */
 } baum_branch;
 
-/** An interval in which a run was near a singular configuration. Its pivot is the smallest pivot of
- *  the equations of motion, relative to the largest such value of the run so far. It falls with the
- *  square of the distance from a singular configuration. The run lists an interval after leaving
- *  it, if the pivot was below 1e-3, or so small that the constraint violation can have caused
- *  it. */
+/** An interval in which a run was near a singular configuration. The pivot of a state is the
+ *  smallest pivot of the equations of motion, relative to the largest such value of the run so far.
+ *  It falls with the square of the distance from a singular configuration. In the interval the
+ *  pivot is below 0.02, possibly only inside one step. After leaving the interval, the run lists it
+ *  if the pivot fell below 1e-3, or stayed above only because of the constraint violation. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
@@ -697,7 +717,7 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1,    /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2,             /**< The stability of the gains is not known. */
-  BAUM_WARNING_NOISY_DERIVATIVES = 3, /**< rtol is below the error of differences. */
+  BAUM_WARNING_NOISY_DERIVATIVES = 3, /**< rtol is below the error of difference quotients. */
   BAUM_WARNING_INDEX3 = 4,            /**< IDA at index 3: for comparison only. */
   BAUM_WARNING_LOOSE_VELOCITIES = 5,  /**< Ill-conditioned rows hardly determine the velocities. */
   BAUM_WARNING_ENERGY_ACCOUNT = 6,    /**< The energy account has ended. */

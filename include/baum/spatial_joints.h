@@ -148,8 +148,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
 /* ---- cylindrical joint ----------------------------------------------------------------------- */
 
 /** body_b slides along an axis of body_a and rotates about it. Four rows: axes are parallel [-],
- *  points on one line along the axis [m]. Its coordinates are the displacement of body_b's point
- *  along the axis [m] and the angle about the axis [rad], 0 in the design configuration. */
+ *  both points are on one line parallel to the axis [m]. Its coordinates are the displacement of
+ *  body_b's point along the axis [m] and the angle about the axis [rad], 0 in the design
+ *  configuration. */
 typedef struct baum_spatial_cylindrical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -193,8 +194,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
 /* ---- prismatic joint ------------------------------------------------------------------------- */
 
 /** body_b slides along an axis of body_a and does not rotate relative to body_a. Five rows: axes
- *  are parallel [-], points on one line along the axis [m], no rotation about the axis [-]. Its
- *  coordinate is the displacement of body_b's point along the axis [m]. */
+ *  are parallel [-], both points are on one line parallel to the axis [m], no rotation about the
+ *  axis [-]. Its coordinate is the displacement of body_b's point along the axis [m]. */
 typedef struct baum_spatial_prismatic_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -239,8 +240,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
 
 /** body_b moves in a plane of body_a, whose normal is the axis. Three rows: normals are parallel
  *  [-], body_b's point is in the plane [m]. Its coordinates are the displacements x and y of
- *  body_b's point in the plane [m], y perpendicular to x, and the angle about the normal [rad], 0
- *  in the design configuration. */
+ *  body_b's point in the plane [m] and the angle about the normal [rad], 0 in the design
+ *  configuration. The direction of y is the cross product of normal and x. */
 typedef struct baum_spatial_planar_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -286,7 +287,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
 
 /* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
-/** Points coincide, and the relative orientation is that of the design configuration. Six rows:
+/** The points coincide, and the relative orientation is that of the design configuration. Six rows:
  *  three [m], three [-]. */
 typedef struct baum_spatial_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */

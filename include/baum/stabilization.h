@@ -3,14 +3,16 @@
  *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and their stability
  *  with each integrator.
  *
- *  The integrator treats Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) in the same way as the motion.
- *  Whether a violation decays therefore depends on the method and on (alpha h, beta^2 h^2). The
- *  functions below compute it. They need no mechanism, allocate nothing and may be called from any
- *  thread.
+ *  Gains make constraint violations follow Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6), which the
+ *  integrator solves together with the motion. A violation is a sum of modes, and each step h
+ *  multiplies a mode by z, a root of the characteristic equation of the method. The *spectral
+ *  radius* is the largest |z|; violations decay if it is below 1. It depends on the method and on
+ *  the point (alpha h, beta^2 h^2). The points where violations decay are the *region of stability*
+ *  of the method. The functions below compute it. They need no mechanism, allocate nothing and may
+ *  be called from any thread.
  *
- *  "No region" below means that stability does not depend on these two numbers: the method chooses
- *  its step, or it needs no gains.
- */
+ *  "No region" below means that the method has no such region: it always chooses its step (CVODE
+ *  and IDA), or it needs no gains. */
 #ifndef BAUM_STABILIZATION_H
 #define BAUM_STABILIZATION_H
 
@@ -36,7 +38,7 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Both roots z are zero; fixed step only. */
-  /** alpha = beta in proportion to the angular velocity of the motion, with an upper limit. */
+  /** alpha = beta in proportion to the angular velocity of the motion, up to a limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Least spectral radius; fixed step only. */
 } baum_gain_rule;
@@ -48,23 +50,23 @@ typedef struct baum_gains {
 } baum_gains;
 
 /* The comment of each rule states where it is stable, which violation it leaves, and its effect on
- * accuracy and cost. The figures are those of a pendulum of 1 m released level, over 1 s with h =
- * 0.0025 s; docs/theory/gain_rules.md has more. */
+ * accuracy and cost. The figures were measured with a pendulum of length 1 m that is released from
+ * the horizontal and runs for 1 s with h = 0.0025 s; docs/theory/gain_rules.md has more. */
 
 /** Given gains. A fixed-step method is stable if (alpha h, beta^2 h^2) lies in its region, a
  *  variable-step method if alpha >= 0.618 beta. With alpha = beta a violation decays as exp(-alpha
- *  t). Each step adds violations. With the Euler methods these are |Phi'| of about h |gamma| / 2
- *  and |Phi| of about h |gamma| / alpha; with other methods they fall with h at the order of the
- *  method. The method keeps its order, because the gains do not grow as h shrinks. Up to alpha h =
- *  0.3 the gains cost nothing; above, the cost of an explicit variable-step method grows in
- *  proportion to alpha.
+ *  t). Each step adds a new violation. With the Euler methods, |Phi'| remains at about h |gamma| /
+ *  2 and |Phi| at about h |gamma| / alpha; with other methods violations fall with h at the order
+ *  of the method. The method keeps its order, because the gains do not grow as h shrinks. Up to
+ *  alpha h = 0.3 the gains cost nothing; above, the cost of an explicit variable-step method grows
+ *  in proportion to alpha.
  *  @param alpha,beta  [1/s] >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
-/** Gains relative to the step, stable in the region of the method. Both Eulers leave |Phi'| = h
- *  |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|. Runge-Kutta methods lose order as
- *  with baum_gains_deadbeat(), for the same reason.
+/** Gains relative to the step, stable in the region of the method. With the two Euler methods,
+ *  |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma| remain. Runge-Kutta
+ *  methods lose order as with baum_gains_deadbeat(), for the same reason.
  *  @param alpha_h   [-] alpha h >= 0
  *  @param beta2_h2  [-] (beta h)^2 >= 0
  *  @return  the rule */
@@ -77,52 +79,55 @@ BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
-/** Gains of an oscillator, otherwise as baum_gains_fixed(). BDF and IDA may not damp below a
- *  damping ratio of 0.618.
+/** Gains given by the natural frequency and the damping ratio of (6); otherwise as
+ *  baum_gains_fixed(). With damping ratios below 0.618, CVODE BDF and IDA may not damp violations.
  *  @param hertz          [Hz] > 0, natural frequency
  *  @param damping_ratio  [-] > 0, 1 is critical
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Both roots z are zero, the fastest possible decay: a violation vanishes after at most two steps.
- *  Explicit Euler: alpha = beta = 1/h. Semi-implicit Euler: alpha = 1/(2h), beta = 1/h. RK2: alpha
- *  = 1/h, beta = sqrt(2)/h. Other Runge-Kutta methods: a zero of their stability polynomial. Both
- *  Eulers leave |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma| (semi-implicit: half of it).
+/** Gains for which both roots z are zero. This is the fastest possible decay: a violation vanishes
+ *  after at most two steps. Explicit Euler: alpha = beta = 1/h. Semi-implicit Euler: alpha =
+ *  1/(2h), beta = 1/h. RK2: alpha = 1/h, beta = sqrt(2)/h. Other Runge-Kutta methods: a zero of
+ *  their stability polynomial. With the two Euler methods, |Phi'| = h |gamma| / 2 and |Phi| = h^2
+ *  |gamma| remain (semi-implicit Euler: half of this |Phi|).
  *
  *  Runge-Kutta methods lose their order, because the gains grow as the step shrinks: orders 2, 3,
  *  4, 5, 8 become 1, 2, 2, 3, 2, and errors are 800 times (RK2) to 4000 times (RK4) as large as
- *  without gains. The Eulers remain of order 1. Fixed step only. Multistep methods have no such
- *  point and refuse the rule.
+ *  without gains. The Euler methods remain of order 1. Fixed step only. Multistep methods have no
+ *  dead-beat point and refuse the rule.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
 /** Gains alpha = beta, constant during a run, in proportion to the mean angular velocity max(|v|/L,
  *  sqrt(|a|/L)) over the first radians of the motion. L is the characteristic length.
  *
- *  Factor on that angular velocity if degrees of freedom are left: 0.35 at a fixed step (RK2 0.05
- *  to keep its order; the Eulers and Adams-Bashforth 0.2), 0.25 for CVODE and IDA, 0.1 for explicit
- *  variable-step methods, whose steps are longer. If drivers prescribe the whole motion: 0.6 at a
- *  fixed step, 2 at variable steps, 40 for CVODE and IDA, whose matrices include the gains.
+ *  The gains are this angular velocity times a factor. At a fixed step the factor is 0.35 for
+ *  Runge-Kutta methods, but 0.05 for RK2, so that it keeps its order, and 0.2 for Euler and
+ *  Adams-Bashforth methods. At variable steps it is 0.25 for CVODE and IDA, and 0.1 for explicit
+ *  methods, whose steps are longer. If drivers prescribe the whole motion, the factor is 0.6 at a
+ *  fixed step, 40 for CVODE and IDA, whose matrices include the gains, and 2 for explicit methods
+ *  at variable steps.
  *
  *  Limit: alpha h is at most 0.3 and at most half of the method's stability limit, so the gains are
  *  stable. Violations stay at about the local error of a step and decay over some radians. The
  *  method keeps its order, and the cost is that of a run without gains.
  *
  *  The angular velocity comes from a pilot run of 5 steps and 14 evaluations when the run is
- *  created; the counters include it. With degrees of freedom left it is at least sqrt(g/L), the
- *  angular frequency of a pendulum of length L. If the pilot run fails, its part before the failure
- *  is used. A mechanism at rest in equilibrium gets sqrt(g/L). Without gravity it gets alpha =
- *  0.01/h, or 1 1/s at variable steps, which only suits machines with time scales of seconds.
- *  docs/theory/gain_rules.md compares other factors.
+ *  created; the counters include it. If the pilot run fails, the part before the failure is used.
+ *  For mechanisms with degrees of freedom, and for those at rest in equilibrium, the angular
+ *  velocity is at least sqrt(g/L), the angular frequency of a pendulum of length L. At rest in
+ *  equilibrium without gravity, alpha is 0.01/h, or 1 1/s at variable steps, which only suits
+ *  machines with time scales of seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
-/** The point of least spectral radius: the dead-beat point if the method has one, otherwise alpha =
- *  beta = 2/(3h) with radius 0.58 for AB2, and radius 0.69 for AB3 and 0.81 for AB4. It is the
- *  default for AB2 to AB4, whose violations it makes 10 to 100 times smaller than auto. AB2 to AB4
- *  keep their order, because they have no stages between steps; their errors are 1.3 times (AB3) to
- *  8 times (AB2, AB4) as large as without gains. Other methods above order 1 lose order, see
- *  baum_gains_deadbeat(). Fixed step only.
+/** Gains of least spectral radius: the dead-beat point if the method has one. AB2 to AB4 have none.
+ *  For AB2 these gains are alpha = beta = 2/(3h), with spectral radius 0.58; AB3 and AB4 have the
+ *  radii 0.69 and 0.81. The rule is the default for AB2 to AB4. It makes their violations 10 to 100
+ *  times smaller than auto does. AB2 to AB4 keep their order, because they have no stages between
+ *  steps; their errors are 1.3 times (AB3) to 8 times (AB2, AB4) as large as without gains. Other
+ *  methods above order 1 lose order, see baum_gains_deadbeat(). Fixed step only.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_best_damping(void);
 
@@ -150,7 +155,7 @@ typedef struct baum_amplification {
   double damping;
 } baum_amplification;
 
-/** Compute the amplification at a point of the plane of Fig. 1.
+/** Compute the amplification at a point (alpha h, beta^2 h^2), as in Fig. 1 of Flores et al.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] |alpha h|, finite
  *  @param      beta2_h2     [-] (beta h)^2, finite
@@ -163,20 +168,21 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 
 /** Describe the effect of gains with a method in words, also for a method without a region.
  *  @param integrator  may be NULL
- *  @return  static text of one or two messages; NULL for NULL */
+ *  @return  static text; NULL for NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
 /** Find the largest alpha h up to which alpha = damping_ratio x beta is stable.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
- *  @param[out] alpha_h [-] the first instability from 0 on; 0 if small gains are unstable.
- *  baum_stability_intervals() finds stable intervals beyond it.
+ *  @param[out] alpha_h        [-] the first instability from 0 on; 0 if small gains are unstable.
+ *                             baum_stability_intervals() finds stable intervals beyond it.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
 
 /** Find all intervals of alpha h in which alpha = damping_ratio x beta is stable. Most methods have
- *  one, from 0. Gaps and islands narrower than 1 % of their alpha h may be missed.
+ *  one interval, which begins at 0. Intervals, and gaps between them, may be missed if they are
+ *  narrower than 1 % of their alpha h.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] of the arrays; >= 0
@@ -217,8 +223,8 @@ BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, 
  *  distance is within 1 % of the least.
  *  @param      integrator                  the method
  *  @param      alpha_h,beta2_h2            [-] finite, the requested point
- *  @param[out] good_alpha_h,good_beta2_h2  [-] the nearest good point; the requested point if it is
- *                                          good
+ *  @param[out] good_alpha_h,good_beta2_h2  [-] the nearest such point; the requested point if its
+ *                                          spectral radius is <= 0.9
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
                                             double beta2_h2, double *good_alpha_h,
@@ -226,9 +232,9 @@ BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, d
 
 /** Compute spectral radii on a rectangular grid of the plane.
  *  @param      integrator    the method
- *  @param      alpha_h       [-] (2) first and last column, finite
- *  @param      beta2_h2      [-] (2) first and last row, finite
- *  @param      columns,rows  [-] >= 1; a single one is at the first value
+ *  @param      alpha_h       [-] (2) alpha h of the first and last column, finite
+ *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and last row, finite
+ *  @param      columns,rows  [-] >= 1; a single column or row is at the first value
  *  @param[out] radius        [-] (rows x columns) row-major; infinite if it overflows
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],
@@ -236,12 +242,13 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
                                          double *radius);
 
 /** Trace the outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at
- *  most a given number: 1 gives the region of stability, less a contour of damping.
+ *  most a given number. The number 1 gives the region of stability; a smaller number gives the
+ *  region where violations decay at least that fast.
  *
- *  Every part of the region, and every hole, is a closed curve that repeats its first point, with
- *  the region on its right. One point of NaNs separates curves. The points lie on the contour, or
- *  on the axes where these cut the region off. Parts smaller than about a hundredth of the whole
- *  may be missed. Uses 30 kB of stack.
+ *  A closed curve, which repeats its first point, bounds each part of the region and each hole in
+ *  it. The region is on the right of the curve. One point of NaNs separates curves. The points lie
+ *  where the spectral radius has the given value, or on an axis where the axis bounds the region.
+ *  Parts smaller than about a hundredth of the whole may be missed. Uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
  *  @param      capacity          [-] of the arrays; >= 0. 2000 is enough for every method here.

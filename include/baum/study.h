@@ -56,7 +56,7 @@ BAUM_API void baum_study_destroy(baum_study *study);
 /** Called after each entry and during the reference, by one thread at a time, which may differ from
  *  the calling thread.
  *  @param study  the study
- *  @param done number of known errors plus number of known times
+ *  @param done   number of entries whose error is known plus number of those whose time is known
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
@@ -78,7 +78,8 @@ typedef struct baum_study_options {
   double entry_limit;
   /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
   double time_budget;
-  /** Measure the work of the stabilization, at the cost of baum_energy_account. Default: true. */
+  /** Measure the work of the stabilization. This takes the additional evaluations that
+   *  baum_energy_account states. Default: true. */
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
@@ -130,7 +131,8 @@ typedef struct baum_study_grid {
    *  the motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN: 1e-13, or 1e-11 if a user
-   *  constraint has neither jacobian nor gamma, because differences are no more accurate. */
+   *  constraint has neither jacobian nor gamma, because finite differences are not more accurate
+   *  than this. */
   double finest;
   /** A first answer for about a 25th of the cost: every integrator with its default formulation (or
    *  the one above) and its default gains, at most 5 settings; `constants` is ignored.
@@ -162,8 +164,9 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
 
 /** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, and rtol of 1e-2 to 1e-14.
  *  BAUMGARTE also gets gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a
- *  period or at rtol 1e-7. Every entry should meet its tolerance or say why not. The entry limit
- *  bounds the time of tiny steps.
+ *  period or at rtol 1e-7. Every entry should either be as accurate as its setting suggests or have
+ *  a message or warning that explains why not. The entry limit bounds the CPU time of entries with
+ *  tiny steps.
  *  @param study       unchanged on failure
  *  @param integrator  NULL: all in this build that take a step or a tolerance
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
@@ -306,7 +309,7 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.
  *  NaN: unknown. error_validated is infinite if the setting fails in the validation, and NaN for
- *  entries that cost far more than others of the same accuracy. */
+ *  entries that are not validated because they cost far more than others of the same accuracy. */
 typedef struct baum_study_entry {
   size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
@@ -387,7 +390,7 @@ BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_stu
  *  @param[out] v       (nv) NaN if unknown. May be NULL.
  *  @param[out] lambda  (nc) NaN if unknown. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not computed; a study that finds all
- *           entries in its file does not compute it again) */
+ *           entries in its file does not compute the reference again) */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
                                                  double *q, double *v, double *lambda);
 
@@ -427,7 +430,7 @@ typedef struct baum_study_method {
   int32_t entries;                   /**< [-] number of entries. */
   int32_t usable;                    /**< [-] entries that are done and not `off`. */
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
-  double slope;       /**< [-] d log error / d log step or rtol where errors fall; NaN: unknown. */
+  double slope;       /**< [-] d log error / d log step, or rtol in place of step; NaN: unknown. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN: unknown. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN: unknown. */
   /** [-] geometric mean of error_validated / error over its entries; NaN if none was validated to
@@ -447,8 +450,8 @@ BAUM_API int32_t baum_study_method_count(const baum_study *study);
 BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
-/** Find the Pareto front: the entries for which no other is both cheaper and more accurate. Entries
- *  at the floor of the reference count as equally accurate.
+/** Find the Pareto front: the entries for which no other entry is both cheaper and more accurate.
+ *  Entries whose error is at the uncertainty of the reference count as equally accurate.
  *  @param      study     the study
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] of `entries`; >= 0
@@ -458,8 +461,8 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
-/** Interpolate the cost of a method at an error, on the line through the logarithms of its entries,
- *  up to one setting beyond its ends.
+/** Interpolate the cost of a method at an error, linearly in the logarithms of error and cost.
+ *  Beyond the first and last entry it extrapolates by at most the distance of two entries.
  *  @param      study   the study
  *  @param      method  0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0

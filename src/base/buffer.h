@@ -23,12 +23,12 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2
 /* Appends a text, left-aligned in a column of `width` characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 
-/* Appends a text of the user unchanged, or escaped for quotes in JSON or CSV, or for XML. Bytes
+/* Appends a user's text unchanged, or escaped for a quoted string in JSON or CSV, or for XML. Bytes
  * that are not UTF-8 become U+FFFD, and control characters become spaces. */
 typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV, BAUM_I_XML } baum_i_quoting;
 void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
-/* A number as text. The value that a function returns is valid until the end of the full
+/* A number as text. A text such as baum_i_short(x, 3).text is valid until the end of the full
  * expression. */
 typedef struct baum_i_number {
   char text[40];

@@ -10,7 +10,7 @@
 
 typedef struct baum_i_cubic_spline {
   int32_t count;        /* >= 3 */
-  const double *times;  /* (count) rising */
+  const double *times;  /* (count) ascending */
   const double *values; /* (count) */
   double *bends;        /* (count) half of each second derivative */
 } baum_i_cubic_spline;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Four numbers in two halves: one vector where the processor has it, otherwise two pairs. Moving
- * numbers between the halves is slow, so only the functions that join or split halves do so. All
- * other operations take one instruction.
+/* Four numbers in two halves: one vector if the processor has vectors of this size, otherwise two
+ * pairs. Moving numbers between the halves is slow, so only the functions that join or split halves
+ * do so. All other operations take one instruction.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H
@@ -21,13 +21,13 @@ BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *
   return _mm256_loadu2_m128d(high, low);
 }
 
-/* x and y, twice. */
+/* Return (x, y, x, y). */
 BAUM_I_INLINE baum_i_four baum_i_four_in_turns(double x, double y)
 {
   return _mm256_setr_pd(x, y, x, y);
 }
 
-/* Load the number at each of two addresses, and repeat each within its half. */
+/* Return (*low, *low, *high, *high). */
 BAUM_I_INLINE baum_i_four baum_i_four_spread(const double *low, const double *high)
 {
   return _mm256_blend_pd(_mm256_broadcast_sd(low), _mm256_broadcast_sd(high), 0xc);

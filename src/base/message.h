@@ -18,8 +18,8 @@ enum { BAUM_I_MESSAGE_SIZE = 1024 };
 /* Set this thread's message and return the status, as in `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Return from the function if a call fails. Only for places where the function owns nothing that it
- * must free. */
+/* Return from the calling function if a call fails. Only for places where the function owns nothing
+ * that it must free. */
 #define BAUM_I_TRY(call)                     \
   do {                                       \
     const baum_status baum_i_tried = (call); \

@@ -27,7 +27,7 @@ void baum_i_quaternion_log(const double p[4], double rotation[3])
   }
 }
 
-/* x = c x + s y, y = c y - s x, of three numbers each that are `stride` apart. */
+/* Set x to c x + s y, and y to c y - s x. Each has three numbers, at the distance `stride`. */
 static void rotate_pair(double c, double s, int stride, double *x, double *y)
 {
   for (int k = 0; k < 3 * stride; k += stride) {
@@ -37,8 +37,8 @@ static void rotate_pair(double c, double s, int stride, double *x, double *y)
   }
 }
 
-/* By Jacobi's rotations (1846), of which three sweeps leave rounding. Each puts the smaller moment
- * first. */
+/* Six sweeps of Jacobi's rotations (1846); about three sweeps reduce the off-diagonal entries to
+ * rounding errors. Each rotation puts the smaller moment first. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9])
 {
   static const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};

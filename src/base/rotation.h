@@ -61,8 +61,8 @@ static inline double baum_i_quaternion_length(const double p[4])
   return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
 }
 
-/* A quaternion whose length is 1 to rounding is not changed, so that reading a state and setting it
- * again changes nothing. */
+/* A quaternion whose length is 1 up to rounding is not changed, so that reading a state and setting
+ * it again changes nothing. */
 static inline void baum_i_quaternion_normalize(double p[4])
 {
   double length = baum_i_quaternion_length(p);
@@ -96,11 +96,11 @@ void baum_i_quaternion_exp(const double rotation[3], double p[4]);
 /* The rotation vector of a unit quaternion; its length is at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3]);
 
-/* Principal moments of a symmetric matrix, rising, and their axes: rows of a rotation matrix up to
- * signs. */
+/* Principal moments of a symmetric matrix in ascending order. Their axes are the rows of `axes`, a
+ * rotation matrix except for the signs of rows. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
 
-/* Set x to a unit vector orthogonal to the unit vector z, and y to z x x. */
+/* Set x to a unit vector orthogonal to the unit vector z, and y to the cross product of z and x. */
 void baum_i_complete_axes(const double z[3], double x[3], double y[3]);
 
 #endif

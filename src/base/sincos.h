@@ -2,11 +2,12 @@
 /* Sine and cosine of one angle without branches or tables, so that compilers vectorize loops over
  * angles. The error is below 1 ulp up to 1e6 rad. For larger angles callers use the C library.
  *
- *   x = n pi/2 + r + y,  |r| <= pi/4,  y the tail that r cannot hold
+ *   x = n pi/2 + r + y,  |r| <= pi/4,  y the part of the remainder that r cannot represent
  *
- * pi/2 is split into three parts of 33 bits, whose products with n (at most 20 bits) are exact, and
- * a fourth (W. J. Cody, W. Waite, 1980). Differences keep their rounding errors (D. E. Knuth,
- * 1969). The polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
+ * pi/2 is the sum of four parts. The first three have 33 bits, so that their products with n (at
+ * most 20 bits) are exact (W. J. Cody, W. Waite, 1980). The rounding errors of the differences are
+ * computed and included in r and y (D. E. Knuth, 1969). The polynomials are those of fdlibm (K. C.
+ * Ng, Sun Microsystems, 1993).
  */
 #ifndef BAUM_I_BASE_SINCOS_H
 #define BAUM_I_BASE_SINCOS_H
@@ -15,7 +16,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Largest angle for which the first two products are exact. */
+/* Up to this angle [rad], n has at most 20 bits. */
 static const double baum_i_sincos_limit = 1e6;
 
 /* Return the rounding error of rounded = a - b. */

@@ -20,14 +20,15 @@ baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *
  * stored. */
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call);
 
-/* Check that the struct_size of a caller's struct is that of this version or of an older one: a
- * whole number of words that contains at least two fields. In the message, `of` names the struct
- * (" of the options", or ""), and `start` gives the call to start from. */
+/* Check `size`, the struct_size of a caller's struct, which must be that of this version
+ * (`present`) or of an older one: a multiple of sizeof(size_t), and room for at least two fields.
+ * The message names the struct by `of` (" of the options", or "") and the call to start from by
+ * `start`. */
 baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
                                      const char *start);
 
 /* Check a caller's struct and copy it to `to`, which contains defaults. Fields that an older
- * version lacks keep them. */
+ * version does not have keep their defaults. */
 baum_status baum_i_take_sized(void *to, size_t size, const void *from, const char *call,
                               const char *of, const char *start);
 

@@ -1,26 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Formatted texts. Only the calling thread switches to the "C" locale, and only while it
- * formats. */
 #include "base/text.h"
 
-#include <locale.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { DELETE = 0x7f };
-
-int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
-{
-  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* NULL when out of memory; the
-                                                                program's locale is then used */
-  locale_t before = plain ? uselocale(plain) : (locale_t)0;
-  int length = vsnprintf(text, size, format, arguments);
-  if (plain) {
-    (void)uselocale(before);
-    freelocale(plain);
-  }
-  return length;
-}
 
 int baum_i_print(char *text, size_t size, const char *format, ...)
 {

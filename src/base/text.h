@@ -3,18 +3,13 @@
 #ifndef BAUM_I_BASE_TEXT_H
 #define BAUM_I_BASE_TEXT_H
 
-#include <stdarg.h>
-#include <stddef.h>
+#include "base/platform.h"
 
-#include "base/message.h"
-
-/* Like vsnprintf() and snprintf(), but in the "C" locale. */
-int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
-  BAUM_I_PRINTF(3, 0);
+/* Like snprintf(), but in the "C" locale. */
 int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
-/* A short text, such as a name in a message, that functions return by value. If it were larger, the
- * compiler would no longer inline functions that fail with such a text into steps. */
+/* A short text, such as a name in a message, that functions return by value. With a larger size,
+ * the compiler would no longer inline functions that use such texts in their messages. */
 typedef struct baum_i_text {
   char text[208];
 } baum_i_text;

@@ -5,6 +5,8 @@
 #ifndef BAUM_I_DRAW_DRAWING_H
 #define BAUM_I_DRAW_DRAWING_H
 
+#include <baum/draw.h>
+
 #include "base/buffer.h"
 #include "base/rotation.h"
 #include "mechanism/model.h"
@@ -174,6 +176,15 @@ void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 /* Draw a joint (number k) or a force (number joint_count + k). */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
 
+/* ---- page.c ---- */
+
+/* Copy and check a page of the caller. Sets the number of columns in its rows. */
+baum_status baum_i_page_check(const baum_mechanism *m, const baum_page *given, const char *call,
+                              baum_page *page, int *width);
+/* Return the first column of q in the rows of a checked page. */
+int baum_i_page_positions(const baum_mechanism *m, const baum_page *page);
+/* Whether a channel is a joint reaction, which is shown as an arrow. */
+bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c);
 /* ---- gaps.c ---- */
 
 /* Draw what shows that a joint is open, see docs/drawings.md. */

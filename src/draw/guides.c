@@ -42,12 +42,12 @@ static void find_guide(const baum_i_symbol *s, double margin, guide *out)
     low = fmin(low, displacement(place, &a, &b));
     high = fmax(high, displacement(place, &a, &b));
   }
-  out->half = 0.5 * (high - low) / s->drawing->unit + margin;
-  if (!isfinite(out->half)) {
+  if (!isfinite(high - low)) {
     low = high =
       displacement(place, &s->drawing->design[place->body[0]], &s->drawing->design[place->body[1]]);
-    out->half = REACH;
   }
+  /* One sample, as in a live page, does not tell how far the motion goes. */
+  out->half = motion->count > 1 ? 0.5 * (high - low) / s->drawing->unit + margin : REACH;
   out->place = *place;
   baum_i_add_scaled3(0.5 * (low + high), place->axis[0], out->place.point[0]);
   out->symbol = *s;

@@ -121,9 +121,11 @@ static baum_status take_page(const baum_page *given, const char *call, baum_page
   return baum_i_take_sized(page, sizeof *page, given, call, " of the page", "baum_page_default()");
 }
 
-static baum_status check(const baum_mechanism *m, const baum_page *page, const char *call,
-                         int *width)
+baum_status baum_i_page_check(const baum_mechanism *m, const baum_page *given, const char *call,
+                              baum_page *page, int *width)
 {
+  BAUM_I_TRY(baum_i_check_frozen(m, call));
+  BAUM_I_TRY(take_page(given, call, page));
   BAUM_I_TRY(check_given(page, call));
   BAUM_I_TRY(baum_i_check_channels(m, page->channels, page->channel_count, width));
   if (page->trace_count > 0) {
@@ -150,8 +152,7 @@ static void add_column(table *t, const double *values, int64_t stride, bool angl
   t->columns[t->column_count++] = (column){values, stride, angle, plotted};
 }
 
-/* Whether a channel is a joint reaction, which is not shown among the plots. */
-static bool is_reaction(const baum_mechanism *m, const baum_channel *c)
+bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
 {
   return c->quantity == BAUM_JOINT_REACTION &&
          m->joints[baum_i_joint_index(m, c->joint)]->type->width > 0;
@@ -177,7 +178,7 @@ static void put_reactions(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
     int width = 0;
     const baum_channel c = baum_i_channel(page->channels, k);
     (void)baum_i_check_channels(t->mechanism, &c, 1, &width);
-    if (is_reaction(t->mechanism, &c)) {
+    if (baum_i_page_is_reaction(t->mechanism, &c)) {
       int joint = baum_i_joint_index(t->mechanism, c.joint);
       const baum_i_place *at = &drawing->places[joint];
       baum_i_putf(out, "%s\n{\"joint\":\"", gap);
@@ -194,17 +195,16 @@ static void put_reactions(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
   }
 }
 
-/* Finds the first column of q in a row of samples. */
-static int find_positions(const table *t)
+int baum_i_page_positions(const baum_mechanism *m, const baum_page *page)
 {
   int place = 0;
-  for (int k = 0; k < t->page->channel_count; k++) {
+  for (int k = 0; k < page->channel_count; k++) {
     int width = 0;
-    const baum_channel c = baum_i_channel(t->page->channels, k);
+    const baum_channel c = baum_i_channel(page->channels, k);
     if (c.quantity == BAUM_Q) {
       break;
     }
-    (void)baum_i_check_channels(t->mechanism, &c, 1, &width);
+    (void)baum_i_check_channels(m, &c, 1, &width);
     place += width;
   }
   return place;
@@ -425,11 +425,10 @@ static baum_status make(const baum_mechanism *mechanism, const baum_page *page, 
 {
   baum_page checked;
   table t = {.mechanism = mechanism, .page = &checked};
-  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
-  BAUM_I_TRY(take_page(page, call, &checked));
-  BAUM_I_TRY(check(mechanism, &checked, call, &t.width));
+  BAUM_I_TRY(baum_i_page_check(mechanism, page, call, &checked, &t.width));
   baum_i_drawing drawing;
-  const baum_i_samples motion = {checked.rows + find_positions(&t), checked.count, t.width};
+  const baum_i_samples motion = {checked.rows + baum_i_page_positions(mechanism, &checked),
+                                 checked.count, t.width};
   baum_status status = baum_i_drawing_create(mechanism, &motion, &drawing);
   if (status == BAUM_OK) {
     status = put_page(&t, &drawing, out);

@@ -55,7 +55,7 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
   project(p, body, point, out);
 }
 
-static void set_view(picture *p)
+void baum_i_picture_set_view(baum_i_picture *p)
 {
   static const double plane[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   static const double TURN = -0.9, TILT = 0.45; /* [rad] view about the vertical, and down */
@@ -184,7 +184,7 @@ static void put_number(const picture *p, double x)
   baum_i_putf(p->out, "%.1f", x);
 }
 
-void baum_i_picture_put_point(const picture *p, const char *word, const double at[3])
+void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3])
 {
   baum_i_put(p->out, word);
   put_number(p, (at[0] - p->left) * p->scale);
@@ -485,37 +485,37 @@ static int sort_parts(const picture *p, order **out)
   return count;
 }
 
-static void fit(picture *p)
+void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box)
 {
-  baum_i_box box = {{INFINITY, INFINITY, 0.0}, {-INFINITY, -INFINITY, 0.0}};
   for (int k = 0; k < p->drawing->shape_count; k++) {
     if (is_shown(p, &p->drawing->shapes[k])) {
-      include_shape(p, &p->drawing->shapes[k], &box);
+      include_shape(p, &p->drawing->shapes[k], box);
     }
   }
-  if (p->drawing->shape_count == 0) {
+}
+
+void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below)
+{
+  baum_i_box box = *seen;
+  if (!(box.high[0] >= box.low[0] && box.high[1] >= box.low[1])) {
     include((const double[3]){0.0, 0.0, 0.0}, 1.0, &box);
   }
   double width = box.high[0] - box.low[0], height = box.high[1] - box.low[1];
   p->scale = fmin((WIDTH - 2.0 * MARGIN) / width, (HEIGHT - 2.0 * MARGIN) / height);
   p->left = box.low[0] - MARGIN / p->scale;
   p->top = box.high[1] + MARGIN / p->scale;
-  double size[2] = {width * p->scale + 2.0 * MARGIN, height * p->scale + 2.0 * MARGIN};
+  p->size[0] = width * p->scale + 2.0 * MARGIN;
+  p->size[1] = height * p->scale + 2.0 * MARGIN + below;
   baum_i_putf(p->out,
               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
               "viewBox=\"0 0 %.0f %.0f\" stroke-width=\".7\" stroke-linecap=\"round\" "
               "stroke-linejoin=\"round\">\n",
-              size[0], size[1], size[0], size[1]);
+              p->size[0], p->size[1], p->size[0], p->size[1]);
 }
 
-baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
-                               baum_i_buffer *out)
+baum_status baum_i_picture_put_shapes(const baum_i_picture *p)
 {
   order *orders;
-  picture seen = {.drawing = drawing, .frames = frames, .out = out};
-  picture *p = &seen;
-  set_view(p);
-  fit(p);
   const int count = sort_parts(p, &orders);
   if (count < 0) {
     return baum_i_fail_memory();
@@ -529,7 +529,25 @@ baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spati
     }
     put_shape(p, shape, orders[k].part);
   }
-  baum_i_put(p->out, count ? "</g>\n</svg>\n" : "</svg>\n");
+  baum_i_put(p->out, count ? "</g>\n" : "");
   baum_i_free(orders);
-  return p->out->failed ? baum_i_fail_memory() : BAUM_OK;
+  return BAUM_OK;
+}
+
+const char *baum_i_picture_colour(int body)
+{
+  return COLOUR[(body + COLOURS - 1) % COLOURS][1];
+}
+
+baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
+                               baum_i_buffer *out)
+{
+  picture p = {.drawing = drawing, .frames = frames, .out = out};
+  baum_i_box box = BAUM_I_EMPTY_BOX;
+  baum_i_picture_set_view(&p);
+  baum_i_picture_include(&p, &box);
+  baum_i_picture_begin(&p, &box, 0.0);
+  BAUM_I_TRY(baum_i_picture_put_shapes(&p));
+  baum_i_put(out, "</svg>\n");
+  return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }

@@ -22,16 +22,39 @@ typedef struct baum_i_picture {
   double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
   double scale;                       /* [px/m] */
   double left, top;                   /* [m] */
+  double size[2];                     /* [px] */
   baum_i_buffer *out;
 } baum_i_picture;
 
 /* ---- svg.c ---- */
+
+#define BAUM_I_EMPTY_BOX        \
+  (baum_i_box)                  \
+  {                             \
+    {INFINITY, INFINITY, 0.0},  \
+    {                           \
+      -INFINITY, -INFINITY, 0.0 \
+    }                           \
+  }
+
+/* Set the view, which needs nothing but the drawing. */
+void baum_i_picture_set_view(baum_i_picture *p);
+/* Extend a box [m] by the shapes at the frames of the picture. */
+void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
+/* Set the scale, so that the picture shows the box, and write the beginning of the SVG text.
+ * below: [px] room for texts at the bottom. */
+void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below);
+/* BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_picture_put_shapes(const baum_i_picture *p);
+/* Return the colour of a body's edge. */
+const char *baum_i_picture_colour(int body);
 
 /* Transform a point of a body to the axes right, up and towards the eye [m]. */
 void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
                             double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
+/* Write a point in these axes after the command of a path. */
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
 /* Draw an area with a thin edge. */
 void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,

@@ -21,14 +21,15 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU = 1e-10; /* relative size of S; convergence slows to this factor per step */
+/* Relative size of S. No step reduces the violation by more than this factor. */
+static const double MU = 1e-10;
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
 static const double ROUNDING = 1e-13;  /* displacement below which a violation is zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
-/* Scaled velocities below either limit are rounding errors and contradict nothing. NO_RATE is in
- * 1/s; NO_SWING is relative to the rate at which gravity swings the mechanism. */
+/* Violations of velocities below either limit are rounding errors. NO_RATE is in 1/s; NO_SWING is
+ * relative to the rate at which gravity swings the mechanism. */
 static const double NO_RATE = 1e-14;
 static const double NO_SWING = 1e-12;
 
@@ -52,8 +53,9 @@ static bool is_held(const bool *held, int i)
 
 /* ---- the matrix ---- */
 
-/* Clears the columns of held coordinates in a row. What is left is cleared, too, if it is only
- * rounding, such as that of a driver whose body has a given angular velocity about the axis. */
+/* Clear the columns of held coordinates in a row. The remaining entries are cleared, too, if they
+ * are only rounding errors, as in the row of a driver if the angular velocity of its body about the
+ * axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
 {
@@ -209,7 +211,8 @@ static baum_status fail_velocities(const assembly *s)
 
 /* ---- positions ---- */
 
-/* Count in w->phi only what shall vanish. */
+/* Subtract from w->phi the violations that shall stay, so that it contains only what must
+ * vanish. */
 static void leave(const assembly *s)
 {
   for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {
@@ -301,7 +304,8 @@ static baum_status assemble_positions(assembly *s)
   return worst_displacement(s, s->w->phi) <= CONSISTENT ? BAUM_OK : fail_positions(s);
 }
 
-/* Refuse axes that have become opposite instead of parallel, because the rows hold for both. */
+/* Refuse axes that have become opposite instead of parallel. The constraint equations cannot
+ * distinguish the two cases. */
 static baum_status check_sides(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;

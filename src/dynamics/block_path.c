@@ -21,7 +21,7 @@ static const double SETTLING = 1e-9;
 
 /* The residual is checked if inverse masses differ by more than the factor UNEVEN and the largest
  * a0 exceeds the largest a by more than the factor CANCELLED, because then digits have cancelled in
- * a = a0 - W J^T lambda. */
+ * a = a0 - W J^T lambda (W: inverse masses; a0: accelerations without constraint forces). */
 static const double UNEVEN = 1e3;
 static const double CANCELLED = 2048.0;
 

@@ -25,10 +25,10 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;              /* (even pin_count x 4) */
+  double *points;              /* (pin_count, made even, x 4) points of the pins */
   int group_count;             /* groups of joints that are not pins of the block */
   baum_i_joint_group *groups;  /* (group_count) */
-  const baum_i_joint **joints; /* memory of the groups */
+  const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
   baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) force on bodies with a constant force */
@@ -43,7 +43,8 @@ struct baum_i_block_path {
 
 /* Create a path for the rows that are omitted now. for_motion: exclude fixed bodies and the rows
  * between them. If blocks do not suit the mechanism, returns BAUM_OK with *out = NULL and the
- * reason in *verdict. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+ * reason in *verdict. Otherwise returns BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK or
+ * BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
@@ -78,7 +79,7 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const baum_i_right_side *right);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
- * motion or, if that fails, by the solver of the whole system. Also BAUM_ERR_SINGULAR,
+ * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);

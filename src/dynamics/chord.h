@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Corrections for methods that keep Phi = 0 and J v = nu. All corrections are caused by constraint
- * forces -J^T lambda with J of one configuration.
+/* Corrections for methods that enforce Phi = 0 and J v = nu. Each correction is the effect of
+ * constraint forces: -M^-1 J^T lambda, with J of one configuration.
  */
 #ifndef BAUM_I_DYNAMICS_CHORD_H
 #define BAUM_I_DYNAMICS_CHORD_H
@@ -13,17 +13,17 @@ typedef struct baum_i_chord {
   baum_i_block_path *path; /* block path that holds the factors; NULL: kkt does */
 } baum_i_chord;
 
-/* Factor at a configuration. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+/* Factor at a configuration. May also return BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_chord_begin(baum_workspace *workspace, double t, const double *q,
                                baum_i_chord *out);
 
 /* Set workspace->a to the change dq = -M^-1 J^T lambda with J dq = -Phi(t, q), for the factored M
- * and J. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * and J. May also return BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *chord, double t,
                                 const double *q);
 
 /* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). moments (nv)
- * replace the gyroscopic moments of rigid bodies, unless NULL. Also BAUM_ERR_SINGULAR,
+ * replace the gyroscopic moments of rigid bodies, unless NULL. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_hold_velocities(baum_workspace *workspace, double t, const double *q,
                                    const double *v, const double *moments, double rate);

@@ -31,7 +31,7 @@
 #include "dynamics/dynamics.h"
 
 struct baum_i_residual_matrix {
-  baum_i_compressed pattern; /* its slots belong to the entries of a walk */
+  baum_i_compressed pattern; /* its slots are in the order of the entries of a walk */
 };
 
 /* Destination of the entries of a walk. */

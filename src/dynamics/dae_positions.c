@@ -14,8 +14,8 @@
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* Step of q in the central differences of N u, relative to the scale of q. Where N is linear in q,
- * which is usual, its length does not matter. */
+/* Step of q in the central differences of N u, relative to the scale of q. If N is linear in q, as
+ * usual, the differences are exact for every step. */
 static const double STEP = 1e-5;
 
 /* The matrix while it is computed. */

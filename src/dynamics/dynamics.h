@@ -2,7 +2,7 @@
 /* Internal interface of dynamics. A workspace combines the functions of a mechanism with a solver
  * of the saddle-point system.
  *
- * Stages, each named by its arguments:
+ * Stages, with their arguments and results:
  *   position   (t, q):     frames, Phi, J, nu, M
  *   velocity   (t, q, v):  Phi' = J v - nu, gamma, g
  *   solution:              a, lambda of (5) or (7)
@@ -59,7 +59,7 @@ struct baum_workspace {
   baum_i_kkt_choice choice;
   baum_i_block_path *path;      /* NULL: kkt solves */
   baum_i_block_path *motion;    /* for all but fixed bodies; = path if there are none */
-  baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
+  baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
   bool blocks_only;             /* no other solver is allowed */
   baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
   /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
@@ -89,11 +89,11 @@ struct baum_workspace {
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) for rates of q */
-  double *rate_q; /* (mass_size) of baum_i_linearize_rate() */
+  double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
-  double *jw_q; /* (jacobian_size) */
+  double *jw_q; /* (jacobian_size) (J w)_q */
   double *jv_q; /* (J v)_q, if rows have different gains */
   double *gamma_q;
   double *gamma_v;
@@ -113,8 +113,8 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
                                     baum_workspace **out);
 
 /* Use the block solver for accelerations from now on, if it suits the mechanism. Call this after
- * the redundant rows are known. Also BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if the block solver
- * does not suit but no other solver is allowed. */
+ * the redundant rows are known. May also return BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if the
+ * block solver does not suit but no other solver is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
 /* The first function describes the solver and the reason for its choice, the second why the block
@@ -171,7 +171,7 @@ void baum_i_clear_fixed_rows(baum_workspace *workspace);
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* Set workspace->a and ->lambda to a and lambda of (7); alpha = beta = 0 gives (5). alpha is
- * negative for motion backward in time. J is set only after baum_i_need_jacobian(). Also
+ * negative for motion backward in time. J is set only after baum_i_need_jacobian(). May also return
  * BAUM_ERR_SINGULAR (the message names a joint), BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
@@ -193,7 +193,8 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 #define BAUM_I_NEAR_PIVOT 0.02
 
 /* Return the smallest pivot of the last solution, which measures the distance from a singular
- * configuration: 1 without rows, 0 if singular. The pivot falls with the square of the distance.
+ * configuration: 1 if the mechanism has no rows, 0 if it is singular. The pivot falls with the
+ * square of the distance.
  * Its size depends on mechanism and solver, so it must be compared with the usual pivot of the same
  * mechanism and solver. *joint, unless NULL, is the joint of the smallest pivot, or -1. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
@@ -201,7 +202,7 @@ double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 bool baum_i_blocks_tell(const baum_workspace *workspace);
 /* acceleration.c: find the pivot at a state without a solution. a, lambda and evaluated terms are
  * undefined afterwards. If blocks are used, the pivot is always that of the blocks, so it does not
- * jump when another solver gives the solution. Statuses of baum_i_motion(). */
+ * jump when another solver gives the solution. Returns the statuses of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
 
@@ -263,7 +264,7 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Fail likewise if a number (nv) divided by the scale of its coordinate overflows. */
+/* Fail in the same way if a value (nv), divided by the scale of its coordinate, overflows. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
 /* Fail with BAUM_ERR_NOT_FINITE. The message names the joint or body of the first number in J,
@@ -273,14 +274,14 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
 /* ---- project.c, assemble.c ---- */
 
 /* Change q, and then v, by the least change in the metric of M, so that they fulfil the constraints
- * at t. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q and v are
- * undefined. */
+ * at t. May also return BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q
+ * and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
 /* Change only v, including that of fixed bodies. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
-/* Set workspace->a to the change of v that removes Phi'. Also BAUM_ERR_SINGULAR,
+/* Set workspace->a to the change of v that removes Phi'. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);
@@ -292,11 +293,11 @@ baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const dou
                                   const double *v, double speed);
 
 /* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P is that of
- * the last acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR,
- * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE, without a message. */
+ * the last acceleration, motion or projection, which must have succeeded. May return
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE; sets no message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out (nv) to the smallest vector, in the metric of M, with J out = rows (nc). rows may be
- * workspace->work_c. Statuses as above. */
+ * workspace->work_c. Returns the same statuses. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
 /* As baum_workspace_assemble(). v may be NULL; held is (nv) flags or NULL. */
@@ -315,12 +316,12 @@ baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double 
  * same forces. BAUM_ERR_SINGULAR if they do not balance the forces; also BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
-/* Write the names of joints whose multipliers are not unique. Statuses as above; on failure text is
- * empty. */
+/* Write the names of joints whose multipliers are not unique. Returns the same statuses; after a
+ * failure the text is empty. */
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
-/* Find which multipliers are unique (nc). All are unique if no row is omitted. Statuses as
- * above. */
+/* Find which multipliers are unique (nc). All are unique if no row is omitted. Returns the same
+ * statuses. */
 baum_status baum_i_find_unique_multipliers(baum_workspace *workspace, bool *unique);
 
 /* ---- sizes of rows and states ---- */

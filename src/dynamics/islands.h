@@ -13,12 +13,12 @@ typedef struct baum_i_island {
 } baum_i_island;
 
 /* Count the islands, and describe the one with most bodies. All its numbers are 0 if there is none.
- * BAUM_OK or BAUM_ERR_MEMORY. */
+ * Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* Count the joints of each body in a new array (body_count + 1) that the caller frees. BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* Count the joints of each body in a new array (body_count + 1) that the caller frees. Returns
+ * BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
 
 #endif

@@ -14,12 +14,13 @@
  *
  * W = diag(1 / scale^2) contains no masses, because uneven masses would cause rounding errors.
  *
- * Conjugate gradients (CGLS of A. Bjorck, preconditioned by S_d) find the z that minimizes
- * |S (lambda + N z)|, where S = diag(s_i) and s_i = |row i of J M^-1/2|. The forces stay balanced
- * even if the iteration ends early.
+ * Conjugate gradients (CGLS of A. Bjorck, preconditioned by the entries of S in the rows d) find
+ * the z that minimizes |S (lambda + N z)|, where S = diag(s_i) and s_i = |row i of J M^-1/2|. The
+ * forces stay balanced even if the iteration ends early.
  *
- * If the constraints are violated, omitted rows need not depend on the others. Then only the
- * fraction of N z that keeps the balance is added, which is mostly close to 1 or close to 0.
+ * If the constraints are violated, omitted rows need not depend on the others. Then only a fraction
+ * of N z is added: the largest that keeps the forces balanced. It is mostly close to 1 or close to
+ * 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -352,8 +353,8 @@ static const double SHARED = 1e-6;
 static const double SHIFT = 1e-12;
 
 /* Set part to a generic null vector with rows scaled to displacements, and *least to the size from
- * which a component counts as non-zero. If the constraints are violated, components of other rows
- * are about as large as the relative residual of the vector. */
+ * which a component counts as non-zero. If the constraints are violated, components that should be
+ * zero are about as large as the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;

@@ -7,8 +7,9 @@
  * positive for coordinates without mass, or 1 if no coordinate has mass. All M_kk s_k^2 have the
  * same unit, so neither units nor a mixture of lengths and angles matter.
  *
- * Any positive definite W gives the same motion, because mu is zero. W only distributes the error
- * of a method among the coordinates. A constant W has no derivatives.
+ * Any positive definite W gives the same motion, because mu is zero in the exact solution. W only
+ * distributes the error of a method among the coordinates. W is constant, so that the Jacobian of
+ * the equations needs no derivatives of W.
  */
 #include <math.h>
 

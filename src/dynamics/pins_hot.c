@@ -18,7 +18,7 @@
  * odd, the last pin is in both halves and only one half is stored. This struct points to the data
  * of two pins. */
 typedef struct two_pins {
-  ptrdiff_t second; /* 1, or 0 for a single pin; a constant after inlining */
+  ptrdiff_t second; /* index of the second pin: 1, or 0 for one pin; constant after inlining */
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;
@@ -53,7 +53,7 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
 /* Compute the markers on body 0 (a) or 1 (b) of both pins. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* The body block of a planar body has the number of the body. */
+  /* Body blocks of planar bodies are numbered like the bodies. */
   return markers_on(
     &frames[(ptrdiff_t)two->pin[0].body_block[body]],
     &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],

@@ -8,16 +8,16 @@
  * rank is singular.
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
- * later rows to 1e-16 / d, so redundant rows may pass for independent ones. The rank of such a
+ * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
  * configuration is ambiguous beyond the first nearly dependent row. In this case a neighbour with a
  * clear rank decides, unless its rank is smaller, and the initial configuration counts as singular.
  * If no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
- * close to each other, and the ambiguous rank is accepted. It is also accepted from neighbours of
- * an exactly singular configuration, whose ranks may be ambiguous because the rows of long members
- * rotate only little.
+ * close to each other, and the ambiguous rank is accepted. If the initial configuration is exactly
+ * singular, ambiguous ranks of its neighbours are also accepted: they occur because the rows of
+ * long members rotate only little between the neighbours.
  *
- * A neighbour is found by a move along x, a solution of J x = nu in which all degrees of freedom
- * take part, and by assembly.
+ * To find a neighbour, the configuration is moved along x, a solution of J x = nu in which all
+ * degrees of freedom take part, and is then assembled.
  */
 #include <math.h>
 #include <string.h>
@@ -31,17 +31,19 @@ enum { NEIGHBOURS = 4 };
 /* At an assembled configuration, rounding and assembly leave dependent rows at most 1e-12 away from
  * the span of other rows. Rows farther away than RANK_TOLERANCE are independent. */
 static const double RANK_TOLERANCE = 1e-10;
-/* Rows farther away are clearly independent, and do not amplify rounding to RANK_TOLERANCE. */
+/* Rows farther away than CLEAR are clearly independent, and do not amplify rounding to
+ * RANK_TOLERANCE. */
 static const double CLEAR = 1e-5;
-/* Rows farther away are selected first. Dependent rows disagree by 1e-14 after assembly, and the
- * motion contains this error divided by the distance of the selected rows. */
+/* Rows farther away than FIRST are selected first. After assembly, dependent rows contradict the
+ * selected rows by 1e-14, and the motion contains this error divided by the distance of a selected
+ * row from the span of the others. */
 static const double FIRST = 1e-3;
-static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
+static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* relative to the scales */
 
 /* Rank at a configuration; it is clear if both numbers are equal. */
 typedef struct rank_found {
   int all;
-  int clear; /* without nearly dependent rows */
+  int clear; /* rank without nearly dependent rows */
 } rank_found;
 
 typedef struct search {
@@ -75,7 +77,8 @@ static int least_rank(const rank_found *rank)
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Whether a rank is more reliable than another. */
+/* Tell whether a rank replaces another: its certain rank is larger or, if they are equal, it has
+ * more clearly independent rows or, if these are equal, more independent rows. */
 static bool is_better(const rank_found *rank, const rank_found *other)
 {
   int more = least_rank(rank) - least_rank(other);

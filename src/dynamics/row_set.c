@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Choice of another set of independent rows when the kept rows become nearly dependent.
  *
- * Three parallel cranks out of line turn freely. But whichever row is omitted, the kept rows
- * describe a parallelogram of two cranks and a third crank held by one row, and this mechanism has
- * singular configurations of its own. Before the motion reaches these, other rows are omitted, like
- * a repartition of coordinates (Wehage and Haug 1982). Accelerations do not depend on the choice of
- * rows, but multipliers do.
+ * Example: a coupler on three parallel cranks whose pivots are not in line moves without singular
+ * configurations. But whichever row is omitted, the kept rows describe a parallelogram of two
+ * cranks and a third crank held by one row, and this mechanism has singular configurations. Before
+ * the motion reaches these, other rows are omitted, as in coordinate partitioning (Wehage and Haug
+ * 1982). Accelerations do not depend on the choice of rows, but multipliers do.
  */
 #include "dynamics/row_set.h"
 
@@ -16,9 +16,9 @@
 #include "dynamics/block_path.h"
 
 /* Limits on the distance of a row from the span of the rows selected before it, relative to its
- * length. They are tried from MOST down to WORST, by factors STEP. The best set is that of the
- * first limit at which there are as many rows as the rank. The set is well separated if this limit
- * is above LEAST. Kept rows stay in the set if they reach the limit divided by FACTOR. */
+ * length. They are tried from MOST down to WORST, by factors STEP. The first limit that yields as
+ * many rows as the rank gives the best set. The set is well separated if this limit is above LEAST.
+ * Kept rows stay in the set if they reach the limit divided by FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;
@@ -57,8 +57,8 @@ baum_status baum_i_select_rows(baum_workspace *w, double distance, int *rank)
   return BAUM_OK;
 }
 
-/* Select rows at least this far from the span of others, the kept rows first. *found: they are as
- * many as the rank. */
+/* Select rows that are at least this far from the span of the rows selected before them, beginning
+ * with the kept rows. *found tells whether their number equals the rank. */
 static baum_status select_at(baum_workspace *w, double distance, bool *found)
 {
   int rank = 0;
@@ -83,7 +83,8 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select well-separated rows, with scales in place of masses. */
+/* Select well-separated rows. Columns of J are scaled by the scales of the coordinates, not by the
+ * masses. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {
@@ -117,7 +118,7 @@ bool baum_i_rows_are_apart(baum_workspace *w, double t, const double *q)
   return found;
 }
 
-/* ---- omitted ---- */
+/* ---- omitted rows ---- */
 
 static void copy_counters(const baum_i_block_path *before, baum_i_block_path *path)
 {
@@ -245,8 +246,9 @@ static const double TIMES = 10.0;
 /* Rows shorter than this fraction of the longest row consist of rounding errors. */
 static const double EMPTY = 1e-6;
 
-/* [1/s^2] The largest of the accelerations with and without constraints, v^2, and the squared
- * gains. */
+/* [1/s^2] Return the size with which errors of accelerations are compared: the squared rate of the
+ * motion plus the squared gains, or the largest scaled acceleration without constraints if that is
+ * larger. */
 static double find_acceleration_size(const baum_workspace *w, const double *v, double alpha,
                                      double beta)
 {
@@ -282,8 +284,8 @@ static baum_status fail_contradiction(const baum_workspace *w, int row, double p
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
-/* Return |J a - r| of an omitted row, and the sum of the sizes of its terms. Its row of J is up to
- * date. */
+/* Return |J a - r| of an omitted row, where r is the right side of the row, and in *size the sum of
+ * the magnitudes of its terms. The row of J must be up to date. */
 static double find_missed(const baum_workspace *w, int row, double alpha, double beta, double *size)
 {
   const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, row)];

@@ -15,34 +15,34 @@ typedef struct baum_i_row_set {
   /* rank of J at the initial configuration, which is (nearly) singular if this is less than
    * `rank` */
   int rank_at_start;
-  int count;                      /* omitted rows */
+  int count;                      /* number of omitted rows */
   unsigned char *omitted;         /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected;        /* (nc) scratch: 1 if the row is in a new set */
-  double pivot_at_last_selection; /* relative; 0: never */
+  double pivot_at_last_selection; /* relative; 0: the last search changed the rows, or none */
 } baum_i_row_set;
 
-/* Find the rank and the omitted rows at the assembled configuration (t, q). Also
+/* Find the rank and the omitted rows at the assembled configuration (t, q). May also return
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q);
 
 /* Find the rank of J in the workspace, with columns scaled by work_v (nv) (0 for fixed bodies), and
  * mark one largest set of independent rows in `selected`. Rows that are already marked come first.
  * A row belongs to the set if its distance from the span of the rows before it, relative to its
- * length, is above `distance`. The set contains the rows of welds that fix bodies. BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE. */
+ * length, is above `distance`. The set contains the rows of welds that fix bodies. May return
+ * BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* If possible, keep a set of the same size whose rows are well separated in this configuration.
- * Call this before the block paths are created. */
+/* Keep the set of the same size whose rows are separated best in this configuration, if one is
+ * found. Call this before the block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Whether some well-separated set of rows has full rank in this configuration. The rows that are
  * omitted now do not matter. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same.
- * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED if the block solver does not suit the new set, or statuses
- * of user functions. On failure nothing changes. */
+/* Omit these rows (nc) instead of the present ones. Their number and the rank must be the same. May
+ * return BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED if the block solver does not suit the new set, or
+ * statuses of user functions. On failure nothing changes. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
 /* Omit other rows if the pivot, relative to its usual value, is poor and another set is better.

@@ -16,9 +16,9 @@ enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
-  double *full;              /* values of the form */
-  unsigned char *factor;     /* of each, as above */
-  baum_i_compressed pattern; /* (nv + nc); its slots belong to the numbers that have a factor */
+  double *full;              /* values of the matrix of `form` */
+  unsigned char *factor;     /* of each value: BY_NOTHING, ... */
+  baum_i_compressed pattern; /* (nv + nc) its slots: values except BY_NOTHING, in order */
   double *values;
   baum_i_sparse_lu *lu;
 };
@@ -40,7 +40,7 @@ static unsigned char factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of all numbers, and find the pattern of their destinations. */
+/* Set the factors of all values, and find the pattern of their destinations. */
 static baum_status find_pattern(baum_i_step_matrix *matrix, int nv)
 {
   const baum_i_compressed *full = baum_i_residual_matrix_pattern(matrix->form);

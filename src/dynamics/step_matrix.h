@@ -9,8 +9,8 @@
  *
  *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q
  *
- * If scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A.
- * Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.
+ * If the product scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O.
+ * Bauchau, A. Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H
@@ -27,12 +27,12 @@ typedef struct baum_i_step_ratios {
 
 typedef struct baum_i_step_matrix baum_i_step_matrix;
 
-/* BAUM_OK or BAUM_ERR_MEMORY. */
+/* Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out);
 void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is allowed */
 
-/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. Also BAUM_ERR_SINGULAR without a
- * message, BAUM_ERR_MEMORY. */
+/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. May also return BAUM_ERR_SINGULAR
+ * without a message, BAUM_ERR_MEMORY. */
 baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace *workspace,
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);

@@ -34,8 +34,8 @@ static double *slot(const baum_i_adams *run, int j)
 
 /* ---- one step ---- */
 
-/* Compute w_j(theta) / theta by Horner's rule. The division is compensated by the step, which is
- * theta times that of the grid. */
+/* Compute w_j(theta) / theta by Horner's rule. The caller multiplies by the actual step length,
+ * which is theta times the step of the grid and so restores the factor theta. */
 static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
 {
   int steps = table->steps;
@@ -49,8 +49,8 @@ static void find_weights(const baum_i_adams_table *table, double theta, double *
   }
 }
 
-/* Add h sum_j weights_j x_j to out (count), where x_j are the numbers of slot j from `offset`
- * on. */
+/* Add h sum_j weights_j x_j to out (count). x_j are `count` numbers of slot j, beginning at
+ * `offset`. */
 static void add_rates(const baum_i_adams *run, const double *weights, double h, int offset,
                       int count, double *out)
 {

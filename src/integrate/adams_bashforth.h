@@ -17,7 +17,7 @@ typedef struct baum_i_adams_table {
 /* Memory of a run. */
 typedef struct baum_i_adams {
   const baum_i_adams_table *table;
-  void *starter; /* of the Runge-Kutta method */
+  void *starter; /* memory of rk4, which takes the first steps */
   int nq;
   int nv;
   int ahead;     /* slot of the start of the present step; the history precedes it */

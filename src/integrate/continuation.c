@@ -2,7 +2,7 @@
 /* One step along the path q(t) of Phi(q, t) = 0 with nc = nv independent rows, so J is square. A
  * check of J refuses steps to another branch.
  *
- * Newton's method: J dq = -Phi, q moved by dq then J v = nu, J a = gamma
+ * Newton's method solves J dq = -Phi and moves q by dq. Then J v = nu and J a = gamma give v and a.
  *
  * The configuration found must lie on the branch on which the step began. Newton's method alone
  * does not ensure this: where two branches pass close to each other, a long step may end next to
@@ -136,8 +136,8 @@ static baum_status solve(const baum_i_continuation *path, const double *rows, do
 
 /* ---- Newton ---- */
 
-/* Find the largest violation as a displacement, of the active or of the omitted rows, and its
- * row. */
+/* Find the row with the largest violation, measured as a displacement, among the active rows
+ * (`kept`) or among the omitted rows. Return this violation. */
 static double violation(const baum_i_continuation *path, bool kept, int *row)
 {
   const baum_workspace *w = path->workspace;
@@ -323,8 +323,8 @@ bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configura
 
 /* ---- impasse ---- */
 
-/* Normalize the left singular vector u to max |u_i| d_i = 1. u is a system of forces in the rows
- * that hardly any inertia or constraint resists. */
+/* Normalize the left singular vector u to max |u_i| d_i = 1, where d is path->distance. u consists
+ * of constraint forces that nearly cancel: J^T u is almost 0. */
 static void normalize_left(const baum_i_continuation *path)
 {
   double largest = 0.0;
@@ -337,7 +337,8 @@ static void normalize_left(const baum_i_continuation *path)
   }
 }
 
-/* One inverse iteration: probe = J^-1 d^2 u, u = J^-T s^-2 probe normalized. */
+/* One inverse iteration: u = J^-T s^-2 probe, normalized, then probe = J^-1 d^2 u. s are the scales
+ * of the coordinates. */
 static baum_status iterate(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;

@@ -30,18 +30,18 @@ typedef enum baum_i_refusal {
 /* How a configuration was found, or why it was not. */
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
-  baum_status status; /* of BAUM_I_REFUSAL_EVALUATION and _STOP */
-  int iterations;     /* of Newton */
+  baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */
+  int iterations;     /* of Newton's method */
   double contraction; /* second correction over the first; 0 if there was one only */
   double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
-  int row;            /* of BAUM_I_REFUSAL_OMITTED */
+  int row;            /* violated row, for BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
 
-/* Memory of the steps. */
+/* Working memory of a step. */
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
-  double *distance; /* (nc) norm of each row of J times the scales */
+  double *distance; /* (nc) norm of each row of J, columns multiplied by the scales */
   double *zero;     /* (nv) */
   double *probe;    /* (nv) */
   double *image;    /* (nv) */
@@ -61,8 +61,8 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* Find J at to->q and to->t. to->q need not satisfy the constraints. The configuration can then
- * serve as `from` below. */
+/* Compute J at to->q and to->t. to->q need not satisfy the constraints. The configuration can then
+ * be `from` of baum_i_continuation_solve(). */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to);
 
 /* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. A

@@ -6,9 +6,9 @@
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
  * Adams: Adams-Moulton of orders 1 to 12 with fixed-point iteration. If there are gains, Newton's
- * iteration with their part of the Jacobian replaces it (cvode_embedded.c). BDF: orders 1 to 5 with
- * Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured in
- * the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
+ * iteration with their part of the Jacobian is used instead (cvode_embedded.c). BDF: orders 1 to 5
+ * with Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured
+ * in the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 
@@ -26,7 +26,7 @@
 /* Memory of a run. */
 typedef struct cvode_run {
   baum_i_sundials sundials;
-  N_Vector work;                  /* of the projection */
+  N_Vector work;                  /* scratch of the projection */
   SUNNonlinearSolver fixed_point; /* Adams without gains */
   baum_i_cvode_embedded embedded; /* Adams with gains */
   baum_i_cvode_newton newton;     /* BDF */
@@ -77,15 +77,15 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
 /* ---- projection ---- */
 
 /* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): After Newton's
- * iteration q and v are moved onto the constraints by the least change in the metric of M. The part
- * of the estimated error of q across the constraints is removed, because the projection also
- * removes this part of the true error:
+ * iteration q and v are moved onto the constraints by the least change in the metric of M. The
+ * component of the estimated error of q normal to the constraint manifold is removed, because the
+ * projection also removes this component of the true error:
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
  *
- * The estimated error e_v of v is not changed, because the projection does not remove all of its
- * part across the constraints: the error of q along the constraints contributes J e_v = -(J v)_q
- * e_q. If P e_v is subtracted, errors are twice as large at the same tolerance and the same cost
+ * The estimated error e_v of v is not changed, because the projection does not remove its whole
+ * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q.
+ * If P e_v is subtracted, errors are twice as large at the same tolerance and the same cost
  * (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to 1e-10).
  *
  * CVODE adds the correction to its history, so that the next prediction starts at the projected
@@ -168,7 +168,7 @@ static int attach_bdf(baum_i_sundials *sundials)
 {
   const baum_i_cvode_newton *newton = &((cvode_run *)sundials)->newton;
   void *cvode = sundials->memory;
-  /* These two calls return flags of another list. They can fail only for lack of memory. */
+  /* These two calls return CVLS flags, not CV flags. They can fail only for lack of memory. */
   bool attached = CVodeSetLinearSolver(cvode, newton->solver, newton->klu.matrix) == CVLS_SUCCESS &&
                   CVodeSetLinSysFn(cvode, build) == CVLS_SUCCESS;
   if (!attached) {

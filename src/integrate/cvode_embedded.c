@@ -6,15 +6,15 @@
  *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
  *           [ -beta^2 P   -2 alpha P ]
  *
- * where gamma is CVODE's coefficient, a fraction of the step. Without the rest, and because P P =
- * P, (I - gamma df/dy) (dq, dv) = (r_q, r_v) has the solution
+ * CVODE requires solutions of (I - gamma df/dy) (dq, dv) = (r_q, r_v), where gamma is CVODE's
+ * coefficient, a fraction of the step. Without the rest, and because P P = P, the solution is
  *
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2
  *
- * A product with P costs one substitution with the factors of the previous evaluation. If rows have
- * different gains, row i has s = 2 alpha_i gamma + (beta_i gamma)^2. Then with Q = M^-1 J^T (J M^-1
- * J^T)^-1, for which J Q = I, the solution is
+ * A product with P costs one forward and back substitution with the factors of the previous
+ * evaluation. If rows have different gains, row i has s = 2 alpha_i gamma + (beta_i gamma)^2. Then
+ * with Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, the solution is
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
@@ -133,7 +133,7 @@ int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundial
   if (flag != CV_SUCCESS) {
     return flag;
   }
-  /* This call returns flags of another list. It can fail only for lack of memory. */
+  /* This call returns CVLS flags, not CV flags. It can fail only for lack of memory. */
   return CVodeSetLinearSolver(cvode, embedded->solver, NULL) == CVLS_SUCCESS ? CV_SUCCESS
                                                                              : CV_MEM_FAIL;
 }

@@ -100,7 +100,7 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   make_right_side(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(klu->right));
   int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
   double *solution = N_VGetArrayPointer(klu->solution);
-  baum_i_rest_fixed_bodies(m, solution); /* to the last digit */
+  baum_i_rest_fixed_bodies(m, solution); /* exactly, without rounding */
   baum_i_rest_fixed_bodies(m, solution + m->nv);
   baum_i_sundials_join(klu->sundials, klu->sundials->present, solution, 1.0, change);
   memcpy(change + m->nq, solution + m->nv, (size_t)m->nv * sizeof *change);

@@ -13,15 +13,16 @@ typedef struct baum_i_cvode_newton {
   double *numbers;        /* memory of all arrays below */
   double *y;              /* (n) q, v, lambda */
   double *dy;             /* (n) q', v', 0 */
-  double *mass;           /* block values of M at the state of the matrix */
-  double *jacobian;       /* likewise J */
+  double *mass;           /* block values of M, for which the matrix was computed */
+  double *jacobian;       /* the same for J */
 } baum_i_cvode_newton;
 
 /* As baum_i_sundials_klu_open() and _close(); attach newton->solver with newton->klu.matrix. */
 baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials);
 void baum_i_cvode_newton_close(baum_i_cvode_newton *newton);
 
-/* Fill the matrix at (t, y), y = (q, v). Statuses of an acceleration. */
+/* Fill the matrix at (t, y), y = (q, v). Returns the status of baum_i_problem_acceleration() or of
+ * baum_i_sundials_klu_fill(). */
 baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, const double *y,
                                      double gamma);
 

@@ -5,8 +5,8 @@
  *   q(t + h) = q moved by h v (nq)   old velocities
  *   v(t + h) = v + h a        (nv)
  *
- * The amplification z of a violation is a root of z^2 + (2A - 2) z + (B - 2A + 1) (19), which is z
- * = R(mu) = 1 + mu.
+ * The amplification of a violation is z = R(mu) = 1 + mu (amplification.h). This is a root of the
+ * paper's polynomial (19), z^2 + (2A - 2) z + (B - 2A + 1), with A = alpha h and B = (beta h)^2.
  */
 #include "integrate/integrator.h"
 

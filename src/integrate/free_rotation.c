@@ -38,7 +38,8 @@ static void turn(double h, const double w[3], double p[4])
 }
 
 /* Turn about an axis by an angle proportional to the momentum along it. If the axis is a coordinate
- * axis of the body, rounding does not change this component, which is small in slender bodies. */
+ * axis of the body, rounding does not change the momentum along it, which is small in slender
+ * bodies. */
 static void turn_about(const double axis[3], double h, double p[4], double momentum[3])
 {
   double angle = h * baum_i_dot3(axis, momentum);

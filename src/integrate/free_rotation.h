@@ -12,8 +12,8 @@
  * 527-538). The momentum in ground axes does not change. The rotation is exact for symmetric
  * bodies, and for all bodies that rotate about a principal axis.
  *
- * I_1 is the middle moment. Axis 0 is chosen so that the term of axis 2 is the smaller one; in a
- * slender body it is the long axis.
+ * I_1 is the middle moment. Of the other two axes, axis 2 is the one with the smaller
+ * |1/I - 1/I_1|. In a slender body, axis 0 is therefore the long axis.
  */
 #ifndef BAUM_I_INTEGRATE_FREE_ROTATION_H
 #define BAUM_I_INTEGRATE_FREE_ROTATION_H
@@ -24,7 +24,7 @@ typedef struct baum_i_free_rotation {
   double axis_2[3];
   double excess_0; /* 1/I_0 - 1/I_1 */
   double excess_2; /* 1/I_2 - 1/I_1 */
-  double largest;  /* 1/I of the smallest moment */
+  double largest;  /* the largest of 1/I_0, 1/I_1 and 1/I_2 */
 } baum_i_free_rotation;
 
 baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The generalized-alpha method (J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371-375) on the
- * equations of index 3 (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; where q is no
- * vector O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137), order 2:
+ * equations of index 3 (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; for q that is
+ * not a vector: O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137), order 2:
  *
  *   M v'_1 + J^T lambda_1 = g,  Phi(t_1, q_1) = 0                                 at t_1 = t + h
  *   q_1 = q moved by x,  x = h v + h^2 ((1/2 - beta) a + beta a_1)                (nq), x (nv)
@@ -16,9 +16,9 @@
  * many steps are hardly damped.
  *
  * a is not the acceleration at t but, to second order, the acceleration at t + (alpha_m - alpha_f)
- * h. a is initialized with the acceleration at that time; otherwise the multipliers would be of
- * first order during some steps. If the length of the step changes, the difference a - v' is scaled
- * in proportion.
+ * h. a is initialized with the acceleration at that time; otherwise the multipliers of the first
+ * steps would have errors of first order. If the length of the step changes, the difference a - v'
+ * is scaled in proportion.
  *
  * The first step after every start begins at the state projected onto the constraints. Otherwise a
  * violation would cause velocities of its size divided by h, which later steps would reduce only
@@ -53,9 +53,10 @@ static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* Changes that have stopped decreasing count as rounding up to STALLED times this limit. */
 static const double STALLED = 64.0;
-/* Larger changes that have stopped decreasing, up to LARGEST_NOISE, are compared with the effect of
- * rounding errors on the solution. The rounding error of a large coordinate may be large relative
- * to the scale of a small coordinate that is coupled to it. */
+/* Larger changes that have stopped decreasing, up to LARGEST_NOISE, count as rounding up to NOISES
+ * times the change that find_noise() measures by altering all unknowns by the fraction NUDGE. The
+ * rounding error of a large coordinate may be large relative to the scale of a small coordinate
+ * that is coupled to it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
@@ -222,7 +223,7 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
     dy[i] = run->dy[i] * (1.0 + NUDGE);
   }
   memcpy(y + run->nq, run->y + run->nq,
-         (size_t)run->nv * sizeof *y); /* v depends on the other unknowns */
+         (size_t)run->nv * sizeof *y); /* v follows from the other unknowns */
   BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
   BAUM_I_TRY(baum_i_residual(w, &dae, t, y, dy, run->residual));

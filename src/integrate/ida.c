@@ -14,7 +14,7 @@
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
  *   also velocities. At index 1, tolerance_lambda adds lambda to the test. In other forms the error
  *   estimate of lambda does not decrease with the step as it should. Newton's iteration has a
- *   separate convergence test that includes multipliers (ida_newton.c); otherwise they diverge.
+ *   separate convergence test that includes multipliers (ida_newton.c). Without it they diverge.
  * - The start is consistent: q and v are projected if Phi or Phi' is among the equations and not
  *   small, and v' and lambda come from one solution of (5) or (7). IDA's own search for a
  *   consistent start can succeed with wrong accelerations.
@@ -274,7 +274,7 @@ static int attach_newton(ida_run *run)
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-/* The calls about linear solvers return flags of another list. They can fail only for lack of
+/* The calls about linear solvers return IDALS flags, not IDA flags. They can fail only for lack of
  * memory. IDA's scaling of solutions is switched off, because solve() scales them. */
 static int attach_klu(baum_i_sundials *sundials)
 {

@@ -35,7 +35,7 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
 /* Set energy and action at the start of a step from the multipliers: lambda, followed by mu for
  * GGL. Reads the weights 1 / tolerance of q and v (nq + nv), and writes the weights of lambda (nc)
- * behind them if lambda is tested. */
+ * after them if lambda is tested. */
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 

@@ -2,7 +2,7 @@
 /* Common functions of all integrators: properties, memory, accelerations and tolerances. This file
  * refers to no integrator, so a program links only the integrators that it calls.
  *
- * With the scale s_i of coordinate i (positions have scales of their own) and the rate w = 1/T, the
+ * With the scale s_i of coordinate i (q and v have separate scales) and the rate w = 1/T, the
  * tolerances are
  *
  *   position  f_q (rtol s_i + atol)
@@ -19,9 +19,10 @@
  *   Differential Equations I, 1993, III.2: the error constant). CVODE tests the first error, IDA
  *   the second. At order 5, which they nearly always use, alpha_0 is 137/60.
  * - The order is at most 5, and BDF takes up to three times the steps of Adams methods, which adds
- *   error. With a third of the tolerance, both have at most about the error of Adams methods at the
- *   same rtol, in energies, times of events and positions; without it, up to six times that error.
- *   This costs IDA 1.2 times the steps and CVODE 1.33 times (docs/theory/energy.md).
+ *   error. With a third of the tolerance, IDA and CVODE's BDF have at most about the error of Adams
+ *   methods at the same rtol, in energies, times of events and positions. Without this third, they
+ *   have up to six times that error. The third costs IDA 1.2 times the steps and CVODE 1.33 times
+ *   (docs/theory/energy.md).
  *
  * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
  * steps. */
@@ -35,7 +36,7 @@
 #include "base/text.h"
 
 /* Steps that differ by less than this fraction are treated as equal. Such a difference changes the
- * error of a step by a fraction of about 1e-6. It is far above the rounding of times. */
+ * error of a step by a fraction of about 1e-6. The fraction is far above the rounding of times. */
 static const double SAME_STEP = 1e-6;
 
 static const double BDF_PORTION = 1.0 / 3.0;

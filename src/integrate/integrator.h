@@ -33,7 +33,7 @@ typedef struct baum_i_problem {
   double tolerance_q;      /* [-] > 0, factors on rtol and atol */
   double tolerance_v;      /* [-] > 0 */
   double tolerance_lambda; /* [-] > 0; INFINITY: multipliers are not in the error test */
-  /* explicit methods with variable steps: refuse steps whose end the projection moves far */
+  /* explicit methods with variable steps: refuse a step if the projection moves its end far */
   bool distrusts_projection;
   bool stops;  /* variable step: a step ends exactly at `stop` */
   double stop; /* [s] ahead of the state by more than the rounding of times */
@@ -57,14 +57,14 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* passed to open(): the method of a family */
-  int order;                        /* 0: variable */
+  const void *table;                /* passed to open(), to select one method of a family */
+  int order;                        /* 0: variable order */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
-  baum_i_method method;             /* amplification */
-  baum_i_method_family family;      /* of methods without one */
+  baum_i_method method;             /* amplification of violations */
+  baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   double seen;                      /* BDF: tested fraction of the error that a step contributes */
-  /* both Eulers: the steady violation is (h/2)|gamma|, (alpha/beta^2) h |gamma| */
+  /* both Euler methods: steady |Phi'| = (h/2) |gamma|, |Phi| = (alpha/beta^2) h |gamma| */
   bool predicts_violation;
   /* solves the residual form with multipliers; otherwise uses accelerations or configurations */
   bool solves_residuals;

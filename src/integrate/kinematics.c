@@ -2,18 +2,18 @@
 /* Kinematics of mechanisms without degrees of freedom. Phi(q, t) = 0 determines all coordinates.
  * The method is continuation in time:
  *
- *   guess at t + h        q moved by h v + h^2 a / 2
- *   solution at t + h the configuration, its v and a (continuation.c)
- *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements
- *                         from one of them
+ *   guess at t + h:       q moved by h v + h^2 a / 2
+ *   solution at t + h:    the configuration, its v and a, found by Newton's method (continuation.c)
+ *   guess inside a step:  the polynomial of degree 5 through q, v, a at both ends of the step; its
+ *                         values are displacements from the right end
  *
  * The step length is chosen from the last step: the contraction of Newton's iteration grows with
  * the error of the guess, like h^3, and the turning of J (continuation.c) like h. Nothing is
  * integrated and no error accumulates: a requested configuration is solved to rounding for every
  * step length. Steps only ensure that the motion stays on its branch: a step that may have passed a
- * singular configuration is refused and shortened. If no step is short enough, the run ends. It
- * then is at a lock-up (a fold of the path, beyond which no configuration exists) or where branches
- * cross. */
+ * singular configuration is refused and shortened. If no step is short enough, the run ends. The
+ * mechanism is then at a lock-up (a fold of the path, beyond which no configuration exists) or
+ * where branches cross. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -27,12 +27,12 @@
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
-static const double SHRINKAGE = 0.5; /* largest factor after a refusal */
-static const double COLLAPSE = 0.1;  /* smallest factor */
+static const double SHRINKAGE = 0.5; /* largest factor on the step length after a refusal */
+static const double COLLAPSE = 0.1;  /* smallest factor on the step length */
 /* [rad] Largest rotation in a first step, approximately. */
 static const double FIRST_TURN = 0.1;
-/* The shortest step: relative to 1/rate of the motion, and as a multiple of the rounding error of
- * the time. */
+/* The shortest step is SHORTEST times 1/rate of the motion plus TIME_ROUNDINGS times the rounding
+ * error of the time. */
 static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
 /* The longest step, relative to 1/rate, for a mechanism at rest. */
@@ -82,7 +82,7 @@ static void swap(baum_i_configuration **a, baum_i_configuration **b)
   *b = kept;
 }
 
-/* work (nv). */
+/* Write to q the guess at t: `from` moved by h v + h^2 a / 2. work (nv). */
 static void extrapolate(const baum_mechanism *m, const baum_i_configuration *from, double t,
                         double *q, double *work)
 {

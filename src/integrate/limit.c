@@ -6,7 +6,7 @@
 /* [rad] Distance between states. The truncation error of the cubic is about the fourth power of
  * this distance, the rounding error 1e-16 divided by its square. */
 static const double APART = 0.003;
-/* Slowest motion for which a limit is computed, relative to the rate that gravity causes. Slower
+/* Slowest motion for which a limit is computed, relative to the rate 1/T of the problem. Slower
  * motions have no clear direction. */
 static const double SLOW = 0.1;
 

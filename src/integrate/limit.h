@@ -13,7 +13,7 @@
 #include "integrate/integrator.h"
 
 /* If the smallest pivot, relative to the usual one, is below this, the limit is more accurate than
- * the solution. This is about 0.0002 rad from the singular configuration. */
+ * the solution. The pivot has this value about 0.0002 rad from the singular configuration. */
 #define BAUM_I_PIVOT_IN_POSE 4e-8
 
 /* Find the limit (nv). room (nq + nv) is scratch memory. The workspace is left at another state.

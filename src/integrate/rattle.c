@@ -40,9 +40,10 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes of coordinates below this fraction count as rounding. Coordinates smaller than the scale,
- * as of a body at the origin, are replaced by the scale. The largest angle of a step is included
- * because rounding of the momentum rotates a slender body about its axis. */
+/* Changes of coordinates, relative to their scales, count as rounding below this fraction of the
+ * largest of three numbers: 1, the largest scaled position, and the largest angle by which a body
+ * rotates in the step. The angle is included because rounding of the momentum rotates a slender
+ * body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
 /* Changes that no longer decrease count as rounding up to this multiple of ROUNDING. */
 static const double STALLED = 256.0;
@@ -61,18 +62,18 @@ typedef struct rattle_run {
   rattle_rotation *rotations; /* (rotation_count); NULL in planar mechanisms */
   double largest_angle;       /* [rad] >= 1, h |momentum| / (smallest moment of inertia) */
   int64_t iterations;
-  double *memory;  /* all below */
+  double *memory;  /* memory of the arrays below */
   double *q;       /* (nq) end of the step */
-  double *v;       /* (nv) half velocities */
-  double *mean;    /* (nv) velocities that move q; v unless bodies rotate */
-  double *moments; /* (nv) replace gyroscopic moments at the end; NULL unless bodies rotate */
+  double *v;       /* (nv) v', velocities after the first half of the step */
+  double *mean;    /* (nv) velocities that move q; the array v unless bodies rotate */
+  double *moments; /* (nv) used in place of gyroscopic moments at the end; NULL: no body rotates */
 } rattle_run;
 
 /* ---- rotations ---- */
 
-/* Find the mean velocities of a step from its half velocities, and the moments that replace the
- * gyroscopic moments in its second half. The half velocities contain the gyroscopic moment at the
- * start, because a does; this is undone here. */
+/* Find the mean velocities of a step from v', and the moments that replace the gyroscopic moments
+ * in its second half. v' contains the gyroscopic moment at the start, because a does; here this
+ * moment is removed from the momentum. */
 static void rotate_bodies(rattle_run *run, const baum_i_state *state, double h)
 {
   memcpy(run->mean, run->v, (size_t)run->nv * sizeof *run->v);

@@ -10,15 +10,15 @@
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
  *
- * For all F_4 ... the interpolant has the values and rates of both ends. Norm and tolerances are
- * the same as for CVODE, so that rtol means the same for all methods. Extra rates of the
- * interpolant are evaluated only if a time inside the step is requested, and never affect the
- * motion.
+ * Whatever F_4 and the later terms are, the interpolant has the states and rates of both ends of
+ * the step. Norm and tolerances are the same as for CVODE, so that rtol means the same for all
+ * methods. Extra rates of the interpolant are evaluated only if a time inside the step is
+ * requested, and never affect the motion.
  *
  * Projection: the end of a step is projected before its rate is evaluated, so that the interpolant
- * ends and the next step begins at the projected state. If the error estimate needs that rate, it
- * is computed after the projection. This saves one evaluation in each step, and the projection
- * changes the state by no more than the estimate.
+ * ends and the next step begins at the projected state. If the error estimate needs that rate, the
+ * estimate is computed after the projection, so the rate is evaluated only once. This is accurate
+ * enough, because the projection changes the state by no more than the estimate.
  *
  * The end of a step is t + h after rounding, and h is then set to the difference of the rounded
  * times, so that time and motion agree. */
@@ -35,8 +35,8 @@ static const double SHARE_OF_ERROR3 = 0.01;
  * problem->distrusts_projection. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is larger. The times of its stages still
- * differ. */
+/* Shortest step, relative to the time or to T, whichever is larger. At this length the times of the
+ * stages still differ. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
@@ -203,7 +203,7 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
                                double *moved)
 {
   int nq = run->rk.nq;
-  double *before = run->dense; /* free, because it has no data of this step yet */
+  double *before = run->dense; /* scratch, because it has no data of this step yet */
   double squares = 0.0;
   memcpy(before, run->end, (size_t)nq * sizeof *before);
   baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nq);
@@ -314,9 +314,9 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
       }
     }
     if (forced || status != BAUM_OK) {
-      run->crossing.least = 0.0; /* for another reason, perhaps */
+      run->crossing.least = 0.0; /* the cause may be another: permit short steps */
     }
-    /* The error is known unless evaluations failed. */
+    /* The error determines the next length only if it is the reason of the refusal. */
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
@@ -354,7 +354,7 @@ static baum_status evaluate_extra(const baum_i_rk_adaptive *run, const baum_i_pr
   return BAUM_OK;
 }
 
-/* F of the step. */
+/* Compute F_1, F_2, ... of the interpolant. */
 static void fill_dense(const baum_i_rk_adaptive *run)
 {
   const baum_i_rk *rk = &run->rk;
@@ -387,8 +387,7 @@ static baum_status prepare_dense(baum_i_rk_adaptive *run, const baum_i_problem *
   return BAUM_OK;
 }
 
-/* Evaluate the interpolant in the nested form of the head of this file, for coordinate i of (q,
- * v). */
+/* Evaluate coordinate i of (q, v) by the interpolant's nested formula at the head of this file. */
 static double value_at(const baum_i_rk_adaptive *run, double x, int i)
 {
   int n = run->rk.size;

@@ -20,14 +20,14 @@ typedef struct baum_i_rk_pair {
   const double *error3; /* (error_count) of order 3, or NULL */
   int extra;
   const double *extra_c;   /* (extra) */
-  const double *extra_a;   /* rows of weights of all earlier rates: s + 1, s + 2, ... numbers */
+  const double *extra_a;   /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
   int dense;               /* number of F_4 ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 
 /* Memory of a run. */
 typedef struct baum_i_rk_adaptive {
-  baum_i_rk rk; /* first, for baum_i_rk_step() */
+  baum_i_rk rk; /* first member, because baum_i_rk_step() uses it */
   const baum_i_rk_pair *pair;
   baum_i_step_control control;
   double t;        /* start of the last step */
@@ -35,9 +35,9 @@ typedef struct baum_i_rk_adaptive {
   double h;        /* its signed length */
   double *end;     /* (size) (q, v) at its end */
   double *weights; /* (size) 1 / tolerance */
-  double *dense;   /* ((3 + pair->dense) x size) F of the last step */
-  bool has_step;   /* t .. weights belong to an accepted step */
-  bool has_dense;  /* F belongs to that step */
+  double *dense;   /* ((3 + pair->dense) x size) F_1, F_2, ... of the interpolant */
+  bool has_step;   /* the members from t to weights belong to an accepted step */
+  bool has_dense;  /* `dense` belongs to that step */
   bool unfinished; /* a start or step failed, so the next step restarts */
   int64_t rejected;
   int64_t forced;

@@ -6,17 +6,18 @@
 
 #include "integrate/limit.h"
 
-/* [rad] Scaled motion in a step: the least near a singular configuration (SHORT), and that of a
- * step of fixed length over it (STEP_OVER). */
+/* [rad] Scaled motion in a step. Near a singular configuration, a step that would move less than
+ * SHORT is replaced by a step that moves STEP_OVER and so passes over the configuration. */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
 /* A step over a singular configuration is refused if its error, relative to the scales, is larger
  * than this. */
 static const double LARGEST_FORCED = 0.01;
 /* A step over a singular configuration may have the error ROUNDING / p, relative to the scales,
- * with p at its start. Rounding causes this error, and gains that correct violations. For
- * n_four_bar of the catalogue with 40 windows the error times p was up to 2e-10. Refusing such a
- * step would not help, because a step from a point closer to the configuration is less accurate. */
+ * where p is the pivot at its start (see below). This error comes from rounding, and from gains
+ * that correct violations. For n_four_bar of the catalogue with 40 windows the error times p was up
+ * to 2e-10. Refusing such a step would not help, because a step from a point closer to the
+ * configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
 /* Pivots p relative to the usual one. Below PIVOT_AHEAD, the method searches for a singular
@@ -24,7 +25,7 @@ static const double ROUNDING = 1e-9;
  * the error ROUNDING / p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
-/* [rad] Distance between the two pivots from which the singular configuration is extrapolated. */
+/* [rad] Scaled motion between the two configurations whose pivots find_ahead() extrapolates. */
 static const double LOOK = 1e-4;
 
 /* If the pivot at a start is below PIVOT_OF_START, the start may be singular. The usual pivot is
@@ -32,9 +33,9 @@ static const double LOOK = 1e-4;
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a singular configuration the method is stuck after HELD successive steps or tries of less
- * than TINY radians. Otherwise steps would grow up to sixfold each; 1e8 steps of this length make
- * one radian. */
+/* Near a singular configuration, HELD successive steps or tries of less than TINY radians mean that
+ * the method is stuck: a method that is not would make each step up to six times as long as the
+ * last one. At this length one radian would take 1e8 steps. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
@@ -45,8 +46,8 @@ static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
   return fmax(rate, problem->rate);
 }
 
-/* Return the pivot of the last evaluation relative to the usual pivot, which is the largest so
- * far. */
+/* Update the usual pivot, which is the largest so far. Return the pivot of the last evaluation
+ * relative to it. */
 static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
@@ -71,8 +72,8 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
 }
 
 /* Find the usual pivot for a start in a singular configuration. The pivot at the start is nearly 0
- * and no earlier one is known, so the usual pivot is that of a later configuration. It need not be
- * exactly on the path. */
+ * and no earlier one is known, so the usual pivot is that of a later configuration. This
+ * configuration need not be exactly on the path. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -138,15 +139,16 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   crossing->over = STEP_OVER / find_rate(rk, problem);
   crossing->least = 0.0;
   if (crossing->pivot < BAUM_I_PIVOT_IN_POSE) {
-    crossing->least = crossing->over; /* whatever begins here */
+    crossing->least = crossing->over; /* no shorter step may begin here */
   } else if (crossing->pivot < BAUM_I_NEAR_PIVOT) {
     crossing->least = SHORT / find_rate(rk, problem);
   }
 }
 
-/* If the length suffices, the step is chosen so that the configuration is in the middle of the
- * widest gap between stages. Otherwise it ends where a step of this length can start to pass the
- * configuration, but is at least a fifth of the length, so that the next step can grow to it. */
+/* If the wanted length suffices, the step is chosen so that the singular configuration is in the
+ * middle of the widest gap between stages. Otherwise the step ends where a next step of the wanted
+ * length can pass the configuration. It is at least a fifth of the wanted length, so that the next
+ * step can grow to this length. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced)

@@ -15,12 +15,12 @@ typedef struct baum_i_rk_crossing {
   double gap;   /* middle of the widest gap between stages, as a fraction of the step */
   double ahead; /* [s] from the start of the step to a singular configuration; INFINITY: none is
                    near */
-  double over;  /* [s] length of a step over a configuration */
+  double over;  /* [s] length of a step over a singular configuration */
   double least; /* [s] a shorter step is replaced by `over`; 0: no singular configuration is near */
   double pivot; /* at the start of the step, relative to the usual pivot */
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
-  int held;         /* successive tiny steps near a configuration */
+  int held;         /* successive tiny steps near a singular configuration */
 } baum_i_rk_crossing;
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);

@@ -4,9 +4,9 @@
  *   v(t + h) = v + h a        (nv)
  *   q(t + h) = q moved by h v(t + h)   (nq)   new velocities
  *
- * The amplification z of a violation is a root of z^2 + (B + 2A - 2) z + (1 - 2A), which differs
- * from the polynomial (19) of explicit Euler. The dead-beat point is alpha = 1/(2h), beta = 1/h.
- * The dead-beat point of explicit Euler is unstable here.
+ * The amplification z of a violation is a root of z^2 + (B + 2A - 2) z + (1 - 2A), where A = alpha
+ * h and B = (beta h)^2. The polynomial differs from that of explicit Euler. The dead-beat point is
+ * alpha = 1/(2h), beta = 1/h. The dead-beat point of explicit Euler is unstable here.
  */
 #include "integrate/integrator.h"
 

@@ -24,7 +24,7 @@ static const double LARGEST = 6.0;
 static const double LARGEST_REFUSED = 0.9;
 static const double MEMORY = 0.1;       /* b k */
 static const double LEAST_LAST = 1e-4;  /* an error near zero is accidental and predicts nothing */
-static const double LEAST_ERROR = 1e-9; /* gives more than the largest growth */
+static const double LEAST_ERROR = 1e-9; /* any smaller error gives the largest growth, too */
 
 void baum_i_step_control_begin(baum_i_step_control *control, int order, double step)
 {

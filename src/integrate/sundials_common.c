@@ -11,7 +11,7 @@
 
 #include "base/alloc.h"
 
-/* ---- 6.4 and 7 ---- */
+/* ---- contexts and error texts of SUNDIALS 6.4 and 7 ---- */
 
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text)
 {
@@ -53,8 +53,8 @@ static int create_context(baum_i_sundials *sundials)
 /* ---- vectors ----
  *
  * SUNDIALS 6.4 clones vectors without checking for lack of memory, and after a failure at the start
- * it frees some of them twice. All vectors are therefore allocated beforehand, where lack of memory
- * becomes a status. Cloning returns the next of these vectors, destroying does nothing, and
+ * it frees some of them twice. All vectors are therefore allocated beforehand, and lack of memory
+ * is returned as a status. Cloning returns the next of these vectors, destroying does nothing, and
  * baum_i_sundials_close() frees them. A pointer to the baum_i_sundials precedes the numbers of each
  * vector. */
 

@@ -26,7 +26,7 @@ typedef struct baum_i_sundials {
   double *numbers;                           /* their memory */
   void *memory;                              /* of CVODE or IDA */
   N_Vector y;                                /* unknowns at the end of the last step */
-  N_Vector inside;                           /* interpolated */
+  N_Vector inside;                           /* unknowns at an interpolated time */
   const double *present;                     /* q of the last evaluation */
   const baum_i_problem *problem;             /* of the present call */
   bool unfinished;                           /* a start or step failed, so the next step restarts */

@@ -22,19 +22,19 @@ typedef struct baum_i_sundials_klu {
   double *defect;    /* (n) b - A x */
   double *size;      /* (n) |b| + |A| |x| */
   double *entry;     /* (n) largest entry of each row of A */
-  N_Vector right;    /* (n) for the caller */
-  N_Vector solution; /* (n) likewise */
+  N_Vector right;    /* (n) scratch for the caller */
+  N_Vector solution; /* (n) scratch for the caller */
   bool fresh;        /* pivots were chosen for the present matrix */
 } baum_i_sundials_klu;
 
-/* Call this after sundials->problem is set. BAUM_OK or BAUM_ERR_MEMORY. After a failure it must be
- * closed, too. Close it after everything that calls it, and before the baum_i_sundials. A zeroed
- * struct may be closed. */
+/* Call this after sundials->problem is set. Returns BAUM_OK or BAUM_ERR_MEMORY. Close `klu` even
+ * after a failure, after everything that calls it, and before the baum_i_sundials. A zeroed struct
+ * may be closed. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
 
-/* Compute klu->matrix at y and dy (n). Statuses of baum_i_residual_matrix_fill(). */
+/* Compute klu->matrix at y and dy (n). Returns the status of baum_i_residual_matrix_fill(). */
 baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy);
 
@@ -42,7 +42,8 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
  * may help, otherwise < 0. x and b must be different vectors. */
 int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu);
 int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
-/* The same with dq in x and q' - N v in b. c is that of the matrix. */
+/* Like baum_i_sundials_klu_solve(), but x begins with dq (nq) and b with the residual of q' - N v
+ * (nq), where the matrix has displacements (nv). c is the coefficient of the matrix. */
 int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b);
 
 /* Create a linear solver of SUNDIALS that calls these functions with `content`. Free it with

@@ -12,7 +12,7 @@
 typedef enum baum_i_kkt_effort {
   BAUM_I_EFFORT_KEEP,   /* keep the pivots of the last factorization; allocates nothing */
   BAUM_I_EFFORT_CHOOSE, /* choose pivots for the present values */
-  BAUM_I_EFFORT_CAREFUL /* choose pivots only for accuracy, if the matrix is nearly singular */
+  BAUM_I_EFFORT_CAREFUL /* choose pivots for accuracy alone; for nearly singular matrices */
 } baum_i_kkt_effort;
 
 typedef struct baum_i_kkt_ops {

@@ -9,11 +9,11 @@
 #include "base/alloc.h"
 #include "linear/block_builder.h"
 
-/* The result is refined if, at any node, det D is less than weak_pivot times the product of the
- * diagonal entries of S. The relative error of the multipliers is about the unit rounding divided
- * by this fraction, and the errors of several small pivots multiply. In long ladders the pivots
- * decrease with the number of nodes although the system is well-conditioned. With more than
- * many_nodes nodes the limit is therefore lower. */
+/* The result is refined if the pivot D (S = L D L^T) of any node has a determinant below weak_pivot
+ * times the product of the diagonal entries of S. The relative error of the multipliers is about
+ * the unit rounding divided by this fraction, and the errors of several small pivots multiply. In
+ * long ladder-like mechanisms, pivots decrease with the number of nodes although the system is
+ * well-conditioned. With more than many_nodes nodes the limit is therefore lower. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -21,7 +21,7 @@ static const double many_nodes = 128.0;
 
 /* An array and its number of doubles. */
 typedef struct array {
-  void *place; /* pointer to the pointer */
+  void *place; /* address of the pointer to the array */
   size_t count;
 } array;
 

@@ -3,15 +3,15 @@
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * The rows of J are paired into *nodes*. If a node has only one row, the second equation is 0
- * lambda = 0 with a unit pivot. The columns of J are grouped into *body blocks* of three. A planar
- * body is one body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has as many
- * body blocks as it needs; its unknowns are y = L^T a, for which W is the identity. Body block 0 is
- * the ground, with W = 0. Each body block has three numbers in arrays like motion[], in the order
- * of v, then ground, then y. A particle has only two numbers. The third number of its body block is
- * the first number of the next body block. The particle does not change that number, because W is 0
- * there. The 2 x 3 block of J of a node and a body block is a *side* of the node. The sides of a
- * pin are
+ * The rows of J are paired into *nodes*. If a node has only one row, its second multiplier is 0,
+ * with a unit pivot. The columns of J are grouped into *body blocks* of three. A planar body is one
+ * body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has as many body blocks
+ * as it needs; its unknowns are y = L^T a, for which W is the identity. Body block 0 is the ground,
+ * with W = 0. Arrays such as motion[] have three numbers for each body block: first those in v,
+ * then those of the ground, then y of the dense bodies. A particle has only two numbers. The third
+ * number of its body block is the first number of the next body block. The particle does not change
+ * that number, because its third W is 0. The 2 x 3 block of J of a node and a body block is a
+ * *side* of the node. The sides of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -40,7 +40,7 @@ typedef struct baum_i_block_layout {
   const baum_i_block_pin *pins;  /* (row_block_count) */
   const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant */
   const unsigned char *omitted;  /* (nc) or NULL, see baum_i_kkt_values */
-  /* (mass_block_count) or NULL; non-zero: the body is fixed, has a diagonal M and a = 0 */
+  /* (mass_block_count) or NULL; non-zero: the body is fixed (a = 0); its M must be diagonal */
   const unsigned char *fixed;
 } baum_i_block_layout;
 
@@ -73,15 +73,17 @@ typedef struct baum_i_side_entry {
   int32_t from[2]; /* indices in the values of J; from[1] = -1: the node has one row */
 } baum_i_side_entry;
 
-/* Two pins that are coupled through one body. */
+/* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm` are
+ * the numbers of the two arms on this body: first that of the node that is eliminated later. */
 typedef struct baum_i_pin_pair {
   int32_t off;
   int32_t arm[2]; /* of the node with the later place, and of the other */
   int32_t body_block;
 } baum_i_pin_pair;
 
-/* Two nodes that are coupled through one body block and are not both pins. side[i] >= 0 is the
- * number of a general side, and side[i] < 0 is ~number of the arm of a pin. */
+/* Two nodes that are coupled through one body block and are not both pins, or are pins that share
+ * two bodies. `side` are their sides on it: first that of the node that is eliminated later.
+ * side[i] >= 0 is the number of a general side, and side[i] < 0 is ~number of the arm of a pin. */
 typedef struct baum_i_full_pair {
   int32_t off;
   int32_t side[2]; /* of the node with the later place, and of the other */
@@ -120,8 +122,8 @@ typedef struct baum_i_block {
   int full_count;
   int side_count;
   int entry_count;
-  int alike_count;    /* pairs of pins with the arms of body a of both, or body b of both */
-  int opposite_count; /* pairs of pins with the arms of body a and body b */
+  int alike_count;    /* pairs of pins that share body a of both, or body b of both */
+  int opposite_count; /* pairs of pins that share body a of one and body b of the other */
   int first_count;
   int full_pair_count;
   int zero_count;
@@ -135,19 +137,20 @@ typedef struct baum_i_block {
   bool leaves_v; /* a body block (of a dense body or particle) has numbers outside v */
   int hub;       /* mass block with too many sides; -1: none */
 
-  unsigned char *fixed; /* (mass_block_count) W = 0 */
+  unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */
 
   baum_i_pin_node *pins;    /* (even pin_count) */
   baum_i_full_node *fulls;  /* (full_count) */
   int32_t *side_body_block; /* (side_count) */
-  /* (side_count x 2) index in J of each row; second -1: no second row; both -1: see entries[] */
+  /* (side_count x 2) indices in the values of J at which both rows of a side begin; the second is
+   * -1 if there is one row, and both are -1 if entries[] define the side */
   int32_t *side_from;
   baum_i_side_entry *entries;    /* (entry_count) */
   baum_i_pin_pair *alike;        /* (alike_count) pairs that set their block of off[] */
   baum_i_pin_pair *opposite;     /* (opposite_count) likewise */
   baum_i_full_pair *first_pairs; /* (first_count) likewise */
   baum_i_full_pair *full_pairs;  /* (full_pair_count) pairs that add to their block */
-  int32_t *zeros;                /* (zero_count) blocks to clear first */
+  int32_t *zeros;                /* (zero_count) blocks that no pair sets, to be cleared first */
   int32_t *target;               /* blocks that receive products of couplings, node after node */
   int32_t *place; /* (body_block_count) index of its first number in free[], motion[], ... */
   baum_i_dense_body *dense;       /* (dense_count) */
@@ -170,9 +173,10 @@ typedef struct baum_i_block {
   double *mass;     /* (motion_size) M, because 1 / W has rounding errors */
   double *force;    /* (motion_size) f */
   double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
-  double *pull_low; /* (motion_size) rounding errors of the sums pull[] */
-  double *rest;     /* (node_count x 2) r - J a; during a correction, the previous lambda */
-  double *rest_low; /* (node_count x 2) rounding errors of the sums rest[] */
+  double *pull_low; /* (motion_size) rounding errors of pull[] */
+  double *rest;     /* (node_count x 2) r - J a */
+  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in a correction, the previous
+                     * lambda */
 
   double *nothing;    /* (motion_size) zeros */
   const double *from; /* a0 of the present right-hand side: free or nothing */

@@ -52,15 +52,15 @@ static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body
          (body_block <= u->layout->structure->mass_block_count && fixed[body_block - 1]);
 }
 
-/* Lists the pairs of nodes that share a body block, and the blocks that must be cleared first.
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Lists the pairs of nodes that share a body block, and the blocks of off[] that no pair sets,
+ * which must be cleared. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 
 /* Lists the blocks that receive the products of a node's couplings. The f-th coupling is multiplied
  * with all couplings before it. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
-/* Sets all members of an empty block except the arrays of numbers. Statuses of
+/* Sets all members of an empty block except the arrays of numbers. Returns the same statuses as
  * baum_i_block_create(). After a failure the caller destroys the block. */
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block);
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Arithmetic of the Schur complement in blocks; block.h has the equations and the storage.
  *
- *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_2 c_n c_k^T
+ *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_1 c_n c_k^T
  *
- * where G_n is the side of node n on the body block. The factorization is a right-looking L D L^T.
- * With U = S_ik adj(D), every contribution of a pivot is a product with U times 1 / det D, so the
- * processor can divide and multiply at the same time. The right-hand side is eliminated together
- * with the matrix.
+ * where G_n is the side of node n on the body block, and W = diag(w_0, w_0, w_1). The factorization
+ * is a right-looking L D L^T. With U = S_ik adj(D), every contribution of a pivot is a product with
+ * U times 1 / det D, so the processor can divide and multiply at the same time. The right-hand side
+ * is eliminated together with the matrix.
  *
  * Refinement corrects both equations, with a as an independent unknown (J. Demmel, 1997, 2.5). This
  * restores the digits that are lost when J W J^T is computed. With t = W (f - M a - J^T lambda) and
@@ -69,7 +69,7 @@ BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 
 /* ---- off the diagonal ---- */
 
-/* w_2 n k^T, plus or minus w_0 on the diagonal. */
+/* Set the blocks of pairs of pins: w_1 n k^T + sign w_0 I. */
 static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs, int count,
                              double sign)
 {
@@ -254,7 +254,7 @@ typedef struct couplings {
   const int32_t *later;
   const double *off;
   baum_i_node *nodes;
-  ptrdiff_t end; /* end of the couplings of the next node */
+  ptrdiff_t end; /* end of the couplings of the node to be processed next */
 } couplings;
 
 /* lambda_k -= sum of L^T lambda_later */

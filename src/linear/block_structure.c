@@ -53,7 +53,8 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Diagonal body i is body block 1 + i, so a planar body and its body block have the same number. */
+/* Mass block i, if diagonal, becomes body block 1 + i. A planar body thus has the number of its
+ * body block. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
@@ -302,7 +303,7 @@ static baum_status sort_sides(baum_i_block_builder *u)
     return BAUM_ERR_MEMORY;
   }
   const baum_i_raw_side *sides = u->sides.items;
-  /* starts are one entry too far, because filling the list moves each start to the next */
+  /* shifted by one entry, because filling the list advances each start to the next one */
   int32_t *place = u->sorted_start + 1;
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].body_block + 1]++;

@@ -25,7 +25,7 @@ typedef struct search {
   int32_t *next;          /* (count) */
   int32_t *previous;      /* (count) -1: first */
   int32_t *bucket;        /* (count) */
-  int32_t *touched;       /* (count) round */
+  int32_t *touched;       /* (count) the last round in which it entered `waiting` */
   int32_t *mark;          /* (count) */
   int32_t stamp;
   int32_t round;
@@ -90,8 +90,8 @@ static void leave(search *s, int32_t node)
 
 /* ---- elimination ---- */
 
-/* Makes all neighbours of `node`, which is eliminated, neighbours of `other`, which is one of
- * them. */
+/* `node` is being eliminated, and `other` is one of its neighbours. Makes the remaining neighbours
+ * of `node` neighbours of `other`. */
 static baum_status couple(search *s, int32_t node, int32_t other)
 {
   const baum_i_vector *gone = &s->coupled[node];

@@ -4,9 +4,9 @@
  *
  * There is a ladder of factorizations, from cheap to robust:
  *
- *   KEEP keep the pivots of the last factorization
- *   CHOOSE choose pivots for the present values
- *   CAREFUL choose pivots only for accuracy
+ *   KEEP     keep the pivots of the last factorization
+ *   CHOOSE   choose pivots for the present values
+ *   CAREFUL  choose pivots for accuracy alone
  *   LAST     rank-revealing QR, least squares
  *
  * Factoring climbs this ladder until the estimated reciprocal condition number (rcond) is large
@@ -27,8 +27,8 @@ enum { MOST_REFINEMENTS = 3 };
  * counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
 /* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times its value when
- * the pivots were chosen. With such old pivots rcond shows neither the accuracy nor the distance
- * from a singular configuration. */
+ * the pivots were chosen. The rcond of such old pivots is a measure neither of the accuracy nor of
+ * the distance from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
@@ -63,7 +63,7 @@ struct baum_i_kkt {
   double *scale;
   double *b;
   double *x;
-  double *residual; /* then the correction */
+  double *residual; /* and then the correction computed from it */
   double *size;
 };
 
@@ -281,8 +281,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Tells whether all rows with a large residual are negligible. True only if no further rung can
- * help.
+/* Tells whether all rows with a large residual are negligible. False at lower rungs, where climbing
+ * may help.
  */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
@@ -297,19 +297,19 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether a least-squares solution nearly satisfies all rows. The usual test is not applied
- * then: if rows contradict each other, unknowns may be so large that rounding dominates the other
- * rows. */
+/* Tells whether a least-squares solution nearly satisfies all rows. This replaces the test for
+ * rounding level: if rows contradict each other, unknowns may be so large that rounding errors
+ * dominate the other rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
 }
 
 /* Tells whether rows contradict each other and the solver has divided by a rounding error. The
- * residual does not show this, but accelerations are then as large as division by such a pivot
- * makes them. If rows agree close to a singular configuration, multipliers may be as large, but
- * accelerations are not. If rcond is below least_rcond, only rounding separates the configuration
- * from a singular one, and large multipliers show a contradiction, too. */
+ * residual does not show this, but accelerations are then of the order of the right-hand side
+ * divided by rcond. Close to a singular configuration in which rows agree, multipliers may be as
+ * large, but accelerations are not. If rcond is below least_rcond, the matrix is singular to
+ * rounding, and multipliers of this size are a sign of contradiction, too. */
 static bool is_divided_by_rounding(const baum_i_kkt *kkt)
 {
   double rcond = present_rcond(kkt);

@@ -50,13 +50,13 @@ typedef struct baum_i_kkt_values {
 /* How far the present factorization can be trusted. */
 typedef enum baum_i_kkt_quality {
   BAUM_I_KKT_GOOD,
-  /* the matrix is close to singular, or the solution is one of least squares */
+  /* the matrix is close to singular, or the solution is a least-squares solution */
   BAUM_I_KKT_NEAR_SINGULAR,
   BAUM_I_KKT_SINGULAR /* no factorization */
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
-  int64_t factorizations;      /* refactorizations and full ones */
+  int64_t factorizations;      /* with kept or new pivots */
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t refinements;
   int64_t fallbacks; /* number of times that QR replaced an inaccurate LU */
@@ -118,10 +118,10 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 
 /* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is first multiplied by
  * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
- * at most `tolerance` of it remains after orthogonalization. independent[i] (nc) receives 1 for the
- * rows of one largest independent set, else 0. Rows with independent[i] != 0 on entry are
- * preferred, then rows with a lower number. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE.
- * Allocates. */
+ * its length is at most `tolerance` after orthogonalization against the independent rows before it.
+ * independent[i] (nc) receives 1 for the rows of one largest independent set, else 0. Rows with
+ * independent[i] != 0 on entry are preferred, then rows with a lower number. BAUM_OK,
+ * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

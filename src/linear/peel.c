@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A velocity that occurs in only one block of rows is free for that block. If the rows of a block,
  * scaled to unit length, are clearly independent in the columns of its free velocities, no
- * combination of other rows can cancel them. They are then independent of the other rows, and the
- * other rows of them. The block is removed, and its other velocities may then be free for a
+ * combination of other rows can cancel them. The rows of the block are then independent of the
+ * other rows, and vice versa. The block is removed, and its other velocities may then be free for a
  * neighbour. In this way an open chain is removed from its tip to its root, including its motors,
  * and closed loops remain. */
 #include "linear/peel.h"
@@ -20,17 +20,18 @@ enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
  * orthogonalization. The value is so large that the tolerance on the rank does not matter. */
 static const double clear = 1e-3;
 
-enum { GONE, LEFT, WAITING }; /* state of a block; WAITING includes LEFT */
+enum { GONE, LEFT, WAITING }; /* states of a block; a WAITING block is on the stack */
 
 typedef struct peeling {
   const baum_i_kkt_structure *structure;
   const double *jacobian;
   const double *column_scale;
   int *users;  /* (nv) number of blocks in which a velocity occurs */
-  int *user;   /* (nv) exclusive or of the indices of these blocks */
+  int *user;   /* (nv) exclusive or of the indices of these blocks, which is the index if there is
+                * one */
   int *state;  /* (row_block_count) */
   int *stack;  /* (row_block_count) blocks to examine */
-  int waiting; /* how many */
+  int waiting; /* number of blocks on the stack */
 } peeling;
 
 static double size_of(const double *x, int count)

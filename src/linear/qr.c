@@ -22,7 +22,7 @@
 #include "linear/pattern.h"
 #include "linear/sparse_qr.h"
 
-static const double weight_root = 0x1p-13; /* of w */
+static const double weight_root = 0x1p-13; /* square root of w */
 static const double dependent = 1e-13;
 
 typedef struct qr_backend {
@@ -146,7 +146,7 @@ static double estimate_rcond(qr_backend *qr)
 static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
                           baum_i_kkt_effort effort)
 {
-  (void)effort; /* `effort` is ignored */
+  (void)effort; /* QR has only one way to choose pivots */
   qr_backend *qr = self;
   baum_i_pattern_fill(&qr->pattern, values, scale, weight_root);
   qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->pattern.matrix, dependent, NULL);

@@ -13,7 +13,7 @@
 /* J^T in compressed columns. */
 typedef struct transposed {
   unsigned char *peeled; /* (nc) 1: row of J that peel.c removed; it has no entries here */
-  int32_t *order;        /* (nc) of preference */
+  int32_t *order;        /* (nc) rows of J, preferred ones first */
   int32_t *start;        /* (nc + 1) */
   int32_t *velocity;     /* (start[nc]) */
   double *value;         /* (start[nc]) */

@@ -12,9 +12,10 @@
  * relative size eps^2, which remain after one refinement, are always compared in this way, and rows
  * of relative size eps only by baum_i_residual_is_noise(). A residual below eps^2 of the largest
  * row always passes, because rows that differ from zero only by rounding, such as those of a guide
- * along an axis of the ground, cannot be solved more accurately. In baum_i_residual_is_noise() it
- * may be eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest row,
- * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). */
+ * along an axis of the ground, cannot be solved more accurately. In baum_i_residual_is_noise(),
+ * this limit is eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest
+ * row, gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2).
+ */
 #include "linear/residual.h"
 
 #include <float.h>

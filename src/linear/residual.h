@@ -10,7 +10,8 @@
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 
-/* Tells whether each |residual_i| is a few units of rounding of its own size_i. False for NaN. */
+/* Tells whether each |residual_i| is at most a few units of rounding of its own size_i. False for
+ * NaN. */
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size);
 

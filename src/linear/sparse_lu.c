@@ -3,7 +3,8 @@
  *
  * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK with a useless result
  * if pivots have become small since they were chosen. klu_rcond, the ratio of the smallest to the
- * largest pivot, then falls. For new pivots any ratio is accepted. */
+ * largest pivot, then falls. New pivots are accepted whatever their ratio is.
+ */
 #include "linear/sparse_lu.h"
 
 #include <stdbool.h>
@@ -13,13 +14,13 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* New pivots are chosen if the ratio has fallen to this fraction of its value when the pivots were
- * chosen. */
+/* New pivots are chosen if klu_rcond has fallen to this fraction of its value when the present
+ * pivots were chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* KLU takes a pointer to non-const but does not change them */
+  int32_t *columns; /* not const, because KLU requires this, but KLU does not change them */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;

@@ -26,13 +26,13 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
  * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
-/* A diagonal entry is the pivot if it is at least this fraction of the largest entry of its
- * column. */
+/* A diagonal entry is chosen as the pivot if it is at least this fraction of the largest entry of
+ * its column. */
 #define BAUM_I_USUAL_THRESHOLD 0.001
 
 /* The two parts of factoring, for a caller that decides when pivots are chosen. _keep() requires
- * pivots and returns BAUM_OK, even if they have become useless, or BAUM_ERR_SINGULAR. _choose()
- * returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * pivots chosen earlier and returns BAUM_OK, even if they have become useless, or
+ * BAUM_ERR_SINGULAR. _choose() returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values);
 baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold);
 

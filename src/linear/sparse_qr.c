@@ -10,8 +10,8 @@
  * another column j of that row (Liu 1986). A chain of columns and parents whose rows of R have
  * nearly the same pattern is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
  * 2011). The columns of the chain are the pivots of the front. A front consists of the rows of A
- * that begin with one of its pivots, and of the rows that remain from the fronts below it in the
- * tree. Rows are ordered by the column with which they begin:
+ * that begin with one of its pivots, and of the rows that its child fronts pass on. Rows are
+ * ordered by the column with which they begin:
  *
  *     pivots  others
  *   [ R   R | R  R  R ]   independent pivots: rows of R
@@ -22,7 +22,7 @@
  *
  * Rank (Heath 1982). A pivot column whose remaining norm is at most the tolerance has neither a
  * reflection nor a row of R; its rows are passed to later columns. The remaining norm of a column
- * depends only on the columns below it in the tree, so the rank is the same as if columns were
+ * depends only on its descendants in the tree, so the rank is the same as if columns were
  * eliminated one by one in the given order.
  *
  * Memory. The other columns of a front are also reduced to a triangle, so the front passes on at
@@ -59,11 +59,11 @@ typedef struct front {
   int32_t rows;      /* largest number of rows */
   int32_t columns;
   int32_t pivots; /* number of pivots, which are the first columns */
-  int32_t *place; /* (columns) number in the order of elimination, ascending */
+  int32_t *place; /* (columns) position of each column in the order of elimination, ascending */
   int32_t *end;   /* (columns) number of rows that begin with this or an earlier column */
   /* (columns) number of reflections up to and including this column */
   int32_t *done;
-  int32_t *row;  /* (rows) row of A whose component of x this row represents */
+  int32_t *row;  /* (rows) component of a vector (m) on which this row acts */
   double *tau;   /* (columns) tau of its reflection */
   double *value; /* (rows x columns) row-major */
 } front;
@@ -131,8 +131,8 @@ static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
   return qr->place[qr->row_start[row]];
 }
 
-/* Finds the tree. Each row of A connects each of its columns with the next one. mark contains
- * shortcuts to the root of the tree so far. */
+/* Finds the tree. Each row of A connects each of its columns with the next one. mark[i] is a known
+ * ancestor of column i, a shortcut to its present root. */
 static void find_parents(const baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *last = qr->next_row; /* scratch: last column of each row so far */
@@ -182,12 +182,12 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Joins columns and their parents to fronts, as long as a front is little wider than each
- * pattern. */
+/* Joins columns and their parents into fronts, as long as a front is little wider than the pattern
+ * of each of its rows of R. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *length = p->mark;    /* length of the chain up to each column */
-  int32_t *least = p->front_of; /* least pattern in this chain */
+  int32_t *least = p->front_of; /* least `count` in this chain */
   fill(p->below, qr->n, NONE);
   for (int32_t k = 0; k < qr->n; k++) {
     int32_t below = p->below[k];
@@ -216,7 +216,7 @@ static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
   }
   for (int32_t k = qr->n - 1; k >= 0; k--) {
     front *f = &qr->fronts[p->front_of[k]];
-    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column is the first */
+    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column is met first */
     int32_t up = p->parent[k] == NONE ? NONE : p->front_of[p->parent[k]];
     if (up != NONE && up != p->front_of[k]) {
       f->parent = up;
@@ -445,7 +445,7 @@ static double sum_of_squares(const front *f, int32_t j, int32_t first)
   return sum;
 }
 
-/* Replaces column j from row `first` on by -+length, v_1, v_2, ... with v_0 = 1. Returns tau. */
+/* Replaces column j from row `first` on by R_jj, v_1, v_2, ..., where v_0 = 1. Returns tau. */
 static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
   double *x = &row_of(f, first)[j];
@@ -517,7 +517,7 @@ int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, doub
   return rank;
 }
 
-/* ---- use ---- */
+/* ---- solve and project ---- */
 
 /* Applies the reflection of column j to x, if there is one. */
 static void reflect_by(const front *f, int32_t j, double *x)

@@ -21,7 +21,8 @@ void baum_i_free_outlines(baum_outline *outlines, int count)
   baum_i_free(outlines);
 }
 
-/* Copies 3 x count numbers. NULL for a count of 0, and when out of memory, which clears *fine. */
+/* Copy 3 x count numbers of `size` bytes. Returns NULL if count is 0. If there is no memory,
+ * returns NULL and clears *fine. */
 static void *copy_rows(const void *rows, int count, size_t size, bool *fine)
 {
   void *copy = count > 0 ? baum_i_copy(rows, 3 * (size_t)count, size) : NULL;

@@ -17,16 +17,16 @@
 
 /* ---- a caller's struct, which may be of an older version ---- */
 
-/* New versions only append fields. A smaller struct is therefore of an older version, and the
- * missing fields get their defaults. */
+/* Large enough for every definition. New versions only append fields, so a caller's smaller struct
+ * is of an older version, and the missing fields get their defaults. */
 typedef union whole_def {
   baum_i_def_head head;
   double numbers[32];
   unsigned char bytes[256];
 } whole_def;
 
-/* Return the number of bytes that fields occupy in a struct of that size. The rest is padding,
- * which a later version may use for a field. */
+/* Return the end of the last field in a struct of that size. The rest is padding, in which a later
+ * version may have placed a field. */
 static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
   const size_t word = sizeof(size_t);
@@ -82,7 +82,7 @@ static baum_status fill(baum_i_element *element, const void *def)
     baum_i_copy_text(given ? given : baum_i_text_of("%s%d", element->family, element->index).text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
-    baum_i_free(element->def); /* which owns no memory */
+    baum_i_free(element->def); /* the failed call has left no copies in it */
     element->def = NULL;
   }
   if (!element->name || !element->def) {

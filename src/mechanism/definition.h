@@ -26,7 +26,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,
                                const baum_i_definition *definition, baum_i_id id, const void *def);
 
-/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the type struct. */
+/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the baum_i_body_type,
+ * baum_i_joint_type or baum_i_force_type. */
 #define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                          \
   const baum_i_definition *const baum_i_##NAME##_definition = &(TYPE).definition;                  \
   void baum_##NAME##_def_init(baum_##NAME##_def *def, size_t caller_size)                          \

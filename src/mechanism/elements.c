@@ -36,7 +36,7 @@
     return k < 0 ? NULL : baum_i_##FAMILY##_family.at(mechanism, k)->name;                      \
   }
 
-/* ---- bodies, with ground beside them ---- */
+/* ---- bodies and ground ---- */
 
 COUNT_AND_AT(body)
 

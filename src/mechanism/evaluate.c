@@ -147,12 +147,12 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* ---- energy ----
  *
- * User functions give a potential, but not its gradient. The power of these elements is therefore
- * the power of the whole force. The energy stored in the potential is the exact difference of two
- * values of the potential.
+ * User functions give a potential, but not its gradient, so the power of this part of a force is
+ * not known. power() of such elements therefore returns the power of the whole force. The energy
+ * stored in the potential is known exactly, as a difference of two values.
  */
 
-/* If whole_power, include only types whose power is that of the whole force. */
+/* If whole_power, include only types whose power() is that of the whole force. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

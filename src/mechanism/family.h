@@ -6,10 +6,10 @@
 
 #include "mechanism/model.h"
 
-/* The counts of columns or rows, and of values in blocks, of a family so far. */
+/* Sums over the elements of a family that freeze has numbered so far. */
 typedef struct baum_i_totals {
   int64_t positions;
-  int64_t rows;    /* velocities of bodies, rows of joints */
+  int64_t rows;    /* velocities of bodies, rows of joints; not used for forces */
   int64_t blocks;  /* rows x nl each */
   int64_t squares; /* nl x nl each */
 } baum_i_totals;
@@ -19,21 +19,21 @@ typedef struct baum_i_totals {
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
   size_t size;      /* of an element */
-  size_t span;      /* offset of its baum_i_span */
-  size_t count;     /* offset of their count (an int) in the mechanism */
-  baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* from 0, without ground */
+  size_t span;      /* offset of the baum_i_span in an element */
+  size_t count;     /* offset of the element count (an int) in the mechanism */
+  baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* k >= 0; ground is not counted */
   /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
   void (*prepare)(baum_i_element *element); /* set the type, and sizes from the definition */
-  /* At freeze: return the rows or velocities of one element, set the start of its blocks, and set
-   * the sizes of the family. */
+  /* For freeze: rows() returns the number of rows or velocities of an element, place() sets the
+   * start of its blocks, and close() sets the sizes of the mechanism. */
   int (*rows)(const baum_i_element *element);
   void (*place)(baum_i_element *element, const baum_i_totals *before);
   void (*close)(baum_mechanism *mechanism, const baum_i_totals *all);
-  /* Lists of elements of one type. */
+  /* A group is the list of all elements of one type. */
   baum_status (*open_groups)(baum_mechanism *mechanism);
   baum_status (*join_group)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*free_groups)(baum_mechanism *mechanism); /* allowed without groups */
+  void (*free_groups)(baum_mechanism *mechanism); /* does nothing if there are none */
 } baum_i_family;
 
 extern const baum_i_family baum_i_body_family;

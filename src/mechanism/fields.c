@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Defaults, checks, copies, digests and bodies of definitions, by means of their tables of
+/* Set defaults, check, copy and digest definitions, and find their bodies, from tables of
  * fields. */
 #include "mechanism/fields.h"
 
@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* More rows or coordinates in one element are refused as a mistake. The product of two such counts
- * does not overflow an int. */
+/* Largest number of rows or coordinates of one element. More are probably a mistake. The product of
+ * two such numbers does not overflow an int. */
 enum { COUNT_MAX = 10000 };
 
 /* ---- defaults ---- */
@@ -337,7 +337,7 @@ static bool own_arrays(const baum_i_definition *definition, void *def)
 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def)
 {
-  /* own() must be called first, because if it fails all pointers must still be the caller's. */
+  /* own() is called first: if it fails, no arrays have been copied, and none need to be freed. */
   if (definition->own) {
     BAUM_I_TRY(definition->own(def));
   }
@@ -370,7 +370,7 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
 /* A growing list of bodies, whose ids have been checked. */
 typedef struct list {
   int count;
-  int *bodies; /* NULL: only count, and count repeated bodies each time */
+  int *bodies; /* NULL: only count; a repeated body is counted again */
 } list;
 
 static void include(list *all, int body)

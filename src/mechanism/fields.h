@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each definition has a table of its fields. Defaults, checks of single fields, copies, digests,
- * the bodies of an element and tests of the headers use this table. */
+/* Each definition has a table of its fields. The table determines defaults, checks of single
+ * fields, copies, digests and the bodies on which an element acts. Tests of the headers use it
+ * too. */
 #ifndef BAUM_I_MECHANISM_FIELDS_H
 #define BAUM_I_MECHANISM_FIELDS_H
 
@@ -12,7 +13,7 @@
 
 #include "base/digest.h"
 
-/* Default of optional numbers. The macro NAN is a float. */
+/* Default of optional numbers. NAN is a float, hence the cast. */
 #define BAUM_I_NOT_GIVEN ((double)NAN)
 
 /* The values that a number may have. */
@@ -29,21 +30,22 @@ typedef enum baum_i_rule {
   BAUM_I_RULE_DIRECTION /* all numbers of a field are finite, and not all are zero */
 } baum_i_rule;
 
-/* Fields of a kind with OWN are checked, copied and released by functions of the definition. */
+/* Fields whose kind contains OWN are checked, copied and released by functions of the
+ * definition. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
-  BAUM_I_FIELD_ARRAY,   /* array of `counter` doubles or NULL, used only at the start */
+  BAUM_I_FIELD_ARRAY,   /* array of `counter` doubles or NULL, used only at the start of a run */
   BAUM_I_FIELD_OWN_ARRAY,
   BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* the same, or 0 */
   BAUM_I_FIELD_OWN_COUNT,
   BAUM_I_FIELD_FLAG,
   BAUM_I_FIELD_START_FLAG, /* used only at the start of a run */
-  BAUM_I_FIELD_CLAIM,      /* flag about user functions, true by default */
+  BAUM_I_FIELD_CLAIM,      /* whether user functions depend on velocities; default: true */
   BAUM_I_FIELD_BODY,       /* required; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body, ground by default */
   BAUM_I_FIELD_BODIES,     /* array of ids of length `counter`, without ground or repetition */
-  BAUM_I_FIELD_JOINT,      /* required, cannot change; the element acts on its bodies */
+  BAUM_I_FIELD_JOINT,      /* required, cannot change; the element acts on the joint's bodies */
   BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate; the definition checks it */
   BAUM_I_FIELD_INPUT,      /* optional */
   BAUM_I_FIELD_FUNCTION,   /* must be given */
@@ -52,7 +54,7 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_USER           /* pointer for user functions */
 } baum_i_field_kind;
 
-enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* of numbers */
+enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* largest count of numbers in a field */
 
 /* A field of a definition, except struct_size and name. */
 typedef struct baum_i_def_field {
@@ -64,7 +66,7 @@ typedef struct baum_i_def_field {
   baum_i_rule rule;                    /* of numbers and arrays of numbers */
   double value[BAUM_I_FIELD_SIZE_MAX]; /* default of numbers */
   size_t counter;                      /* array: offset of its count */
-  size_t instead;                      /* array: offset of the count to use if that count is 0 */
+  size_t instead;                      /* array: offset of the count to use if the first one is 0 */
 } baum_i_def_field;
 
 #define BAUM_I_FIELD_OF(DEF, FIELD) \
@@ -109,10 +111,11 @@ typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
   const baum_i_def_field *fields; /* all fields in order; one without a name ends the table */
-  /* Offsets at which the fields of older versions ended, if a later field uses padding of an older
-   * version. 0 ends the list. NULL: none. */
+  /* Some older versions of a struct ended with padding, which a later field now uses. This list has
+   * the offset of the end of the last field of each such version, and ends with 0. NULL: there are
+   * none. */
   const size_t *former;
-  int parameter_count; /* numbers of an element in the parameter array */
+  int parameter_count; /* how many numbers of an element are in the parameter array */
   /* Check what the table cannot express. Called after the checks of the table. Messages start with
    * the label, such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
@@ -120,12 +123,12 @@ typedef struct baum_i_definition {
    * no memory. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free the memory of own() */
-  /* Compare the derivatives that user functions of an element give with differences. NULL: there
-   * are none. */
+  /* Compare the derivatives that user functions of an element return with finite differences. NULL:
+   * the element has no such functions. */
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
-/* Set the first members of a definition of baum_NAME_def. */
+/* The first members of the baum_i_definition of baum_NAME_def. */
 #define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
   .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
 
@@ -157,8 +160,9 @@ void baum_i_fields_release(const baum_i_definition *definition, void *def);
  * that are used only at the start of a run are not added. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
-/* Find the bodies on which an element acts, each once: the bodies, and the bodies of the joints,
- * that its definition contains. Returns their count; if bodies is NULL, an upper bound of it. */
+/* Find the bodies on which an element acts: those that its definition names, and those of the
+ * joints that it names. Each body is listed once. Returns the number of bodies, or an upper bound
+ * of it if `bodies` is NULL. */
 int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechanism *mechanism,
                          const void *def, int *bodies);
 
@@ -181,11 +185,14 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
   return baum_i_check_number(label, field, unit, BAUM_I_RULE_POSITIVE, value);
 }
 
-/* Check that the points of an element are given in one way: `point`, or point_a and point_b. */
+/* Check that the points of an element are given in exactly one way: `point`, or point_a and
+ * point_b. The arguments tell which are given. Unless point_allowed, the message does not offer
+ * `point`. */
 baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
                                       bool point_allowed);
 
-/* Check that a required function or array is given: `def->mass != NULL` for the field "mass()". */
+/* Check that a required function or array is given. For the field "mass()", `given` is `def->mass
+ * != NULL`. */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);
 
 #endif

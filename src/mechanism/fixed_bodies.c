@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds fixed bodies, which a chain of welds connects to ground, and their poses, which the welds
- * determine. */
+/* Finds the fixed bodies, which are connected to ground by chains of welds, and their poses. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"
@@ -24,8 +23,8 @@ static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
   return true;
 }
 
-/* Passes over the joints alternate in direction, so a chain of welds in either order needs at most
- * two passes. */
+/* Passes over the joints alternate in direction. A chain whose welds were added in ascending or
+ * descending order from ground is then found in at most two passes. */
 static void fix_bodies(baum_mechanism *m)
 {
   bool found = true;

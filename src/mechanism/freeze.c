@@ -171,7 +171,8 @@ static double design_size(const baum_mechanism *mechanism)
     return diagonal;
   }
   double offset =
-    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* a single point: its distance from the origin */
+    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* if all points coincide: their distance from the
+                                                 * origin */
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 
@@ -256,7 +257,7 @@ static baum_status lower_elements(baum_mechanism *m)
   return BAUM_OK;
 }
 
-/* ---- the whole ---- */
+/* ---- freeze ---- */
 
 static baum_status build(baum_mechanism *mechanism)
 {

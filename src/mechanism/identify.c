@@ -150,7 +150,7 @@ baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row)
   return baum_i_joint_label(mechanism, row < 0 ? -1 : baum_i_row_joint(mechanism, row));
 }
 
-/* ---- stages ---- */
+/* ---- frozen or not ---- */
 
 static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, const char *call)
 {

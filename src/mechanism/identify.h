@@ -13,16 +13,16 @@ typedef struct baum_i_id {
   uint32_t tag;
 } baum_i_id;
 
-/* Return the number, from 0, in its family of the element with an id. Returns -1 for ground, the
- * empty id, ids of other mechanisms and ids out of range. */
+/* Return the number of an element in its family, from 0. Returns -1 for ground, the empty id, ids
+ * of other mechanisms and ids out of range. */
 int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
 
 /* Return the number, from 0, of the first element with that name, or -1. */
 int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
                          const char *name);
 
-/* Return the index of the element with an id. Returns -1 for the empty id, ids of other mechanisms
- * and ids out of range, and 0 for ground. */
+/* Return the index of a body, joint or input. Bodies have indices from 1. Returns -1 for the empty
+ * id, ids of other mechanisms and ids out of range, and 0 for ground. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
@@ -55,9 +55,10 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* Return `joint 2 "B"`, numbered from 1, or `ground`. */
+/* Return a label such as `joint 2 "B"` (numbered from 1), or `ground`. */
 baum_i_text baum_i_label(const baum_i_element *element);
-/* The label of a joint, or of the joint that owns a row; "no joint" for a negative number. */
+/* Return the label of a joint, or of the joint that owns a row; "no joint" if the number is
+ * negative. */
 baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint);
 baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row);
 

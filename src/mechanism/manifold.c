@@ -20,7 +20,8 @@ static void move_body(const baum_i_body *body, double h, const double *v, double
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
-    body->manifold->normalize(body, q); /* or rounding errors of many moves would add up */
+    body->manifold->normalize(body, q); /* without this, rounding errors of many moves would add
+                                         * up */
   } else {
     baum_i_add_scaled(body->nv, h, v, q);
   }
@@ -43,8 +44,8 @@ static void shift_body(const baum_i_body *body, double h, const double *dq, cons
   body->manifold->normalize(body, out);
 }
 
-/* Step of central differences, relative to the scales. The truncation error is about its square,
- * and rounding errors are divided by it. */
+/* Step of central differences, relative to the scales. The truncation error is about STEP^2;
+ * rounding errors are divided by STEP. */
 static const double STEP = 1e-5;
 
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
@@ -63,8 +64,8 @@ static void tangent_body(const baum_i_body *body, const double *scale, const dou
   }
 }
 
-/* Evaluate the rate at q moved by h along column j. direction (nv) and moved (nq) are scratch
- * memory. */
+/* Set dq = N v at the configuration that is reached from q by moving velocity coordinate j by h.
+ * direction (nv) and moved (nq) are scratch memory. */
 static void rate_beside(const baum_i_body *body, double h, int j, const double *q, const double *v,
                         double *dq, double *direction, double *moved)
 {
@@ -76,7 +77,8 @@ static void rate_beside(const baum_i_body *body, double h, int j, const double *
   body->manifold->rate(body, moved, v, dq);
 }
 
-/* Evaluate the rate after a motion of duration h at constant a. work (2 nq) is scratch memory. */
+/* Set dq = N v at the end of a motion of duration h with constant a, which starts at q and v. work
+ * (2 nq) is scratch memory. */
 static void rate_later(const baum_i_body *body, double h, const double *q, const double *v,
                        const double *a, double *dq, double *work)
 {
@@ -130,7 +132,7 @@ static void linearize_body(const baum_mechanism *m, const baum_i_body *body, con
   }
 }
 
-/* ---- the whole ---- */
+/* ---- all bodies ---- */
 
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v)
 {

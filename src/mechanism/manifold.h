@@ -24,7 +24,7 @@ const double *baum_i_second_rates_of_bodies(const baum_mechanism *mechanism, con
 const double *baum_i_tangent_of_bodies(const baum_mechanism *mechanism, const double *q,
                                        const double *dq, double *room);
 
-/* ---- the whole ---- */
+/* ---- for all mechanisms ---- */
 
 /* y += h x; x and y do not overlap. */
 static inline void baum_i_add_scaled(int n, double h, const double *restrict x, double *restrict y)
@@ -34,7 +34,7 @@ static inline void baum_i_add_scaled(int n, double h, const double *restrict x, 
   }
 }
 
-/* Set dq (nq) = N(q) v. q may be off the manifold as far as stages of an integrator are. */
+/* Set dq (nq) = N(q) v. q may be slightly off the manifold, as in the stages of an integrator. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
 {
@@ -57,7 +57,7 @@ static inline void baum_i_move(const baum_mechanism *mechanism, double h, const 
   baum_i_add_scaled(mechanism->nv, h, v, q);
 }
 
-/* The same from `from` to q, which do not overlap. */
+/* Set q to `from` moved by h v. `from` and q do not overlap. */
 static inline void baum_i_move_from(const baum_mechanism *mechanism, const double *restrict from,
                                     double h, const double *restrict v, double *restrict q)
 {
@@ -83,8 +83,8 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
   }
 }
 
-/* The next three functions write their result to `room` and return it. If the mechanism is flat,
- * they return their argument before `room` instead. */
+/* The next three functions write their result to `room` and return `room`. If the mechanism is
+ * flat, they return the argument before `room` instead, which equals the result. */
 
 /* Return N(q) v (nq). room (nq). */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,
@@ -104,20 +104,22 @@ static inline const double *baum_i_second_rates(const baum_mechanism *mechanism,
   return mechanism->flat ? a : baum_i_second_rates_of_bodies(mechanism, q, v, a, room);
 }
 
-/* Return N^+ dq (nv), the velocities that correspond best to the rates dq (nq). q must be on the
- * manifold. room (3 nq) must not be dq. */
+/* Return v (nv) such that N(q) v is the tangential part of the rates dq (nq), written N^+ dq. q
+ * must be on the manifold. room (3 nq) must not be dq. */
 static inline const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q,
                                            const double *dq, double *room)
 {
   return mechanism->flat ? dq : baum_i_tangent_of_bodies(mechanism, q, dq, room);
 }
 
-/* Set blocks to N^+ (N v)_q N, the derivative of rates at constant v by a displacement of q. The
- * blocks nv x nv of bodies with a manifold begin at their `mass`. work (6 nq) is scratch memory. */
+/* Set blocks to N^+ (N v)_q N: the derivative of N v with respect to q at constant v, where both
+ * the displacement of q and the result are expressed in velocity coordinates. The block (nv x nv)
+ * of a body with a manifold begins at its `mass`; other blocks are not set. work (6 nq) is scratch
+ * memory. */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 
-/* Like baum_i_move(), for the local columns of a span. */
+/* Like baum_i_move(), for the local velocities (nl) and positions (ql) of a span. */
 void baum_i_span_move(const baum_mechanism *mechanism, const baum_i_span *span, double h,
                       const double *v, double *q);
 

@@ -5,24 +5,23 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <baum/breaks.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "base/platform.h"
 #include "mechanism/definition.h"
 
-/* ---- life ---- */
+/* ---- create, share, destroy ---- */
 
-/* Compute a tag from address and time (Stafford's mix 13). Two mechanisms have the same tag with a
- * probability of 2^-32. A counter is not used, because it would be global state. */
+/* Compute a tag from address and time (hash function "mix 13" of D. Stafford). Two mechanisms have
+ * the same tag with a probability of 2^-32. A counter is not used, because it would be global
+ * state. */
 static uint32_t make_tag(const void *address)
 {
-  struct timespec now = {0};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
   uint64_t x = (uint64_t)(uintptr_t)address;
-  x ^= (uint64_t)now.tv_sec * 1000000007u + (uint64_t)now.tv_nsec * 0x9e3779b97f4a7c15u;
+  x ^= (uint64_t)baum_i_wall_nanoseconds() * 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   uint32_t tag = (uint32_t)(x ^ (x >> 31));
@@ -167,7 +166,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   return status;
 }
 
-/* ---- the whole ---- */
+/* ---- settings and sizes ---- */
 
 baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
 {

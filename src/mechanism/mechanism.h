@@ -37,15 +37,15 @@ void baum_i_free_outlines(struct baum_outline *outlines, int count);
 /* ---- evaluation of all elements ---- */
 
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows);
-/* Evaluate one of the members of baum_i_rows, or mass or force. All entries are set. */
+/* Each evaluates one member of baum_i_rows, or mass or force, and sets all its entries. */
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi);           /* (nc) */
 baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian); /* (jacobian_size) */
 baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /* (nc) */
 baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma);       /* (nc) */
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass);         /* (mass_size) */
 baum_status baum_i_mechanism_force(baum_i_point *point, double *force);       /* (nv) */
-/* Add to force (nv) the forces of bodies whose force is constant (depends only on parameters), or
- * those of the other bodies. */
+/* Add forces of bodies to force (nv): if `constant`, those that depend only on parameters,
+ * otherwise those of the other bodies. */
 baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force);
 /* Add the forces of all bodies whose force is not constant, and of all force elements. */
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force);
@@ -64,8 +64,9 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* Compute the powers by class. Requires velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
-/* Compute the potentials, by class, of types whose power includes that of the potential. The energy
- * account adds the change of these potentials to their work. */
+/* Compute potentials by class, only for the types whose power() is that of the whole force,
+ * including the part that has a potential. The energy account adds the change of these potentials
+ * to the integral of the power, and thus obtains the work of the other part. */
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
                                                 double potential[BAUM_I_POWERS]);
 

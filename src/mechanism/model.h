@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The types of a mechanism: elements (bodies, joints, forces), their types, the point where they
- * are evaluated, and the frozen structure. Functions of the whole mechanism are in mechanism.h.
+/* Data structures of a mechanism: elements (bodies, joints, forces), element types, the point in
+ * state space at which elements are evaluated, and the frozen structure. Functions of the whole
+ * mechanism are in mechanism.h.
  *
  * An element type is a const struct of functions. The file of a type contains this struct and the
  * four public functions of the type (definition.h). Functions process groups: all elements of one
@@ -40,9 +41,9 @@ typedef struct baum_i_span {
   int body_count;
   int *bodies;    /* (body_count) indices, 0 = ground */
   int nl;         /* number of local velocities */
-  int *columns;   /* (nl) their columns in v */
+  int *columns;   /* (nl) their indices in v */
   int ql;         /* number of local positions */
-  int *positions; /* (ql) their columns in q; memory of `columns` */
+  int *positions; /* (ql) their indices in q; in the memory of `columns` */
   bool flat;      /* none of the bodies has a manifold */
 } baum_i_span;
 
@@ -78,7 +79,7 @@ typedef struct baum_i_body {
   int mass;                        /* start of its nv x nv values in the mass blocks */
   bool fixed;                      /* welded to ground */
   int outline_count;
-  struct baum_outline *outlines; /* (outline_count) of the user; NULL: it draws itself */
+  struct baum_outline *outlines; /* (outline_count) given by the user, or NULL */
 } baum_i_body;
 
 typedef struct baum_i_joint {
@@ -126,7 +127,7 @@ typedef struct baum_i_frame {
   double vx, vy; /* velocities; zero at position level */
   double c, s;   /* cos, sin of the angle */
   double w;      /* angular velocity; zero at position level */
-  double angle;  /* continuous */
+  double angle;  /* continuous over revolutions */
 } baum_i_frame;
 
 /* Pose and velocities of a body in space. Spatial elements read this instead of q. */
@@ -156,7 +157,7 @@ baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q);
  * it. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
-  const double *parameters; /* those of the mechanism, or a copy of the caller */
+  const double *parameters; /* those of the mechanism, or a caller's copy */
   double t;
   const double *q;      /* if the mechanism is not flat, = normalized */
   const double *v;      /* NULL at position level */
@@ -164,7 +165,7 @@ typedef struct baum_i_point {
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   baum_i_spatial_frame *spatial; /* (body_count + 1); NULL if nothing is spatial */
-  /* Angles of spatial joints, see general/coordinate.h: the own ones, or those of a run. */
+  /* Expected angles of spatial joints (general/coordinate.h): own_angles, or an array of a run. */
   double *angles;
   double *own_angles;
   const double *inputs;  /* (input_count) present values; NULL: none */
@@ -178,7 +179,7 @@ typedef struct baum_i_point {
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
 /* Create a point with the parameters and initial inputs of the mechanism. BAUM_OK or
- * BAUM_ERR_MEMORY. It must be released in both cases. */
+ * BAUM_ERR_MEMORY. The point must be released even after a failure. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed point is allowed */
 
@@ -268,7 +269,7 @@ typedef enum baum_i_power {
 /* Manifold of a body whose positions are not a vector: q' = N(q) v with q (nq) and v (nv). dx has
  * length nv. See manifold.h. */
 struct baum_i_manifold {
-  /* Set dq = N(q) v. q may be off the manifold as far as stages of an integrator are. */
+  /* Set dq = N(q) v. q may be slightly off the manifold, as in the stages of an integrator. */
   void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
   /* Move q by h v: to the configuration after the time h at constant v, to second order in h. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
@@ -283,19 +284,21 @@ struct baum_i_body_type {
   baum_i_frame_kind frame;
   bool scleronomic;                  /* mass and force never depend on t */
   bool constant_force;               /* force depends only on parameters */
-  int nq, nv;                        /* of every body; 0: see size(), positions() */
+  int nq, nv;                        /* of every body; 0: size() and positions() return them */
   int (*size)(const void *def);      /* nv of a body, or NULL */
   int (*positions)(const void *def); /* nq of a body, or NULL */
   /* Manifold of a body. If this or its result is NULL, q is a vector and v = q'. */
   const baum_i_manifold *(*manifold)(const void *def);
   bool (*constant_mass)(const void *def);       /* NULL: always */
   bool (*depends_on_velocity)(const void *def); /* whether force() does; NULL: never */
-  /* Rigid bodies in space: the tensor (9) in the axes of the body, about which its velocities 3 to
-   * 5 turn it. force() depends on velocities by the gyroscopic moment alone. NULL for others. */
+  /* Rigid bodies in space: return the inertia tensor (9) in body axes. Velocities 3 to 5 of such a
+   * body are its angular velocity in body axes, and its force() depends on velocities only by the
+   * gyroscopic moment. NULL for other bodies. */
   const double *(*inertia)(const baum_i_body *body, const double *parameters);
   /* Set the parameters of a body. NULL: there are none. */
   void (*lower)(const baum_i_body *body, double *parameters);
-  /* Set the design pose, given velocities or NaN, and which are held. */
+  /* Set the design pose, the given velocities (NaN: free), and whether assembly must not move
+   * it. */
   void (*design)(const void *def, double *q, double *v, bool *held);
   /* Set the scale (nv) of each coordinate, which is the size of a relevant change. */
   void (*scale)(const void *def, double length, double *scale);
@@ -311,18 +314,18 @@ struct baum_i_body_type {
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
   /* Adds g^T v + v^T M' v / 2 of one body, including the power of the potential. NULL: all forces
-   * have the potential, and M' = 0. */
+   * derive from the potential, and M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
 /* Numbers of columns of a body in planar and in spatial elements (general/columns.h). */
 enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPACE };
 
-/* Most coordinates of a joint. */
+/* Largest number of coordinates of a joint. */
 enum { BAUM_I_COORDINATES = 3 };
 
-/* A joint's coordinate over the columns of both bodies, as many as its type is wide: in the plane
- * x_a y_a angle_a x_b y_b angle_b. */
+/* A joint coordinate. Its gradient has `width` columns (of the joint type) for each of the two
+ * bodies: in the plane x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
@@ -342,23 +345,25 @@ typedef struct baum_i_coordinate_blocks {
 /* One coordinate of a joint. */
 typedef struct baum_i_joint_coordinate {
   const baum_i_joint *joint;
-  int number; /* in the list of its type */
+  int number; /* index in `coordinates` of the joint's type */
 } baum_i_joint_coordinate;
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  int width;        /* BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction has no force and moment */
+  int width;        /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction is not a
+                     * force and a moment */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
-  /* One row: that coordinate minus a function of time; NULL: no driver. Its width is that of the
-   * joint. */
+  /* Return the coordinate that a driver prescribes. A driver has one row: this coordinate minus a
+   * function of time. NULL: the type is not a driver. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
-  /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
+  /* Set s to the prescribed value, rate and acceleration at the time of the point. NULL for joints
+   * that are not drivers. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* Set the parameters of a driver such that its law becomes s + s' (t - t0) + s'' (t - t0)^2 / 2.
    * NULL for joints that are not drivers. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int row_count;                /* of every joint; 0: see rows() */
+  int row_count;                /* of every joint; 0: rows() returns it */
   int (*rows)(const void *def); /* rows of a joint, or NULL */
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
    * BAUM_ERR_ARGUMENT and sets the message. */
@@ -384,20 +389,23 @@ struct baum_i_joint_type {
    * those that a planar body or a particle does not have. */
   void (*force_on_b)(const baum_i_joint *joint, const baum_i_point *point, const double *lambda,
                      double six[BAUM_I_SPACE]);
-  /* Tell whether the rows are fulfilled but axes are opposite instead of parallel. NULL: never. */
+  /* Tell whether the constraints hold, but with axes that point in opposite instead of equal
+   * directions. NULL: never. */
   bool (*is_reversed)(const baum_i_joint *joint, const baum_i_point *point);
-  /* Include the points of the joint in the design configuration. NULL: it has none. */
+  /* Extend a box to include the points of the joint in the design configuration. NULL: it has
+   * none. */
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
   /* Its coordinates; the list ends with BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinates[BAUM_I_COORDINATES + 1];
-  /* Check that a joint with a checked definition has them; NULL: all have. */
+  /* Check that a joint, whose definition has been checked, has these coordinates. NULL: all joints
+   * of the type have them. */
   baum_status (*check_coordinate)(const baum_mechanism *mechanism, const void *def,
                                   const char *label);
   void (*coordinate)(const baum_i_joint *joint, int number, const baum_i_point *point,
                      baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, int number, const baum_i_point *point,
                                const double *w, double lambda, baum_i_coordinate_blocks *out);
-  /* Return the relative error of derivatives by differences. NULL: the type uses no differences. */
+  /* Return the relative error of derivatives that are computed by differences. NULL: none are. */
   double (*noise)(const void *def);
 };
 
@@ -405,12 +413,13 @@ struct baum_i_joint_type {
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
-/* The length of a spring; of a torsion spring it is an angle, of a joint spring a coordinate. */
+/* The present length of a spring. For a torsion spring it is an angle, for a joint spring a
+ * coordinate of a joint. */
 typedef struct baum_i_stretch {
   double length;
   double rate;
   double scale;      /* size of a relevant change of the length */
-  bool no_direction; /* the length is that of a line and zero: there is no force */
+  bool no_direction; /* the spring is a line of length zero, so there is no force */
 } baum_i_stretch;
 
 struct baum_i_force_type {
@@ -421,8 +430,8 @@ struct baum_i_force_type {
   /* Adds to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   bool (*depends_on_velocity)(const baum_i_force *force); /* NULL: never */
-  /* Springs (general/spring_law.h): where the fields that they share begin in a definition, and
-   * the present length of one of them. */
+  /* Springs (general/spring_law.h): the offset of the first field of baum_i_spring_def in the
+   * definition, and a function that returns the present length of a spring. */
   size_t spring_fields;
   baum_i_stretch (*stretch)(const baum_i_force *force, const baum_i_point *point);
   /* Adds the potential of one force to *sum. NULL: it is 0. */
@@ -430,8 +439,8 @@ struct baum_i_force_type {
   /* Sets the blocks of one force, which are zeroed before. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* Adds g^T v of one force by class. The power of the potential is included only if
-   * power_is_whole. */
+  /* Adds the power g^T v of one force by class. If the force has a potential, the power of this
+   * part is included only if power_is_whole. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
 };
@@ -455,7 +464,7 @@ struct baum_mechanism {
   char **input_names;
   double *inputs; /* (input_count) initial values */
   int break_count;
-  double *breaks; /* (break_count) [s] rising */
+  double *breaks; /* (break_count) [s] ascending */
 
   /* Set at freeze. */
   int nq, nv, nc;

@@ -6,11 +6,11 @@
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * The part of g that has the potential V changes V and does no further work. The powers are
+ * Forces with a potential V leave T + V unchanged and do not count as work. The powers are
  * integrated over each step by Gauss' rule. At the nodes inside the step, lambda is computed from
  * the integrated equations, (5) or (7). (5) is also used for the formulations of index 2 and 3,
- * because the second line of (5) is the derivative of J v = nu or Phi = 0, which their motion
- * satisfies. The power of the gains,
+ * because the second line of (5) is the derivative of J v = nu or Phi = 0, which the motion by
+ * these formulations satisfies. The power of the gains,
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5),
@@ -18,11 +18,11 @@
  * is part of the work of drivers and of the work of the violation (docs/theory/energy.md).
  *
  * States inside a step are computed by the method's own interpolant. For fixed steps of methods up
- * to order 4 they are Hermite polynomials of degree 5 in q and 3 in v, whose error over a step is
- * of order 5. For fixed steps of methods above order 4 they are ends of shorter steps from the same
- * start. Variable steps with a large projection, for example after a start off the constraints, are
- * also replaced by shorter steps from the same start, because the interpolant of a Runge-Kutta pair
- * ends at the projected state and not at the state before the projection.
+ * to order 4 it consists of Hermite polynomials of degree 5 in q and 3 in v, whose error over a
+ * step is of order 5. For fixed steps of methods above order 4 the states are ends of shorter steps
+ * from the same start. Variable steps with a large projection, for example after a start off the
+ * constraints, are also replaced by shorter steps from the same start, because the interpolant of a
+ * Runge-Kutta pair ends at the projected state and not at the state before the projection.
  *
  * IDA first moves a given start onto the constraints of its formulation. This move counts as a
  * projection.
@@ -41,7 +41,8 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* A projection by more than this many tolerances does not correct an error of the method. */
+/* A projection by more than this many tolerances does not correct an error of the method. It
+ * removes an initial violation, for example. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
@@ -55,13 +56,13 @@ struct baum_i_account {
   baum_i_problem problem; /* the run's problem, with this workspace */
   int nodes;
   bool fresh;        /* no step since the last restart of the method */
-  bool far;          /* the projection of the last step moved far */
+  bool far;          /* the last projection moved the state far (FAR) */
   void *stepper;     /* second instance of the method, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */
   baum_i_state node;
   double *unprojected; /* (nq + nv) end of the last step, or a sample, before projection */
-  double *end_a;       /* (nv) fixed step: acceleration at the end of the last step */
-  double *lambda;      /* (nc) of (5) */
+  double *end_a;       /* (nv) acceleration at the end of a step; if `far`, at its start */
+  double *lambda;      /* (nc) multipliers by (5) */
 };
 
 /* Nodes of Gauss' rules over (-1, 1). Row n - 1 is the rule with n nodes. */
@@ -187,8 +188,8 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potential energies to `works`. Only those count whose forces have a share
- * in the powers (baum_i_mechanism_potential_of_whole()). */
+/* Add `factor` times the potential energies to `works`. This includes only potentials of elements
+ * whose power was computed from all of their forces, also from those that have the potential. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -17,8 +17,8 @@ enum {
 
 enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 }; /* kinetic, potential, works, residual */
 
-/* Create the account of a run at its trial state. The problem must have been chosen. BAUM_OK,
- * BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+/* Create the account of a run at its trial state. run->problem must be set. Returns BAUM_OK,
+ * BAUM_ERR_MEMORY or BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_account_create(baum_simulation *run);
 /* The account may be NULL. */
 void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account);

@@ -10,6 +10,7 @@
  * formulation includes projection. */
 #include <math.h>
 
+#include "base/platform.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
@@ -256,14 +257,14 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
 
 /* Data that a call stores at its beginning. */
 typedef struct public_call {
-  struct timespec start;
+  double start; /* [s] */
   baum_i_kept_message before;
-  int64_t taken; /* steps */
+  int64_t taken; /* number of steps */
 } public_call;
 
 static void begin_call(baum_simulation *run, public_call *c)
 {
-  (void)clock_gettime(CLOCK_MONOTONIC, &c->start);
+  c->start = baum_i_wall_seconds();
   run->last_progress = c->start;
   c->taken = 0;
   c->before = baum_i_message_keep();
@@ -279,8 +280,8 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_end_call(run);
   }
-  atomic_store(&run->cancelled, 0); /* also requests from user functions during this call */
-  run->counters.wall += baum_i_seconds_since(&c->start);
+  atomic_store(&run->cancelled, 0); /* including requests from user functions in this call */
+  run->counters.wall += baum_i_wall_seconds() - c->start;
   if (status == BAUM_OK && look != BAUM_OK) {
     return baum_i_run_fail(run, look);
   }

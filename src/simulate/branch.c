@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Decides which branch a motion has taken after a singular configuration.
  *
- * Several branches of motion cross at such a configuration, each with its own direction. The smooth
- * motion is the one whose velocity is continuous. Clear states are states far enough from the
- * configuration. Polynomials p through positions and velocities of the clear states before the
+ * Several branches of motion cross at a singular configuration, each with its own direction. The
+ * smooth motion is the one whose velocity is continuous. Clear states are states far enough from
+ * the configuration. Polynomials p through positions and velocities of the clear states before the
  * configuration are extrapolated to the first clear state after it, and p' is compared with the
  * velocity v there:
  *
@@ -13,11 +13,11 @@
  * m is chosen for the least error.
  *
  * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
- * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. Then there
- * is a gap between the branches: no configuration in between is singular and satisfies the
- * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. A
- * violation that is larger than that of the run and the error of the polynomial shows a gap. Runs
- * whose steps resolve the turn follow the right branch. */
+ * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. There is
+ * then a gap between the branches, and the singular configurations in this gap violate the
+ * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. If
+ * the violation there is larger than can be explained by the violation of the run and the error of
+ * the polynomial, there is a gap. Runs whose steps resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 
@@ -40,12 +40,14 @@ static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
 static const double KNOWN = 0.1;      /* a jump with a larger estimated error is not judged */
 static const double SMALL_TURN = 0.4; /* relative change of v in a step that resolves a turn */
-/* A violation of a singular configuration causes a gap. Its smallest pivot may be OPENED times as
- * large as the violation explains; in an example the factor was about five. */
+/* A violation of the constraints opens a gap where branches would otherwise cross. Smallest pivots
+ * of up to OPENED times the violation are explained by it; in an example the factor was about five.
+ * If the pivot is below GAP_OF_VIOLATION times the violation, the violation may have opened the
+ * gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-static const double GAP =
-  1e-5; /* smallest violation of a gap, as a displacement; 0 if branches cross */
+/* Smallest violation, as a displacement, that shows a gap. Where branches cross it is 0. */
+static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
 

@@ -19,8 +19,8 @@ double baum_i_rest_rate(const baum_mechanism *m)
   return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
 }
 
-/* At rest in an equilibrium the accelerations are only rounding errors. The rate is then that of
- * gravity, or 0 without gravity. */
+/* At rest in an equilibrium the accelerations are only rounding errors. The rate is then that at
+ * which gravity swings the mechanism, or 0 without gravity. */
 double baum_i_run_start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -32,7 +32,8 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-/* Find the rate of the motion. For a mechanism that hardly moves it is the rate of gravity. */
+/* Find the rate of the motion. For a mechanism that hardly moves, it is the rate at which gravity
+ * swings the mechanism. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;

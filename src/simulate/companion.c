@@ -3,12 +3,12 @@
  *
  * Fixed-step methods have no tolerance and take many short steps where rk8 with projection takes
  * one long step. Beside a fixed-step run the companion therefore uses rk8, which costs little. It
- * starts as soon as the error of the run may matter: when the sum of its local errors, amplified by
- * 1e4, could be large. If a variable-step run has a loose tolerance, the companion starts at the
- * first singularity crossing, because crossings amplify errors. The companion starts from a state
- * some steps earlier, which was still accurate. If run and companion differ by more than DOUBTFUL
- * for some time, the run warns. Short peaks are ignored; they occur, for example, if a light rod
- * flips a little too late.
+ * starts as soon as the error of the run may matter: when the sum of the run's local errors,
+ * amplified by 1e4, could be large. If a variable-step run has a loose tolerance, the companion
+ * starts at the first singularity crossing, because crossings amplify errors. The companion starts
+ * from a state some steps earlier, which was still accurate. If run and companion differ by more
+ * than DOUBTFUL for some time, the run warns. Short peaks are ignored; they occur, for example, if
+ * a light rod flips a little too late.
  *
  * With the option error_check the companion starts with the run. Beside a variable-step run it then
  * uses the same method with 0.03 times the tolerance. With 0.1 times the tolerance, run and
@@ -43,8 +43,8 @@ static const double NEGLIGIBLE = 1e-5;
 /* If (angle of a step)^order is above this, errors may matter before the first error has been
  * estimated. */
 static const double COARSE = 1e-3;
-/* rtol of rk8. Even if errors are amplified by 1e3, the error of the companion is that of a correct
- * result. */
+/* rtol of rk8. Even if errors are amplified by 1e3, the error of the companion stays below 0.01, as
+ * in a correct result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
@@ -59,7 +59,9 @@ static const int64_t FREE = 1000;
 
 enum {
   STRIDE = 8, /* number of steps between stored states */
-  UNSEEN = 16 /* largest number of steps with unknown error, plus a quarter of all */
+  /* The error of the run is unknown if the local error is unknown in more steps than this, and in
+   * more than a quarter of all steps. */
+  UNSEEN = 16
 };
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
@@ -68,7 +70,7 @@ struct baum_i_companion {
   /* The members before `method` are plain numbers, which are saved. */
   int64_t unseen; /* number of steps whose local errors are unknown */
   int64_t begun;  /* number of evaluations of the run before the companion started */
-  double sum;     /* of local errors */
+  double sum;     /* sum of local errors */
   double apart;   /* [s] time since which run and companion differ; NaN: they agree */
   int32_t doing;  /* a state_of_companion */
 
@@ -76,10 +78,10 @@ struct baum_i_companion {
   baum_workspace *workspace;
   baum_i_problem problem; /* of the companion */
   void *self;
-  baum_i_local_error local; /* of the run */
+  baum_i_local_error local; /* local errors of the run */
   baum_i_state state;       /* start of the companion's next step */
   baum_i_state at;          /* present state of the run */
-  baum_i_state kept[2];     /* states of the run STRIDE or more, and less than STRIDE, steps ago */
+  baum_i_state kept[2]; /* earlier states of the run: [0] at least STRIDE steps old, [1] newer */
 };
 
 /* ---- life ---- */

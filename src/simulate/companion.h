@@ -5,10 +5,11 @@
 
 #include "simulate/run.h"
 
-/* Tell whether a run needs a companion. The problem must have been chosen. */
+/* Tell whether a run needs a companion. run->problem must be set. */
 bool baum_i_companion_is_wanted(const baum_simulation *run);
 
-/* Create the companion at the trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+/* Create the companion at the trial state. Returns BAUM_OK, BAUM_ERR_MEMORY or
+ * BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_companion_create(baum_simulation *run);
 void baum_i_companion_destroy(baum_i_companion *companion);
 
@@ -23,8 +24,9 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 /* Compare at the present state, where a call that advances the run ends. */
 void baum_i_companion_end_call(baum_simulation *run);
 
-/* Used when equations change at the present state, for example by inputs. Before the change
- * settle() follows the run to this state. After the change restart() continues from it. */
+/* Call these functions when equations change at the present state, for example because an input
+ * changes. settle(), before the change, follows the run to this state. restart(), after the change,
+ * continues from this state. */
 void baum_i_companion_settle(baum_simulation *run);
 void baum_i_companion_restart(baum_simulation *run);
 

@@ -5,11 +5,11 @@
  * of the run so far. Near a singular configuration p is proportional to the square of the distance,
  * so sqrt(p) falls linearly to zero and rises again linearly.
  *
- * - While p < NEAR, the run is inside an interval, whose ends are the last state before it and the
- *   first state after it.
- * - If sqrt(p) has a minimum among three states, and its slopes could reach zero between them, the
- *   least p of the motion through the three states is searched, because fixed steps may jump over a
- *   singular configuration.
+ * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
+ *   last state before it and the first state after it.
+ * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
+ *   states, and its slopes could reach zero between them, the least p of the motion through the
+ *   three states is searched.
  * - If the least p < SINGULAR, the interval is a crossing, unless J keeps its rank: it is recorded,
  *   its branch is decided (branch.c), and the run warns. Other intervals only have worse pivots
  *   than usual. */
@@ -26,8 +26,8 @@
  * thirtieth of the usual one. */
 static const double SINGULAR = 1e-3;
 
-/* lowest.pivot of a crossing that has been recorded. The interval continues without another
- * warning. */
+/* Value of lowest.pivot after the crossing has been recorded. The interval then continues without
+ * another warning. */
 static const double RECORDED = -1.0;
 
 /* [rad] Path length after a singular configuration by which the pivot should have risen. */
@@ -193,16 +193,16 @@ static bool is_singular(baum_simulation *run, double pivot)
   return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
 }
 
-/* Tell whether the rows of J keep their rank although the pivot is small. Together with omitted
- * rows they may keep it although the active rows alone lose it. A light body is the other cause of
- * a small pivot at full rank: when a light rod comes taut, the pivot falls to the ratio of the
- * masses, but no further. */
+/* Tell whether all rows of J together, active and omitted, keep their rank although the pivot is
+ * small. There are two causes: the active rows alone lose rank, or a body is light. When a light
+ * rod comes taut, for example, the pivot falls to the ratio of the masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
-/* Record a pivot if it is singular and the smallest so far. Returns whether it is. */
+/* Store the pivot of a configuration in p->lowest if it is the smallest so far, unless the pivot
+ * looks singular but J keeps its rank. Return whether it was stored. */
 static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
@@ -293,8 +293,8 @@ static void close_crossing(baum_simulation *run)
   run->crossings->open = false;
 }
 
-/* Behind a singular configuration p rises with the square of the path length. Where it does not,
- * the motion has taken a branch of singular configurations, and the interval might never end. */
+/* After a singular configuration p rises with the square of the path length. If it does not, the
+ * motion has taken a branch of singular configurations, and the interval might never end. */
 static bool stays_singular(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -362,7 +362,7 @@ static void examine_outside(baum_simulation *run)
   }
 }
 
-/* Examine the state that was noted last. Most states return early. */
+/* Examine the state that was noted last. Most calls return early. */
 void baum_i_crossings_look(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -395,7 +395,7 @@ void baum_i_crossings_end(baum_simulation *run)
   p->usual = 0.0;
 }
 
-/* Find the pivots of states again; *usual: at least the largest of them. */
+/* Find the pivots of states again. Raise *usual to the largest of them. */
 static baum_status find_pivots(baum_workspace *w, baum_i_knot *knots, int count, double *usual)
 {
   for (int k = 0; k < count; k++) {
@@ -432,14 +432,15 @@ void baum_i_crossings_renew(baum_simulation *run)
 
 /* ---- steps of variable length ---- */
 
-/* [rad] States inside a step are examined if the motion in the step is larger than LONG_NEAR near a
- * singular configuration, or than LONG elsewhere, if the step may lead across one. */
+/* States inside a step are examined if the step may lead across a singular configuration: if it
+ * moves more than LONG [rad] and the smaller pivot of its ends is below PIVOT, or if it moves more
+ * than LONG_NEAR and this pivot is below PIVOT_NEAR. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
 static const double PIVOT = 0.5;
 
-enum { INSIDE = 16 }; /* at most */
+enum { INSIDE = 16 }; /* largest number of parts of a step */
 
 /* Return the number of parts into which the step to `end` is divided. */
 static int count_pieces(const baum_simulation *run, const baum_i_state *end, double pivot)
@@ -469,7 +470,7 @@ static void examine_between(baum_simulation *run, double t)
   }
 }
 
-/* Failures are not reported here, because the next step has them again and reports them. */
+/* Failures are not reported here. They occur again in the next step, which reports them. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
   baum_i_crossings *p = run->crossings;

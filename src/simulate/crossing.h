@@ -14,7 +14,7 @@ enum {
 
 /* A crossing that has begun, or that has been found between two steps. */
 typedef struct baum_i_crossing {
-  double from;         /* [s] last clear state before it */
+  double from;         /* [s] last state before it that was not near-singular */
   double largest_turn; /* [-] largest relative change of the velocity in a step */
   /* 1: the pivots indicate a gap between branches instead of a singular configuration */
   int32_t gap;
@@ -29,11 +29,11 @@ struct baum_i_crossings {
   int32_t clear_count;
   int32_t open;
   int32_t unseen;      /* 1: the last recent state has not been examined */
-  int32_t joint_noted; /* joint of the smallest pivot of that state if near-singular, or -1 */
+  int32_t joint_noted; /* joint of the smallest pivot of that state, or -1 */
 
   baum_i_knot recent[BAUM_I_RECENT];      /* last states in order of time */
   baum_i_knot clear[BAUM_I_HERMITE_MOST]; /* clear states: far from singular ones and each other */
-  baum_i_knot at;                         /* a state between two */
+  baum_i_knot at;                         /* scratch: states between others */
   baum_i_knot other;
   baum_i_knot between;
   baum_i_knot lowest; /* t, pivot and q of the lowest pivot of the present crossing */
@@ -49,8 +49,9 @@ static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossi
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is allowed */
 
-/* The following functions do nothing if crossings are NULL, except where noted. Discard the states,
- * because another motion begins. */
+/* The following functions do nothing if crossings are NULL, except where noted. */
+
+/* Discard the states, because another motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
 /* Note a state of the run. The last solution must be that of this state. Evaluates nothing. */
@@ -84,9 +85,9 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 /* branch.c: return the largest scaled difference of two velocities (nv). */
 double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, const double *w);
 
-/* branch.c: tell whether there is a gap between branches instead of a singular configuration: near
- * the last recent state, or at t near the motion through the recent states, where the pivot is
- * given. */
+/* branch.c: tell whether there is a gap between branches instead of a singular configuration. The
+ * first function examines the last recent state. The second examines a time t among the recent
+ * states, at which the motion has the given pivot. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 

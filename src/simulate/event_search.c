@@ -83,7 +83,7 @@ static baum_status find_state(baum_simulation *run, double t)
   return baum_i_run_inside(run, t);
 }
 
-/* Set events->look to an approximation of this state that costs less. */
+/* Set events->look to an approximation of the state at t that costs less than find_state(). */
 static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
@@ -143,8 +143,8 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Replace one end by x: a if x is before the event, otherwise b. If the other end has not changed
- * repeatedly, reduce its value (Illinois). */
+/* Replace one end by x: a if x is before the event, otherwise b. If the same end was replaced last
+ * time, halve the value at the other end (Illinois). */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -258,7 +258,7 @@ static int record_group(baum_simulation *run, double end)
   return terminal;
 }
 
-/* ---- a stretch ---- */
+/* ---- a part of a step ---- */
 
 static baum_status stop_at(baum_simulation *run, int terminal, double t)
 {

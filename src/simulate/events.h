@@ -14,13 +14,13 @@ enum { BAUM_I_EVENT_RECORDS = 1024 };
 typedef struct baum_i_event_mark {
   double value;
   double last;   /* [s] time of its last record; NaN: none */
-  int32_t side;  /* side of zero: -1, 1, or 0 if the value has always been zero */
+  int32_t side;  /* side of zero: -1, 1, or 0 while the value is exactly zero */
   int32_t fresh; /* 1: value has not passed zero since the start, so leaving zero is not an event */
 } baum_i_event_mark;
 
 typedef struct baum_i_event {
-  baum_event_def def; /* `name` is an own copy */
-  int joint;          /* joint of its coordinate, or -1 */
+  baum_event_def def; /* owns its `name` */
+  int joint;          /* joint whose coordinate is the value, or -1 */
   double next;        /* value at the state evaluated last */
   double found;       /* time at which it passes zero in the present interval; NaN: none */
 } baum_i_event;
@@ -44,8 +44,8 @@ void baum_i_events_destroy(baum_i_events *events);
 
 /* Call the following functions only if run->events is not NULL. */
 
-/* Evaluate all events at a state and write the values to `next`. BAUM_OK, BAUM_ERR_CALLBACK,
- * BAUM_ERR_NOT_FINITE. */
+/* Evaluate all events at a state and write the values to `next`. Returns BAUM_OK, BAUM_ERR_CALLBACK
+ * or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
 /* Start the search at the present state, whose values have just been evaluated. begin() is for a
@@ -58,8 +58,8 @@ void baum_i_events_go_on(baum_simulation *run);
  * the trial state at the event, or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
-/* [s] Return the difference below which times count as equal when an event leaves zero, and at the
- * start. */
+/* [s] Return the time after a start of the search, or after the last record of the event, within
+ * which the event may leave zero without being recorded again. */
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
 
 static inline int32_t baum_i_sign(double x)

@@ -5,9 +5,9 @@
  *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 q'_k,  q'_k = N(q_k) v_k
  *
  * and v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The
- * factors of q_k and q'_k are the same for all coordinates. The sum of the factors of q_k is 1 and
- * that of their derivatives 0, so the differences q_k - q_0 are used. Angles after many revolutions
- * then lose no digits.
+ * factors of q_k and q'_k are the same for all coordinates. The factors of q_k add up to 1 and
+ * their derivatives to 0. p is therefore q_0 plus the combination of the differences q_k - q_0, and
+ * angles after many revolutions lose no digits.
  */
 #include "simulate/hermite.h"
 
@@ -24,7 +24,7 @@ typedef struct factors {
 static factors find_factors(const baum_i_knot *knots, int count, int k, double t)
 {
   double l = 1.0;
-  double rate = 0.0; /* of l */
+  double rate = 0.0; /* derivative of l */
   double slope = 0.0;
   for (int i = 0; i < count; i++) {
     if (i != k) {

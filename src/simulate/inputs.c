@@ -53,8 +53,8 @@ typedef struct given {
   double before;
 } given;
 
-/* Append the jumps of other inputs from the k-th up to and including t. Returns the index of the
- * next jump. */
+/* Append the jumps of other inputs, beginning with the k-th, up to and including time t. Returns
+ * the index of the next jump. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {
@@ -197,7 +197,7 @@ baum_status baum_i_run_own_parameters(baum_simulation *run)
   return BAUM_OK;
 }
 
-enum { MOST_NUMBERS = 8 }; /* parameters of a driver */
+enum { MOST_NUMBERS = 8 }; /* largest number of parameters of a driver */
 
 static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, const double law[3])
 {

@@ -1,24 +1,36 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks before each step whether the run must stop: because of the user, progress(), too many
- * steps, or steps that are too short.
+/* Checks before each step whether the run must stop: because of baum_simulation_cancel(), the
+ * result of progress(), too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
  * would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the motion.
- * Steps for high gains and stiff forces are far longer than this: with steps of 1e-6 of this time a
- * run takes 1e6 steps. */
+ * High gains and stiff forces need far fewer steps: 1e6 for this time, for example. */
 #include <math.h>
 
+#include "base/platform.h"
 #include "simulate/run.h"
 
 enum { PACE_STEPS = 10000 };
-static const double SLOWEST = 1e-9; /* mean step times rate */
+static const double SLOWEST = 1e-9; /* smallest mean step times rate */
 
 void baum_simulation_cancel(baum_simulation *simulation)
 {
   if (simulation) {
     atomic_store(&simulation->cancelled, 1);
   }
+}
+
+baum_status baum_simulation_set_progress_interval(baum_simulation *simulation, double interval)
+{
+  const char *call = "baum_simulation_set_progress_interval";
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  if (!(interval >= 0.0 && isfinite(interval))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: interval is %g s, must be finite and >= 0", call,
+                       interval);
+  }
+  simulation->options.progress_interval = interval;
+  return BAUM_OK;
 }
 
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
@@ -43,20 +55,13 @@ baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *ca
            : baum_i_run_may_be_read(run, call);
 }
 
-double baum_i_seconds_since(const struct timespec *then)
-{
-  struct timespec now;
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
-}
-
 static bool progress_cancels(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
-  if (!o->progress || baum_i_seconds_since(&run->last_progress) < o->progress_interval) {
+  if (!o->progress || baum_i_wall_seconds() - run->last_progress < o->progress_interval) {
     return false;
   }
-  (void)clock_gettime(CLOCK_MONOTONIC, &run->last_progress);
+  run->last_progress = baum_i_wall_seconds();
   run->reporting = true;
   int answer = o->progress(run, run->state.t, o->user);
   run->reporting = false;

@@ -36,7 +36,8 @@ BAUM_I_INLINE double error_of(double change, const double rates[3], const double
   return change - 0.5 * h * (rates[0] + rates[1] - rates[2]) - h * h / 12.0 * (bends[0] - bends[1]);
 }
 
-/* Compute dq without the term of dv, as a vector (nv), if q is not a vector. */
+/* For q that is not a vector, compute dq without its last term (h/2) N dv, as a displacement
+ * (nv). */
 static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
                                           double h)
 {
@@ -106,7 +107,7 @@ double baum_i_local_error_of_step(baum_i_local_error *e, const baum_simulation *
   double h = run->state.t - e->t;
   double error = 0.0;
   if (e->known > 1 && !(fabs(h - e->h) <= SAME_STEP * fabs(h))) {
-    e->known = 1; /* only the acceleration at the start of this step */
+    e->known = 1; /* only the acceleration at the start of this step is still useful */
   }
   if (e->known == BAUM_I_ACCELERATIONS) {
     double rate = baum_i_scaled_size(run->workspace->mechanism, run->state.v);

@@ -12,12 +12,12 @@ typedef struct baum_i_local_error {
   double *v;                       /* (nv) */
   double *a[BAUM_I_ACCELERATIONS]; /* (nv) at the starts of the last steps, newest first */
   double t;                        /* [s] start of the last step */
-  double h;                        /* [s] length of the step before */
+  double h;                        /* [s] length of the step that ended at t */
   int known;                       /* number of accelerations at equal distances */
 } baum_i_local_error;
 
-/* The first function returns how many numbers a baum_i_local_error needs, the second sets its
- * arrays to such memory. */
+/* The first function returns how many numbers the arrays of a baum_i_local_error need. The second
+ * places the arrays in memory for so many numbers. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 

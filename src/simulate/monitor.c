@@ -42,8 +42,9 @@ static void observe_singular(baum_simulation *run, double t)
 
 /* Omitted rows depend on the others only if the constraints do not contradict each other and the
  * motion stays on its branch. At a distance d from a configuration in which the active rows alone
- * are singular, the violation of the omitted rows may be 1/d times that of the active rows, and
- * close to it the square root of that of the active rows. A larger violation is a contradiction. */
+ * are singular, the violation of the omitted rows may be 1/d times that of the active rows. Very
+ * close to this configuration it may be the square root of that of the active rows. A larger
+ * violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -86,7 +87,8 @@ static void observe_redundant(baum_simulation *run, double t)
 /* If the scaled violation is larger than this, the run has drifted far or diverges. */
 static const double LARGE = 0.01;
 /* The error of the motion is at least as large as the violation. If the run has a tolerance, the
- * violation must not be much larger than the tolerance. */
+ * violation must not be much larger than the tolerance. KEPT and TOLERANCES_KEPT are limits for
+ * formulations that enforce Phi = 0, the others for formulations that let Phi drift. */
 static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;
@@ -110,7 +112,7 @@ static double allowed_violation(const baum_simulation *run)
 }
 
 /* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the errors
- * of the steady formulas are above a tenth. */
+ * of the steady formulas are above 10 %. */
 static const double STEADY_GAIN = 0.1;
 
 /* Predict the steady violation of both Euler methods: |Phi'| = h |gamma| / 2, |Phi| = alpha h
@@ -177,7 +179,8 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
-    double size = 0.0; /* factor of the steady violation (docs/theory/stabilization.md) */
+    /* The steady violation is proportional to |gamma| (docs/theory/stabilization.md). */
+    double size = 0.0;
     (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
     run->largest_gamma = fmax(run->largest_gamma, size);
   }
@@ -188,7 +191,8 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-/* The counters that contain counts of solvers and methods, plus the counts of other processes. */
+/* The counters that add up counts of solvers and methods in this process and, for a restored run,
+ * counts of earlier processes. */
 static const size_t COUNTED[BAUM_I_WORK] = {
   offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
   offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),

@@ -50,8 +50,8 @@ typedef struct number {
   const char *name;
   const char *unit;
   size_t offset;
-  bool takes[3]; /* by stepping */
-  bool required; /* by kind of steps: the number may be given */
+  bool takes[3]; /* by `stepping`: the number may be given */
+  bool required; /* the number must be given if it may be given */
   double unset;  /* value that means "not given" */
   double least;
   double most;

@@ -382,10 +382,10 @@ static int fill_channel(const baum_workspace *w, const baum_i_state *state, cons
   case OF_ROWS: return fill_slice(w, state, c, out);
   case OF_BODY: return fill_body(w, state, c, out);
   case OF_JOINT: return fill_joint(w, c, out);
-  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled later, like energies, */
+  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled by fill_energies() */
   case OF_ENERGY:
   case OF_NOTHING:
-  default: return 2; /* because they need another evaluation */
+  default: return 2; /* energies, also filled by fill_energies() */
   }
 }
 

@@ -30,9 +30,9 @@ typedef struct pilot {
   baum_workspace *workspace;
   baum_i_state *y;
   baum_i_state *d;
-  double swing;  /* [1/s] */
+  double swing;  /* [1/s] rate at which gravity swings the mechanism */
   double h;      /* [s] last step; infinite before the first */
-  double turned; /* [rad] */
+  double turned; /* [rad] path length so far */
   double time;   /* [s] */
   bool ready;    /* accelerations at y are in the workspace */
 } pilot;

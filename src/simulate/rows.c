@@ -34,11 +34,12 @@ static void project_present(baum_simulation *run)
   }
 }
 
-static const double WHILE = 0.1; /* [rad] */
+static const double WHILE = 0.1; /* [rad] motion between two checks */
 
-/* Estimate the smallest pivot for the check of the rows. Pivots of KLU vary irregularly, and pivots
- * of QR fall only very close to a singular configuration. With these solvers the rows are therefore
- * checked after every 0.1 rad of motion, which costs little compared with their other work. */
+/* Replace the smallest pivot in the check of the rows if KLU or QR solves: pivots of KLU vary
+ * irregularly, and pivots of QR fall only very close to a singular configuration. Return 0, which
+ * causes a check, after every WHILE of motion, otherwise 1. The checks cost little compared with
+ * the other work of these solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -53,8 +54,8 @@ static double guess_pivot(baum_simulation *run)
 /* Tell whether the method keeps its history when other rows are omitted. It may if the positions
  * satisfy the constraints, because the motion then does not depend on the choice of rows.
  * Multipliers jump, but variable-step methods do not test their error. GGL restarts because the
- * jump costs digits (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2 because the
- * violation of positions would grow with each choice. */
+ * jump would increase the error (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2
+ * because the violation of positions would grow with each choice. */
 static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;

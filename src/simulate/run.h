@@ -4,7 +4,6 @@
 #define BAUM_I_SIMULATE_RUN_H
 
 #include <stdatomic.h>
-#include <time.h>
 
 #include "base/message.h"
 #include "integrate/integrator.h"
@@ -52,7 +51,7 @@ struct baum_simulation {
   double rows_looked_at;      /* [s] last check of the redundant rows with KLU or QR; see rows.c */
   double judged_phi;          /* max_phi when it was last compared with its limit */
   int64_t near_singular_seen; /* workspace->near_singular at the last check */
-  int64_t announced[BAUM_I_WARNINGS]; /* how often statuses have announced each warning */
+  int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that statuses have announced */
   baum_counters counters;
 
   baum_simulation_options options;
@@ -72,8 +71,8 @@ struct baum_simulation {
 
   double *parameters;       /* own copy after a driver law has been set, else NULL */
   baum_i_schedule schedule; /* of inputs */
-  double *memory;           /* all arrays below */
-  baum_i_state state;       /* reported */
+  double *memory;           /* memory of the arrays below */
+  baum_i_state state;       /* present state, which is reported */
   baum_i_state ahead;       /* variable step: end of the last internal step */
   baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
   baum_i_state spare;       /* used by steps near a singular configuration */
@@ -89,9 +88,9 @@ struct baum_simulation {
   baum_i_gain_choice gains;
 
   atomic_int cancelled;
-  struct timespec last_progress;
-  bool reporting;  /* within progress() */
-  double paced_at; /* [s] time of the last check of the pace of this call */
+  double last_progress; /* [s] */
+  bool reporting;       /* within progress() */
+  double paced_at;      /* [s] time of the last check of the pace of this call */
 };
 
 /* ---- run.c ---- */
@@ -99,8 +98,8 @@ struct baum_simulation {
 /* Copy time, positions and velocities. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints in space: angles go on from where the workspace has them to those
- * at a state. Returns what baum_i_follow_angles() returns. */
+/* Count the revolutions of joints in space: continue the angles in the workspace to those at a
+ * state. Returns the result of baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
@@ -119,7 +118,8 @@ static inline double baum_i_run_last_end(const baum_simulation *run)
  * workspace. */
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
-/* Create a workspace with the solver and the omitted rows of the run. BAUM_OK, BAUM_ERR_MEMORY. */
+/* Create a workspace with the solver and the omitted rows of the run. Returns the statuses of
+ * baum_i_workspace_create() and baum_i_use_blocks(). */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
 
 enum { BAUM_I_NO_JOINT = -1 };
@@ -141,7 +141,7 @@ baum_status baum_i_run_finish(baum_simulation *run);
 /* Store the message of a failure in the run and return the status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
-/* Check the arguments of a call that fills a sized struct from a run. BAUM_OK or
+/* Check the arguments of a call that fills a sized struct from a run. Returns BAUM_OK or
  * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
                                  const char *call);
@@ -165,7 +165,8 @@ baum_status baum_i_run_check_velocities(baum_simulation *run);
  * state. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, whose energy is known, the present state. Grid and energy restart. */
+/* Make the trial state, whose energy is known, the present state. A new time grid begins there, and
+ * changes of energy count from there. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
 /* ---- choose_gains.c, pilot.c ---- */
@@ -230,9 +231,6 @@ baum_status baum_i_run_is_wanted(baum_simulation *run);
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
-/* Return the wall time [s] since `then`. */
-double baum_i_seconds_since(const struct timespec *then);
-
 /* ---- one_step.c ---- */
 
 /* Fixed step: set the trial state to the end of a step from the present state to t_next. */
@@ -248,8 +246,8 @@ baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* Give the run its own copy of the parameters. Before, it uses those of the mechanism. BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* Give the run its own copy of the parameters. Before, it uses those of the mechanism. Returns
+ * BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- schedule.c ---- */
@@ -261,10 +259,10 @@ void baum_i_schedule_move(baum_simulation *run, double from, double to);
 /* End the schedule of an input. The input keeps its value. */
 void baum_i_schedule_end(baum_simulation *run, int64_t input);
 
-/* Allocate memory for `count` jumps. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Allocate memory for `count` jumps. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
 
-/* Copy a schedule to an empty one. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Copy a schedule to an empty one. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
 
 /* Tell whether bytes, of any alignment, are `count` valid jumps of a run with input_count
@@ -287,20 +285,21 @@ baum_i_break baum_i_run_next_break(const baum_simulation *run);
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
 /* restart.c: pass from the near side of a break, which is the present time, to the far side.
- * Methods with a history and the grid restart. Statuses of baum_i_run_restart(). */
+ * Methods with a history restart there, and a new time grid begins there. Returns the statuses of
+ * baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 /* ---- rows.c ---- */
 
 /* Check the omitted redundant rows at the present state, where the next step begins. If the active
- * rows have become ill-conditioned, omit other rows and restart methods. Statuses of
+ * rows have become ill-conditioned, omit other rows and restart methods. Returns the statuses of
  * baum_i_run_restart(). Does nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
 /* Choose the omitted rows for a given state. The caller restarts everything afterwards. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
-/* Omit these rows (nc). Statuses of baum_i_omit_rows(); on failure nothing changes. */
+/* Omit these rows (nc). Returns the statuses of baum_i_omit_rows(); on failure nothing changes. */
 baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
 
 /* ---- singular_step.c ---- */
@@ -311,7 +310,7 @@ baum_status baum_i_run_limit_acceleration(baum_simulation *run);
 
 /* Project the trial state, the end of a step, onto the constraints at t. The projection is skipped
  * near a singular configuration, where its rounding errors would be larger than the error of the
- * step. Statuses of baum_i_project(). */
+ * step. Returns the statuses of baum_i_project(). */
 baum_status baum_i_run_project(baum_simulation *run, double t);
 
 /* ---- failure.c ---- */
@@ -323,7 +322,8 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
 
 /* ---- output.c ---- */
 
-/* Check channels and find their total width: BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT. */
+/* Check channels and find their total width. Returns BAUM_OK, BAUM_ERR_ARGUMENT or
+ * BAUM_ERR_STRUCT. */
 baum_status baum_i_check_channels(const baum_mechanism *mechanism, const baum_channel *channels,
                                   int count, int *width);
 

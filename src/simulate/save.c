@@ -385,7 +385,8 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
                "does not fit: this run cannot omit the redundant rows that the saved run omits");
 }
 
-/* Check that the parameters of a driver that has no other law define its polynomial. */
+/* Check that a driver whose law is the polynomial of its parameters (general/driven.h) has a
+ * polynomial in the buffer, too. Its type has no other law. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
@@ -474,7 +475,8 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
 
 /* ---- restore ---- */
 
-/* Allocate memory for data that the run may not have: own parameters and scheduled jumps. */
+/* Do what may fail: allocate memory for own parameters and scheduled jumps, and omit the saved
+ * rows. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {

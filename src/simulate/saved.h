@@ -4,8 +4,8 @@
  * whenever a part or its meaning changes; tests/unit/test_saved.c records the sizes of each
  * version.
  *
- * Plain structs contain only numbers, with flags as int32_t, so that arbitrary bytes are valid. Of
- * an object, the members before the first that is not saved are a part. */
+ * Plain structs contain only numbers, with flags as int32_t, so that arbitrary bytes are valid. If
+ * only some members of a struct are saved, they are its first members and form one part. */
 #ifndef BAUM_I_SIMULATE_SAVED_H
 #define BAUM_I_SIMULATE_SAVED_H
 

@@ -8,7 +8,7 @@
 #include "simulate/crossing.h"
 
 /* Tell whether the last solution is that of a singular configuration. If the block solver has given
- * up, the pivot is that of another solver and is larger. */
+ * up, the pivot comes from another solver, whose pivots are larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -24,7 +24,7 @@ static double find_pivot(const baum_simulation *run)
 
 /* Tell whether rounding errors of a projection are larger than the error of a step by h. With the
  * rounding error e, the relative pivot p and the rate w, projection causes errors of e / p in the
- * direction of the velocity, and a step of order k errors of about (h w)^(k+1) / 100. */
+ * direction of the velocity. A step of order k causes errors of about (h w)^(k+1) / 100. */
 static bool is_below_rounding(const baum_simulation *run, double h)
 {
   double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);
@@ -40,7 +40,7 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
   bool skips = false;
   if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
-    skips = is_in_pose(run, find_pivot(run)); /* projection may fail to converge */
+    skips = is_in_pose(run, find_pivot(run)); /* projection need not converge there */
   } else if (run->crossings && status == BAUM_OK) {
     skips = is_below_rounding(run, t - run->state.t);
   }

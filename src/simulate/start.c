@@ -17,7 +17,7 @@
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
 enum { DRIVER_STEPS = 256 };      /* largest number of steps of assembly along the drivers */
-static const double EXACT = 1e-9; /* of the scales */
+static const double EXACT = 1e-9; /* violation of an exact start, relative to the scales */
 
 /* ---- assembled ---- */
 
@@ -30,7 +30,8 @@ static int first_angle(const baum_i_body *body)
                                                          : body->nv);
 }
 
-/* Return the end of the displacements from coordinate i on that form one vector. */
+/* The coordinates of a body from i on form one displacement or rotation vector. Return the index
+ * after its last coordinate. */
 static int vector_end(const baum_i_body *body, int i)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
@@ -108,8 +109,8 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
   return check_displacement(run, before, moved);
 }
 
-/* Find the violations of drivers in the design configuration, with zeros in the other rows; false:
- * the drivers begin there. */
+/* Write the violations of drivers in the design configuration to their rows; other rows stay zero.
+ * Return false if no driver is violated, so that the drivers begin in the design configuration. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
@@ -127,8 +128,8 @@ static bool find_driver_violations(baum_simulation *run, double *violations)
   return found;
 }
 
-/* Close the joints where the drivers are in the design configuration, and follow the drivers from
- * there to where they begin, in equal steps. */
+/* Assemble first with the drivers at their values in the design configuration. Then move the
+ * drivers in equal steps to the values at which they begin, and assemble after each step. */
 static baum_status follow_drivers(baum_simulation *run, const double *violations, int steps,
                                   double *left, double *before)
 {
@@ -143,7 +144,8 @@ static baum_status follow_drivers(baum_simulation *run, const double *violations
   return BAUM_OK;
 }
 
-/* A mechanism designed in one position may begin in another, to which its drivers lead. */
+/* Assemble the design configuration. If this fails, the drivers may begin at values far from the
+ * design configuration. Then follow the drivers to these values, in more and more steps. */
 static baum_status assemble_positions(baum_simulation *run, const double *design, double *work)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -202,7 +204,7 @@ static baum_status check_exact(baum_simulation *run)
   return check_rows(run, w->phi_rate, EXACT * rate, "Phi'", "m/s or rad/s");
 }
 
-/* ---- velocities against ill-conditioned rows ---- */
+/* ---- velocities that ill-conditioned rows do not determine ---- */
 
 /* Velocities may satisfy ill-conditioned rows up to rounding although the rows do not determine
  * them accurately. For example, if two bodies are connected by two pins a nanometre apart, a
@@ -210,7 +212,7 @@ static baum_status check_exact(baum_simulation *run)
  * errors of the size by which projection would change the velocities. */
 static const double OPEN = 1e-6; /* relative change of velocities above which the run warns */
 static const double CONTRADICTS = 1e-3; /* relative change above which the start is refused */
-static const double ROUNDING = 1e-13;   /* of the rows, relative to the velocities */
+static const double ROUNDING = 1e-13;   /* rounding of the rows, relative to the velocities */
 
 /* Find the largest velocity violation relative to the size of the velocities, and its row. Returns
  * 0 if nothing moves. */
@@ -242,8 +244,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   return BAUM_OK;
 }
 
-/* Find the relative change of the velocities by projection; 1 if projection fails. If the rank is
- * exactly lower, projection does not change the velocities. */
+/* Find the relative change of the velocities by projection; 1 if projection fails. If rows depend
+ * exactly on others, the change counts as 0. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -351,7 +353,7 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* Check that q is close to the manifold, so that the difference is rounding of the given
+/* Check that q is so close to the manifold that its distance can be rounding of the given
  * numbers. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {

@@ -32,7 +32,7 @@ typedef struct baum_i_method {
   baum_i_method_kind kind;
   int degree; /* degree of R, or number k of steps */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
-  double best[2]; /* result of baum_i_stability_best() if its search is slow; otherwise 0 */
+  double best[2]; /* stored result of baum_i_stability_best() if its search is slow, otherwise 0 */
 } baum_i_method;
 
 /* Returns a static text on the effect of gains with a method. chooses_step: the method chooses its
@@ -61,7 +61,7 @@ bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, do
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
 /* Finds all stable intervals of alpha h, in order; the first `capacity` are stored. Gaps and
- * intervals shorter than 1 % of their alpha h may be missed. @return their number */
+ * intervals shorter than 1 % of their alpha h may be missed. Returns the number of intervals. */
 int baum_i_stability_intervals(const baum_i_method *method, double damping_ratio, int capacity,
                                double *from, double *to);
 

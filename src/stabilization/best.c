@@ -32,7 +32,7 @@ enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS =
 
 /* ---- Dead-beat ------------------------------------------------------------ */
 
-/* Make the step mu := mu - R(mu) / R'(mu) of Newton's method, for complex mu. @return |R| before */
+/* Makes Newton's step mu := mu - R(mu) / R'(mu) for complex mu. Returns |R| before the step. */
 static double newton_step(const baum_i_method *method, double mu[2])
 {
   double r[2] = {0.0, 0.0};
@@ -91,7 +91,7 @@ static bool find_zero(const baum_i_method *method, double best[2])
 typedef struct search {
   const baum_i_method *method;
   double growth; /* the least so far */
-  double s;      /* where */
+  double s;      /* (s, m): where it is in the chart */
   double m;
   double point[2];
 } search;

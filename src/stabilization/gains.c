@@ -2,12 +2,12 @@
 /* Computes gains by a rule. The table `rules` has one row per rule.
  *
  *   fixed      alpha, beta                                      as given
- *   scaled     alpha = A / h,  beta = sqrt(B) / h               as given, of the step
+ *   scaled     alpha = A / h,  beta = sqrt(B) / h               A and B as given
  *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               (10, 11): A = 1, B = 2
  *   frequency  beta = 2 pi f,  alpha = zeta beta                s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
  *   best       scaled, with the point of least spectral radius
- *   auto       alpha = beta = c x rate, h alpha <= 0.3          keeps cost and order up to there
+ *   auto       alpha = beta = c x rate, h alpha <= 0.3          this limit preserves cost and order
  *
  * A and B are stored in addition to alpha and beta, so that the stability of a rule relative to the
  * step is checked exactly at its point.
@@ -19,7 +19,8 @@
  *
  * Variable steps: the step of an explicit method is limited such that (alpha h, beta^2 h^2) is in
  * the region of stability. BDF of order 5 is A(51.84 degrees) stable: it damps violations for any
- * alpha h if alpha / beta, the cosine of the angle of s, is at least cos 51.84 = 0.618. */
+ * alpha h if alpha / beta is at least cos 51.84 = 0.618. alpha / beta is the cosine of the angle
+ * between the roots of s^2 + 2 alpha s + beta^2 and the negative real axis. */
 #include "stabilization/gains.h"
 
 #include <math.h>

@@ -32,7 +32,7 @@ typedef struct baum_i_gain_choice {
   bool doubtful; /* `why` is a warning: violations may stay or grow */
 } baum_i_gain_choice;
 
-/* Applies a rule and checks the stability of its gains. BAUM_OK, BAUM_ERR_ARGUMENT (invalid
+/* Applies a rule and checks the stability of its gains. Returns BAUM_OK, BAUM_ERR_ARGUMENT (invalid
  * numbers, or a rule that requires a fixed step), BAUM_ERR_UNSUPPORTED (the method has no dead-beat
  * point), BAUM_ERR_UNSTABLE (the message contains (alpha h, beta^2 h^2), the spectral radius, the
  * stable region and the nearest good pair, in 1/s and scaled). Marginal pairs are accepted with

@@ -11,7 +11,8 @@
 
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
 static const double FARTHEST = 1e3;     /* extent of the lattice if the region is unbounded */
-static const double AROUND = 2.0;       /* extent of the next lattice, in cells */
+/* Half the extent of the next lattice, in cells of the last one. */
+static const double AROUND = 2.0;
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
 typedef struct lattice {
@@ -25,9 +26,8 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-/* Updates the nearest crossing with that between a node and the node before it in direction d,
- * exactly one of which is good.
- */
+/* Locates the crossing between a node and the node before it in direction d, exactly one of which
+ * is good. Stores the crossing if it is the nearest so far. */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
   double before[2] = {node[0], node[1]};
@@ -58,7 +58,7 @@ static bool is_good_node(const lattice *l, int i, int j, double at[2])
  * edge of the region. */
 static void cross_all(lattice *l)
 {
-  bool column[CELLS + 3] = {false}; /* nodes of the last column */
+  bool column[CELLS + 3] = {false}; /* which nodes of the last column are good */
   for (int i = -1; i <= l->cells + 1; i++) {
     bool below = false;
     for (int j = -1; j <= l->cells + 1; j++) {

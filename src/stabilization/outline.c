@@ -15,7 +15,7 @@
 
 #include "stabilization/chart.h"
 
-enum { BISECTIONS = 42 };                /* from 1/160 down to a few rounding errors */
+enum { BISECTIONS = 42 };                /* reduce 1/160 to a few rounding errors */
 enum { CELLS = 160, NODES = CELLS + 3 }; /* one node beyond the chart on every side */
 enum { INSIDE = 1, ENTERED = 2 }; /* ENTERED: a curve has entered through edge 0 of the square */
 
@@ -23,7 +23,7 @@ typedef struct march {
   const baum_i_method *method;
   double growth;
   double extent;
-  unsigned char node[NODES][NODES]; /* [i][j] */
+  unsigned char node[NODES][NODES]; /* INSIDE, ENTERED */
   baum_i_outline *out;
 } march;
 
@@ -114,7 +114,7 @@ static void follow_curve(march *m, const int start[2])
     edge = (exit + 2) & 3;
     double point[2];
     cross(m, square, edge, point);
-    if (point[0] != last[0] || point[1] != last[1]) { /* at the border m = 0 all are A = B = 0 */
+    if (point[0] != last[0] || point[1] != last[1]) { /* all points with m = 0 are A = B = 0 */
       put(m->out, point);
       memcpy(last, point, sizeof last);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The test of Schur (1917) and Cohn (1922).
  *
- *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)),  of coefficients conj(c_(n-k))
+ *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)) with coefficients conj(c_(n-k))
  *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
  *
  * On the unit circle |p| = |p*|. If |c_0| < |c_n|, the term with p is therefore larger there than

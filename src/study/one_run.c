@@ -3,31 +3,14 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "base/alloc.h"
+#include "base/platform.h"
 #include "base/text.h"
 #include "integrate/integrator.h"
 #include "study/study.h"
 
 static const double LOOK = 0.005; /* [s] of wall time between checks of the deadline */
-
-static double seconds(clockid_t clock)
-{
-  struct timespec now;
-  (void)clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static double thread_seconds(void)
-{
-  return seconds(CLOCK_THREAD_CPUTIME_ID);
-}
-
-double baum_i_wall_seconds(void)
-{
-  return seconds(CLOCK_MONOTONIC);
-}
 
 bool baum_i_deadline_stops(const baum_i_deadline *deadline)
 {
@@ -46,7 +29,7 @@ static int check_deadline(const baum_simulation *simulation, double t, void *use
   (void)simulation;
   (void)t;
   baum_i_deadline *deadline = user;
-  deadline->timed_out = thread_seconds() - deadline->begin >= deadline->limit;
+  deadline->timed_out = baum_i_thread_seconds() - deadline->begin >= deadline->limit;
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
@@ -142,7 +125,7 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, do
   baum_simulation_options o = complete(task, deadline);
   baum_simulation *run = NULL;
   deadline->timed_out = false;
-  deadline->begin = thread_seconds();
+  deadline->begin = baum_i_thread_seconds();
   out->status = baum_simulation_create(study->mechanism, &o, &run);
   if (out->status == BAUM_OK && task->samples->q) {
     out->status = baum_simulation_set_state(run, study->t0, task->samples->q, task->samples->v);
@@ -156,7 +139,7 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, do
   out->status = values ? sample(task, run, values) : advance(task, run);
   read_outcome(run, deadline, o.energy_account, out);
   baum_simulation_destroy(run);
-  out->cpu = thread_seconds() - deadline->begin;
+  out->cpu = baum_i_thread_seconds() - deadline->begin;
 }
 
 baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out)

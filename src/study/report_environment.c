@@ -2,10 +2,10 @@
 /* Environment of a report: libraries, compiler, processor, date. */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <baum/version.h>
 
+#include "base/platform.h"
 #include "integrate/integrator.h"
 #include "study/report.h"
 
@@ -42,10 +42,5 @@ void baum_i_environment_read(baum_i_environment *out)
                               .compiler = COMPILER,
                               .cpu = "not known"};
   read_cpu(out->cpu, sizeof out->cpu);
-  time_t now = time(NULL);
-  struct tm parts;
-  if (!gmtime_r(&now, &parts) ||
-      strftime(out->date, sizeof out->date, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0) {
-    (void)snprintf(out->date, sizeof out->date, "not known");
-  }
+  baum_i_date_read(out->date, sizeof out->date);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/platform.h"
 #include "study/study.h"
 
 /* [-] a run with a larger error of positions has followed another motion */
@@ -17,7 +18,7 @@ static const double TIMED_FOR = 0.2;     /* [s] an entry is repeated until this 
 typedef struct workers {
   baum_study *study;
   baum_i_study_file *file;
-  baum_i_lock lock;
+  baum_i_lock *lock;
   double wall_end;
   baum_i_entry **order; /* (count) entries to be measured */
   int count;
@@ -160,11 +161,11 @@ static baum_i_entry *next_entry(workers *c)
 {
   const baum_i_deadline deadline = deadline_of(c, 1.0);
   baum_i_entry *entry = NULL;
-  baum_i_lock_take(&c->lock);
+  baum_i_lock_take(c->lock);
   if (c->next < c->count && c->status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
     entry = c->order[c->next++];
   }
-  baum_i_lock_give(&c->lock);
+  baum_i_lock_give(c->lock);
   return entry;
 }
 
@@ -181,16 +182,16 @@ static void finish_entry(workers *c, baum_i_entry *entry)
 static void measure_entry(workers *c, baum_i_entry *entry, double *values)
 {
   baum_i_deadline deadline = deadline_of(c, 1.0);
-  baum_i_lock_take(&c->lock);
+  baum_i_lock_take(c->lock);
   bool passed = is_too_fine(c, entry);
-  baum_i_lock_give(&c->lock);
+  baum_i_lock_give(c->lock);
   baum_i_outcome outcome = {0};
   if (!passed) {
     const baum_i_task task = {c->study, &entry->options, &c->study->reference.samples, true};
     baum_i_study_run_one(&task, &deadline, values, &outcome);
   }
   bool stopped = outcome.status == BAUM_STOP_CANCELLED && !deadline.timed_out;
-  baum_i_lock_take(&c->lock);
+  baum_i_lock_take(c->lock);
   if (outcome.status == BAUM_ERR_MEMORY) {
     note_failure(c, baum_i_fail_memory());
   } else if (!stopped) {
@@ -201,7 +202,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
     }
     finish_entry(c, entry);
   }
-  baum_i_lock_give(&c->lock);
+  baum_i_lock_give(c->lock);
 }
 
 /* Work on one entry. values is scratch memory for the samples of one run. */
@@ -212,9 +213,9 @@ static void run_entries(workers *c, entry_fn *work)
   size_t size = (size_t)c->study->reference.samples.n * (size_t)baum_i_study_layout(c->study).width;
   double *values = baum_i_alloc(size, sizeof *values);
   if (!values) {
-    baum_i_lock_take(&c->lock);
+    baum_i_lock_take(c->lock);
     note_failure(c, baum_i_fail_memory());
-    baum_i_lock_give(&c->lock);
+    baum_i_lock_give(c->lock);
     return;
   }
   baum_i_entry *entry = NULL;
@@ -237,14 +238,14 @@ static void validate_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
   double error = (double)NAN;
   baum_status status = baum_i_study_validate(c->study, entry, &deadline, values, &error);
-  baum_i_lock_take(&c->lock);
+  baum_i_lock_take(c->lock);
   if (status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
     entry->out.error_validated = error;
     entry->stage = BAUM_I_VALIDATED;
     status = baum_i_study_file_entry(c->file, entry);
   }
   note_failure(c, status);
-  baum_i_lock_give(&c->lock);
+  baum_i_lock_give(c->lock);
 }
 
 static void validate(void *self, int k)
@@ -459,14 +460,15 @@ static baum_status prepare(workers *c)
 
 static void run_all(workers *c)
 {
-  if (!baum_i_lock_make(&c->lock)) {
+  c->lock = baum_i_lock_create();
+  if (!c->lock) {
     note_failure(c, baum_i_fail_memory());
     return;
   }
   run_workers(c, measure);
   time_entries(c);
   validate_all(c);
-  baum_i_lock_end(&c->lock);
+  baum_i_lock_destroy(c->lock);
 }
 
 static baum_status conclude(workers *c)

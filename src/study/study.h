@@ -13,7 +13,6 @@
 #include <baum/study.h>
 
 #include "base/text.h"
-#include "study/threads.h"
 
 enum {
   BAUM_I_NOTE_SIZE = BAUM_I_MESSAGE_SIZE, /* no message is cut */
@@ -195,8 +194,6 @@ typedef struct baum_i_outcome {
   double cpu;                  /* [s] */
   char message[BAUM_I_NOTE_SIZE];
 } baum_i_outcome;
-
-double baum_i_wall_seconds(void);
 
 /* A run to be made: its options, start and samples. */
 typedef struct baum_i_task {

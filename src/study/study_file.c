@@ -22,7 +22,7 @@
 
 #include "base/alloc.h"
 #include "base/digest.h"
-#include "base/file.h"
+#include "base/platform.h"
 #include "base/text.h"
 #include "mechanism/fingerprint.h"
 #include "study/report.h"
@@ -288,7 +288,7 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
     return baum_i_fail(BAUM_ERR_FILE, "study: file %s is not a regular file", file->path);
   }
   errno = 0;
-  file->stream = fopen(file->path, "r");
+  file->stream = baum_i_file_open(file->path, "rb");
   if (!file->stream) {
     return errno == ENOENT ? BAUM_OK : fail_file(file, "opened");
   }
@@ -301,7 +301,7 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
 static baum_status begin(baum_i_study_file *file, const baum_study *study, bool is_new, bool whole)
 {
   errno = 0;
-  file->stream = fopen(file->path, is_new ? "w" : "a");
+  file->stream = baum_i_file_open(file->path, is_new ? "wb" : "ab");
   if (!file->stream) {
     return fail_file(file, "opened");
   }
@@ -359,7 +359,7 @@ baum_status baum_i_study_file_close(baum_i_study_file *file)
 {
   baum_status status = BAUM_OK;
   if (file && file->stream) {
-    int reason = baum_i_sync_file(file->stream);
+    int reason = baum_i_file_sync(file->stream);
     if (fclose(file->stream) != 0 || reason != 0) {
       errno = reason ? reason : errno;
       status = fail_file(file, "written");

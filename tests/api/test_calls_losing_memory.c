@@ -353,6 +353,21 @@ CALL(baum_page_print)
   return baum_page_print(s->parts.mechanism, &page, NULL, 0, NULL);
 }
 
+CALL(baum_page_svg)
+{
+  const baum_channel channels[] = {baum_channel_of(BAUM_Q),
+                                   baum_channel_of_joint(BAUM_JOINT_REACTION, s->parts.pin)};
+  const baum_channel trace = baum_channel_of_body(BAUM_BODY_POSE, s->parts.crank);
+  double row[EVERY_NQ + 6] = {0.0};
+  memcpy(row, s->q, sizeof s->q);
+  baum_page page = page_of(s, channels);
+  page.channel_count = 2;
+  page.rows = row;
+  page.traces = &trace;
+  page.trace_count = 1;
+  return baum_page_svg(s->parts.mechanism, &page, 0, NULL, 0, NULL);
+}
+
 CALL(baum_page_write)
 {
   const baum_channel channel = baum_channel_of(BAUM_Q);
@@ -409,6 +424,7 @@ static const call CALLS[] = {
   ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
   ROW(baum_page_print, FROZEN),
+  ROW(baum_page_svg, FROZEN),
   ROW(baum_page_write, FROZEN),
 };
 

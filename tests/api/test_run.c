@@ -411,6 +411,13 @@ static void progress_is_called_by_wall_time(void **state)
   assert_ptr_equal(every_step.run, a.run);
   assert_int_equal(never.calls, 0);
   check_same_state(a.run, b.run);
+  ASSERT_SAYS(baum_simulation_set_progress_interval(b.run, -1.0), BAUM_ERR_ARGUMENT,
+              "interval is -1 s, must be finite and >= 0");
+  ASSERT_SAYS(baum_simulation_set_progress_interval(b.run, (double)INFINITY), BAUM_ERR_ARGUMENT,
+              "interval is inf s");
+  assert_int_equal(baum_simulation_set_progress_interval(b.run, 0.0), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(b.run, 0.2), BAUM_OK);
+  assert_int_equal(never.calls, 10);
   close_scene(&a);
   close_scene(&b);
 }

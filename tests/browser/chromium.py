@@ -94,8 +94,10 @@ class Chromium:
         self.call("Emulation.setEmulatedMedia", media=media, features=features)
 
     def open(self, path):
+        """Open a file, or an address that begins with http."""
         self.events.clear()
-        self.call("Page.navigate", url="file://" + os.path.abspath(path))
+        url = path if path.startswith("http:") else "file://" + os.path.abspath(path)
+        self.call("Page.navigate", url=url)
         for _ in range(600):
             if self.run("document.readyState") == "complete" and self.run("location.href") != "about:blank":
                 return

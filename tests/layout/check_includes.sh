@@ -15,8 +15,8 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (header == "colamd.h") return file == "src/linear/qr.c"
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
       return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|driver|klu))\.[ch]$/
-    if (header == "pthread.h") return file == "src/study/threads.h"
-    if (header ~ /^(fcntl|unistd|sys\/stat)\.h$/) return file == "src/base/file.c"
+    if (header ~ /^(fcntl|io|pthread|unistd|windows|sys\/stat)\.h$/) return file == "src/base/platform.c"
+    if (header == "cpuid.h") return file == "src/base/hot.c"
     if (header == "immintrin.h") return file == "src/base/four.h"
     return 0
   }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_libraries.sh SHARED STATIC
-# The shared library loads only SUNDIALS, KLU, COLAMD and the C library. Neither library calls anything under the GPL,
+# The shared library loads only SUNDIALS, KLU, COLAMD, the C library, and MPI where SUNDIALS uses it (Debian 13). Neither library calls anything under the GPL,
 # or BLAS, LAPACK or Fortran.
 set -eu
 shared=$1
@@ -10,7 +10,7 @@ static=$2
 loaded=$(readelf -d "$shared" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
 [ -n "$loaded" ] || { echo "readelf read nothing"; exit 1; }
 foreign=$(echo "$loaded" |
-  grep -Ev '^(libsundials_[a-z]+|lib(klu|btf|amd|colamd|suitesparseconfig)|libc|libm|libpthread|libgcc_s|ld-linux.*)\.so' ||
+  grep -Ev '^(libsundials_[a-z]+|lib(klu|btf|amd|colamd|suitesparseconfig)|libmpi|libc|libm|libpthread|libgcc_s|ld-linux.*)\.so' ||
   true)
 called=$( (nm -D --undefined-only "$shared"; nm -g --undefined-only "$static") | awk 'NF == 2 { print $2 }' |
   sort -u)

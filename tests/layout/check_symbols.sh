@@ -40,7 +40,7 @@ complain "in the static library without the prefix baum_" \
 quiet=' (printf|__printf_chk|fprintf|__fprintf_chk|vprintf|vfprintf|puts|putchar|fputs|fputc|fwrite|perror|fopen|freopen|open|system|exit|_exit|_Exit|quick_exit|abort|signal|sigaction)$'
 # The library opens only the files and reports of studies, and the file with the processor's name.
 complain "prints, opens a file, or ends the process" "$(echo "$called" | grep -E "$quiet" |
-  grep -Ev '^(study_file|file)\.c\.o (fopen|fputs|fwrite)$|^file\.c\.o open$|^report_environment\.c\.o fopen$' || true)"
+  grep -Ev '^(study_file|file)\.c\.o (fputs|fwrite)$|^platform\.c\.o f?open$|^report_environment\.c\.o fopen$' || true)"
 complain "allocates outside base/alloc" "$(echo "$called" |
   grep -E ' (malloc|calloc|realloc|free|aligned_alloc|posix_memalign|strdup|strndup)$' |
   grep -v '^alloc\.c\.o ' || true)"

@@ -34,11 +34,16 @@ def right() -> None:
         assert_type(s, baum.Simulation)
         assert_type(s.advance_to(1), baum.Status)
         assert_type(s.get("pin.phi"), Array)
+        assert_type(s.view(traces=[body, "a.pose"]).url, str)
         assert_type(s.get("pin.phi", body.pose), "tuple[Array, ...]")
     with baum.study(m, 0, 1, grid="full") as study:
         best = study.add("rk4", step=1e-3).run().recommend(1e-6)
         assert_type(study.entries[0].error, float)
         m.simulate([0], **best)
+    run.page("x.html", forces=["pin.reaction"])
+    run.figure(0.5, traces=[body.pose], size=(300, 200)).save("x.pdf")
+    run.movie("x.gif", fps=25, speed=0.5, forces=True, progress=print)
+    m.page(run.t, run.q, "x.html", plots={"y [m]": run.q[:, 1]}, marks=[(0.5, "half")])
     assert_type(baum.stability("rk4", 1, 1).roots, "tuple[complex, complex]")
     assert_type(baum.AccuracyWarning.code, int)
 

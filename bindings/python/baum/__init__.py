@@ -10,8 +10,9 @@
     run = m.freeze().simulate(times, "rk4", step=1e-3, record=["circle.phi", "energy"])
     run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
 
-The package searches for the C library in its own folder, in the build tree, and on the path of the
-system's loader. If the environment variable BAUM_LIBRARY is set, it names the file to load.
+The package searches for the C library in its own folder, in the build tree, in the `lib` of the
+virtual environment, and on the path of the system's loader. If the environment variable
+BAUM_LIBRARY is set, it names the file to load.
 """
 
 from __future__ import annotations
@@ -59,6 +60,7 @@ from .integrators import (
     stability_outline,
     stability_statement,
 )
+from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
@@ -138,6 +140,7 @@ __all__ = [
     "StudyEntry",
     "StudyMethod",
     "StudyReference",
+    "View",
     "ViolationWarning",
     "Warning",
     "Workspace",

@@ -1286,6 +1286,7 @@ PROTOTYPES = {
     "baum_simulation_advance_to": (c_int, [c_void_p, c_double]),
     "baum_simulation_step": (c_int, [c_void_p, c_int64]),
     "baum_simulation_cancel": (None, [c_void_p]),
+    "baum_simulation_set_progress_interval": (c_int, [c_void_p, c_double]),
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_simulation_continue": (c_int, [c_void_p, c_void_p]),
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
@@ -1332,6 +1333,9 @@ PROTOTYPES = {
     "baum_page_write": (c_int, [c_void_p, POINTER(baum_page), c_char_p]),
     "baum_page_print": (c_int, [
         c_void_p, POINTER(baum_page), c_char_p, c_size_t, POINTER(c_size_t),
+    ]),
+    "baum_page_svg": (c_int, [
+        c_void_p, POINTER(baum_page), c_int64, c_char_p, c_size_t, POINTER(c_size_t),
     ]),
     "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_workspace_destroy": (None, [c_void_p]),

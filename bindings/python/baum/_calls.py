@@ -38,8 +38,8 @@ def raise_later(error: BaseException | None) -> None:
 
 
 def make(function: Call, *arguments: Any) -> errors.Status:
-    """Call a function that returns a status. Raise the exception of a callback, or baum.Error for a
-    status below 0.
+    """Call a function that returns a status. Raise the exception of a callback that has stopped it,
+    or baum.Error for a status below 0.
 
     A call may succeed although a callback failed, for example where the library evaluates a
     mechanism at times that the run will not reach. In this case the exception is discarded.
@@ -83,8 +83,9 @@ class _Task:
         self._error: BaseException | None = None
 
     def claim(self) -> bool:
-        """Whether the caller is the first to claim this call. Only the first may make or discard
-        the call, because Ctrl-C may interrupt before the worker has received it."""
+        """Whether the caller is the first to claim this call. The worker claims a call before
+        making it. The main thread claims a call to discard it, if Ctrl-C has come before the worker
+        received it."""
         me = object()
         return self._claims.setdefault("first", me) is me
 
@@ -185,6 +186,13 @@ def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
 # ---- objects of the library ----------------------------------------------------------------------
 
 
+class _Glance:
+    """A short use of an object by another thread. Calls wait for its end."""
+
+    def __init__(self) -> None:
+        self.done = threading.Event()
+
+
 class Handle:
     """Owns an object of the library and lets one thread at a time use it."""
 
@@ -225,8 +233,8 @@ class Handle:
         # Ctrl-C interrupts it.
         me = object()
         try:
-            if self._users.setdefault("now", me) is not me:
-                raise errors.Error(errors.Status.ERR_STATE, self._in_use())
+            while self._users.setdefault("now", me) is not me:
+                self._give_way()
             return make(function, self.address, *arguments)
         finally:
             if self._users.get("now") is me:
@@ -236,13 +244,32 @@ class Handle:
         """Destroy the object unless it is already destroyed."""
         me = object()
         try:
-            if self._users.setdefault("now", me) is not me:
-                raise errors.Error(errors.Status.ERR_STATE, self._in_use())
+            while self._users.setdefault("now", me) is not me:
+                self._give_way()
             self._address = None
             self._destroy()
         finally:
             if self._users.get("now") is me:
                 del self._users["now"]
+
+    def glance(self, function: Callable[[int], None]) -> None:
+        """Let another thread read the object, unless a call is using it or it is destroyed."""
+        me = _Glance()
+        try:
+            if self._users.setdefault("now", me) is me and self._address is not None:
+                function(self._address)
+        finally:
+            if self._users.get("now") is me:
+                del self._users["now"]
+            me.done.set()
+
+    def _give_way(self) -> None:
+        """Wait for a glance; refuse to wait for another call."""
+        other = self._users.get("now")
+        if isinstance(other, _Glance):
+            other.done.wait()
+        elif other is not None:
+            raise errors.Error(errors.Status.ERR_STATE, self._in_use())
 
     def _in_use(self) -> str:
         instead = (

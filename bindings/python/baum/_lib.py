@@ -26,7 +26,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 def _folders() -> Iterator[Path]:
-    """Folders where the library may be: in this package, in its environment, in the build tree."""
+    """Folders where the library may be: this package, the build tree, the virtual environment."""
     yield PACKAGE
     tree = PACKAGE.parents[2]
     if (tree / "include" / "baum" / "baum.h").exists():

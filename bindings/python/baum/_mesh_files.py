@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the triangles of STL and OBJ files. Files are not trusted: a ValueError names the file, and
-the line or byte, of whatever cannot be read."""
+"""Reads the triangles of STL and OBJ files. Files are not trusted: if a file cannot be read, a
+ValueError names the file and the line or byte."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ RECORDS = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 
 
 def load(path: str | os.PathLike[str]) -> tuple[Array, Triangles]:
-    """The vertices (n, 3) and triangles (m, 3) of a file, by its ending."""
+    """The vertices (n, 3) and triangles (m, 3) of a file. Its suffix tells the format."""
     file = Path(path)
     readers = {".stl": _stl, ".obj": _obj}
     if file.suffix.lower() not in readers:
@@ -57,7 +57,7 @@ def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
-    """The number and the words of each line that has any. A backslash joins the next line."""
+    """The number and the words of each line that has words. A backslash joins the next line."""
     words: list[str] = []
     for number, line in enumerate(io.StringIO(data.decode("utf-8", "replace")), 1):
         line = line.strip()
@@ -71,7 +71,7 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 
 def _merged(corners: Array) -> tuple[Array, Triangles]:
-    """Vertices and triangles from the corners (3 m, 3) of triangles: equal corners become one
+    """Vertices and triangles from the corners (3 m, 3) of m triangles: equal corners become one
     vertex."""
     vertices, numbers = np.unique(corners + 0.0, axis=0, return_inverse=True)
     return vertices, numbers.reshape(-1, 3).astype(np.int32)

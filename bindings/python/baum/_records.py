@@ -47,7 +47,7 @@ class Report(NamedTuple):
     redundant_rows: [-] rows omitted from every solution.
     constant_rows: [-] rows that do not depend on time.
     islands: [-] groups of bodies connected by joints, without fixed bodies.
-    fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are wanted.
+    fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are requested.
     constant_mass: All masses are constant, so they are inverted only once.
     constant_force: All forces are constant.
     blocks: Solved by blocks ("block"), otherwise by KLU.
@@ -88,7 +88,7 @@ class Counters(NamedTuple):
 
     steps: [-] accepted.
     rejected: [-] steps that failed an error test or an iteration.
-    short_steps: [-] shorter steps of a fixed-step method to a target off its grid.
+    short_steps: [-] shorter steps of a fixed-step method to a requested time off its grid.
     evaluations: [-] evaluations of the equations of motion, (7) or the residual of an implicit
         method.
     factorizations: [-] factorizations of the matrix in (7) and of the matrices of IDA and
@@ -99,7 +99,7 @@ class Counters(NamedTuple):
     restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
     warnings: [-] kinds of warnings, see warnings.
-    wall: [s] inside advance_to, step and sample.
+    wall: [s] wall time inside advance_to, step and sample.
     max_phi: [m or rad] largest |Phi| over all steps.
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
     max_phi_joint: Joint of max_phi.
@@ -107,10 +107,11 @@ class Counters(NamedTuple):
     predicted_phi: [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|.
         Only for the Euler methods with stable gains of at least 0.1/h, otherwise NaN.
     predicted_phi_rate: [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|.
-    energy_change: [J] change of kinetic and potential energy since the start, including the
-        work of drivers, inputs and dampers.
+    energy_change: [J] change of kinetic plus potential energy since the start. It is not only
+        the error of the method: the work of drivers, inputs and dampers also changes this
+        energy.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
-        lengths or rad, before drivers are followed to where they begin.
+        lengths or rad, without the motion of drivers to their initial values.
     alpha: [1/s] in use.
     beta: [1/s] in use.
     spectral_radius: [-] factor by which each step multiplies a violation in the long run. NaN
@@ -119,8 +120,8 @@ class Counters(NamedTuple):
         gains with alpha = beta, is infinite for dead-beat gains and negative if violations
         grow. NaN if spectral_radius is.
     near_singular_intervals: [-] see near_singular.
-    branch_warnings: [-] the part of these intervals after which the motion is or may be on
-        another branch.
+    branch_warnings: [-] near-singular intervals after which the motion is or may be on another
+        branch.
     forced_steps: [-] steps of rk8 and dp5 across a singular configuration, taken regardless of
         their error estimate.
     energy_residual: [J] energy that the method itself has added so far, from the energy
@@ -128,8 +129,10 @@ class Counters(NamedTuple):
     doubts: [-] kinds of warnings that doubt the motion.
     error_estimate: [-] largest estimated global error of the positions since the start: lengths
         relative to the characteristic length, angles in radians. It is 0 while the local errors
-        of fixed steps are negligible. It is NaN with variable steps without the option
-        error_check, and if the estimate would cost more than the run.
+        of fixed steps are negligible. NaN: unknown, because inputs change every few steps, or
+        because the estimate failed or would cost too much. With variable steps it is NaN
+        without the option error_check, except after a singularity crossing at a loose
+        tolerance.
     """
 
     steps: int
@@ -340,7 +343,7 @@ class StudyMethod(NamedTuple):
     entries: [-] number of entries.
     usable: [-] entries that are done and not `off`.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
-    slope: [-] d log error / d log step or rtol where errors fall; NaN: unknown.
+    slope: [-] d log error / d log step, or rtol in place of step; NaN: unknown.
     work_per_digit: [-] factor on work for one more digit; NaN: unknown.
     cpu_per_digit: [-] factor on CPU time for one more digit; NaN: unknown.
     growth: [-] geometric mean of error_validated / error over its entries; NaN if none was
@@ -416,12 +419,12 @@ class CatalogEntry(NamedTuple):
     source: Source of its data.
     provenance: How its reference was computed and checked; "" if it has none.
     note: Advice for running it; may be "".
-    parameter_count: [-] see baum.catalog.parameter_at().
-    sample_count: [-] samples of the reference, with the start; 0: no reference.
+    parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
+    sample_count: [-] samples of the reference; 0: it has none.
     start_time: [s] start of the problem and its reference.
     end_time: [s] end of the problem and its reference.
-    digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN if
-        it has none.
+    digits_q: [-] digits of the reference positions that can be trusted, relative to max(1,
+        |q|); NaN without a reference.
     digits_v: [-] the same for velocities.
     exact: The reference consists of formulas.
     smooth: The motion with default parameters passes no singular configuration.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Orientations and inertia tensors in the forms that users have, on their way to the library."""
+"""Converts orientations and inertia tensors from the forms that users may give to those of the
+library."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-ROUNDING = 1e-6  # of numbers that were typed in
+ROUNDING = 1e-6  # allowed deviation of a rotation matrix, for numbers that were typed in
 
 
 def _matrix(value: Any, label: str) -> Array:
@@ -23,8 +24,8 @@ def _is_matrix(value: Any) -> bool:
 
 
 def tensor(value: Any, label: str) -> Array:
-    """The six numbers xx, yy, zz, xy, xz, yz of an inertia given by them, by its three principal
-    moments or by a 3 x 3 matrix."""
+    """The six numbers xx, yy, zz, xy, xz, yz of an inertia. value: these numbers, three principal
+    moments or a 3 x 3 matrix."""
     if _is_matrix(value):
         i = _matrix(value, label)
         if not np.allclose(i, i.T, rtol=0.0, atol=1e-9 * abs(i).max()):
@@ -40,8 +41,8 @@ def tensor(value: Any, label: str) -> Array:
 
 
 def quaternion(value: Any, label: str) -> Array:
-    """The quaternion w, x, y, z of an orientation given by it, by a 3 x 3 rotation matrix or by a
-    Rotation of SciPy."""
+    """The quaternion w, x, y, z of an orientation. value: this quaternion, a 3 x 3 rotation matrix
+    or a Rotation of SciPy."""
     if hasattr(value, "as_quat"):  # x, y, z, w
         return np.roll(vector(value.as_quat(), 4, label), 1)
     if not _is_matrix(value):
@@ -65,8 +66,8 @@ def quaternion(value: Any, label: str) -> Array:
 
 
 def _of_matrix(r: Array) -> Array:
-    """The row of 4 p p^T whose diagonal entry is the largest, divided by its length (Shepperd
-    1978); w >= 0."""
+    """The quaternion p of a rotation matrix, with w >= 0: the row of 4 p p^T with the largest
+    diagonal entry, normalized (Shepperd 1978)."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)

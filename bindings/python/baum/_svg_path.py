@@ -11,8 +11,8 @@ import numpy as np
 
 from .typing import Array
 
-CURVE = 16  # lines of a Bezier curve
-ARC = math.radians(5)  # [rad] of a line of an arc
+CURVE = 16  # line segments of a Bezier curve
+ARC = math.radians(5)  # [rad] largest angle of a line segment of an arc
 LIMIT = 100_000  # points of a path
 
 _NUMBER = re.compile(r"[\s,]*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)", re.ASCII)
@@ -23,7 +23,7 @@ SIZES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7,
 
 
 class _Reader:
-    """Takes commands and numbers from a path, and knows where it is in the text."""
+    """Reads commands and numbers from a path one after the other."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -57,7 +57,7 @@ class _Reader:
 
 
 def _bezier(points: list[complex]) -> list[complex]:
-    """Points on a quadratic or cubic curve, without its first."""
+    """Points on a quadratic or cubic curve, without the first point."""
     out = []
     for k in range(1, CURVE + 1):
         level, t = points, k / CURVE
@@ -68,7 +68,7 @@ def _bezier(points: list[complex]) -> list[complex]:
 
 
 def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
-    """Points on an elliptic arc from a to b, without its first (SVG 1.1, appendix F.6)."""
+    """Points on an elliptic arc from a to b, without a (SVG 1.1, appendix F.6)."""
     rx, ry, degrees, large, sweep = abs(numbers[0]), abs(numbers[1]), *numbers[2:5]
     if rx == 0 or ry == 0 or a == b:
         return [b]
@@ -85,7 +85,8 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
     grown = max(abs(half), 1.0)  # an ellipse that is too small is enlarged
     rx, ry, half = rx * grown, ry * grown, half / grown
     side = math.sqrt(max(1 - abs(half) ** 2, 0.0)) * (1 if large == sweep else -1)
-    centre = half - side * 1j * half / abs(half)  # seen from a, where the circle has radius 1
+    # Relative to a, in coordinates where the ellipse is a unit circle.
+    centre = half - side * 1j * half / abs(half)
     if not cmath.isfinite(centre):
         raise OverflowError
     start, end = cmath.phase(-centre), cmath.phase(2 * half - centre)
@@ -98,13 +99,14 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
 
 
 class _Pen:
-    """Draws commands into polygons."""
+    """Converts commands to polygons."""
 
     def __init__(self) -> None:
         self.polygons: list[list[complex]] = []
         self._here = self._start = 0j
         self._closed = False
-        self._control: tuple[str, complex] | None = None  # of the last curve, by its kind
+        # Kind and last control point of the last curve.
+        self._control: tuple[str, complex] | None = None
 
     @property
     def count(self) -> int:
@@ -117,7 +119,7 @@ class _Pen:
         if command == "Z":
             self._here, self._closed = self._start, True
             return
-        if command == "M" or self._closed:  # a subpath, which may begin where the last one began
+        if command == "M" or self._closed:  # begins a subpath; without M, where the last one began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self.polygons.append([self._start])
@@ -140,7 +142,7 @@ class _Pen:
         self, command: str, points: list[complex], control: tuple[str, complex] | None
     ) -> list[complex]:
         kind = "cubic" if command in "CS" else "quadratic"
-        if command in "ST":  # begins with the last control point, mirrored at the present point
+        if command in "ST":  # the last control point, mirrored, is the first one
             known = control is not None and control[0] == kind
             points = [2 * self._here - control[1] if known and control else self._here, *points]
         self._control = kind, points[-2]
@@ -154,7 +156,7 @@ def polygons(text: str) -> list[Array]:
         word = reader.take(_COMMAND)
         if word is None and command in ("", "Z", "z"):
             raise reader.error("a command is wanted, such as M or L")
-        if word is None:  # repeats the last command; lines follow the first point of a subpath
+        if word is None:  # repeats the last command; points after that of an M begin lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")
@@ -169,7 +171,7 @@ def polygons(text: str) -> list[Array]:
 
 
 def _loop(points: list[complex], k: int) -> Array:
-    """The corners of a subpath, without the last if it is the first again."""
+    """The corners of a subpath. A last corner that repeats the first one is removed."""
     corners = [z for z, before in zip(points, [None, *points]) if z != before]
     corners = corners[:-1] if len(corners) > 1 and corners[-1] == corners[0] else corners
     if len(corners) < 3:

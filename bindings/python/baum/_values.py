@@ -37,14 +37,14 @@ def integer(value: Any, label: str, bits: int = 32) -> int:
 
 
 def truth(value: Any, label: str) -> bool:
-    """A bool, from a bool, 0 or 1. Text is refused, because "no" would be true."""
+    """A bool, from a bool or an int. Text is refused, because "no" would be true."""
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)
 
 
 def word(words: Mapping[str, int], value: Any, label: str) -> int:
-    """The number of one of several words."""
+    """The number that a word stands for."""
     if value not in words:
         raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
     return words[value]

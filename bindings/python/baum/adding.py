@@ -133,14 +133,14 @@ class Adding:
         [J]. q, v: (size) design positions, default 0, and velocities at the start, default free.
         scale: (size) a typical change of each position. constant_mass: M is constant. held:
         assembly does not move them. inputs: force, force_q and force_v receive their values after
-        v. depends_on_velocity: False if force() does not read v, which "rattle" requires. user:
-        what compiled functions receive, an address or an object of ctypes.
+        v. depends_on_velocity: False if force() does not read v, which "rattle" requires. user: the
+        last argument of compiled functions, an address or an object of ctypes.
 
         For positions that are not a vector, such as a unit quaternion, also give: position_count;
-        rate(q, v): their rate N(q) v; move(h, v, q): q after the time h at constant v;
-        difference(a, b): the v for which move(1, v, a) is b; normalize(q): the nearest q on the
-        configuration manifold; position_scale: a typical change of each position. Derivatives with
-        respect to q are then derivatives along displacements (size).
+        rate(q, v): q' = N(q) v; move(h, v, q): q after the time h at constant v; difference(a, b):
+        the v for which move(1, v, a) is b; normalize(q): the nearest q on the configuration
+        manifold; position_scale: a typical change of each position. Derivatives with respect to q
+        are then derivatives along displacements (size).
         """
         return self._add(Body, "coordinates", locals())
 
@@ -231,7 +231,7 @@ class Adding:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a pin of body_b in a straight slot of body_a, in which it can rotate. One row [m].
+        """Add a pin of body_b that slides and rotates in a straight slot of body_a. One row [m].
 
         Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
         ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
@@ -252,12 +252,13 @@ class Adding:
         point_b: ArrayLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a pinion of body_b, centred at its point, that rolls on a rack of body_a along an
-        axis. One row [m]: displacement - radius (angle_b - angle_a) = offset.
+        """Add a pinion of body_b that rolls on a rack of body_a. body_b's point is its centre, and
+        the axis is the direction of the rack. One row [m]: displacement - radius (angle_b -
+        angle_a) = offset.
 
-        radius: [m]; positive: the rack is on the left of the axis; negative: on the right, which is
-        below for the axis (1, 0). axis, point, point_a, point_b: as in translational(). offset:
-        [m], by default as in the design configuration.
+        radius: [m]; positive if the rack is on the left of the centre, looking along the axis;
+        negative if it is on the right, which is below for the axis (1, 0). axis, point, point_a,
+        point_b: as in translational(). offset: [m], by default as in the design configuration.
         """
         return self._add(Joint, "planar_rack_and_pinion", locals())
 
@@ -275,8 +276,8 @@ class Adding:
         """Add a gear of two wheels on a carrier. One row [m]:
         radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) = offset.
 
-        radius_a, radius_b: [m]; a negative radius is a ring with internal teeth. carrier: default
-        ground. offset: [m], by default as in the design configuration.
+        radius_a, radius_b: [m]; negative for a ring with internal teeth. carrier: default ground.
+        offset: [m], by default as in the design configuration.
         """
         return self._add(Joint, "planar_gear", locals())
 
@@ -317,9 +318,9 @@ class Adding:
         """Couple the coordinates a and b of two joints. One row: b = ratio a + offset, or b = f(a).
 
         ratio: unit of b per unit of a. offset: in the unit of b, [rad] or [m], by default taken
-        from the design configuration. law(a): f, its first and its second derivative, for example
+        from the design configuration. law(a): f(a) and its first and second derivative, for example
         of a cam. user: what a compiled function receives. coordinate_a, coordinate_b: as in
-        driver(); with two of the same cylindrical joint this is a screw.
+        driver(); the two coordinates of one cylindrical joint make it a screw.
         """
         return self._add(Joint, "coupling", locals())
 
@@ -458,7 +459,8 @@ class Adding:
         coordinate: as in driver(); runs count revolutions of angles. stiffness: [N m/rad] or [N/m].
         damping: [N m s/rad] or [N s/m]. free_value: [rad] or [m], by default as in the design
         configuration. law(coordinate, rate): restoring torque [N m] or force [N] and its
-        derivatives by both; it has no potential energy. depends_on_velocity, user: as in spring().
+        derivatives with respect to both; the spring then has no potential energy.
+        depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())
 
@@ -512,7 +514,7 @@ class Adding:
         """Add an input: a number that acts from outside, such as the torque of a motor.
 
         Loads and force functions refer to inputs. Every run and workspace starts with the value
-        `initial` and keeps it until its set_input() is called.
+        `initial`, and keeps it until set_input() of the run or workspace changes it.
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')

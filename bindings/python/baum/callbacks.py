@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Wraps functions of the user so that the library can call them.
 
-A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
-value. A shell around this function has the signature that the library calls. The shell passes q and
-v as read-only arrays, checks the returned value and writes it to the library's memory, and keeps an
-exception until the call that it stopped has returned. q and v are valid during the call only. A
-force function that names inputs receives their present values after v, as floats.
+A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns the
+result. A shell around this function has the signature that the library calls. The shell passes q
+and v as read-only arrays, checks the returned value and writes it to the library's memory, and
+keeps an exception until the call that it stopped has returned. q and v are valid during the call
+only. A force function that names inputs receives their present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled one: an int, a ctypes
 function pointer, or an object with an integer `address`, such as Numba's cfunc. The library calls
@@ -61,7 +61,7 @@ def _without_ones(shape: Shape) -> Shape:
 
 
 def _checked(value: Any, shape: Shape, label: str) -> Array:
-    """A returned value as an array of that shape; sides of length 1 may be omitted. Raises
+    """A returned value as an array of that shape; dimensions of length 1 may be omitted. Raises
     TypeError or ValueError for other values."""
     wanted = _without_ones(shape)
     asked = "a number" if not wanted else f"an array of shape {shape}"
@@ -134,11 +134,12 @@ def _shell_force(function: Function, write: Write, nq: int, nv: int) -> Shell:
 
 
 def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
-    """A function that wraps force functions, which receive these inputs after v."""
+    """A function that makes shells for force functions that receive these inputs after v."""
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
-        # Only the inputs that the function needs: a copy of the mechanism may have more.
+        # The view ends with the last input that the function needs: a copy of the mechanism may
+        # have more inputs.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
         def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
@@ -249,7 +250,8 @@ def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shel
 
 
 def _answer_nan(error: BaseException, out: int, count: int) -> None:
-    """Report an exception of a function that returns no status: NaN stops the library."""
+    """Report an exception of a function that returns no status: write NaN, at which the library
+    stops."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):
@@ -301,8 +303,8 @@ def wrap(
     nv: int = 0,
     inputs: Sequence[int] = (),
 ) -> Any:
-    """A function pointer of type `kind` for a Python function or an address, to be put into this
-    field of a definition. The caller keeps it alive.
+    """A function pointer of type `kind` for a Python function or an address. The caller writes it
+    to the field of a definition and keeps it alive.
 
     label names the function in messages. shape is the shape of its value. nq and nv are the lengths
     of q and v. inputs are the indices of the inputs that a force function receives.

@@ -20,10 +20,13 @@ from ._values import address, integer, number, numbers, truth, vector, word
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of body, joint or force: its struct, its family, the sizes of a body's q and v, the
-    units of a body's positions or a joint's rows (none where the user decides), if a body's
-    velocities are not rates of its positions, the units of the integrals of the velocities, and the
-    coordinates of a joint."""
+    """A kind of body, joint or force.
+
+    name: of its struct, without "baum_" and "_def". family: "body", "joint" or "force". nq, nv:
+    sizes of q and v of a body. units: of the positions of a body or the rows of a joint; empty if
+    they depend on the user. displacements: units of the displacements (nv) of a body, if q' is not
+    v. coordinates: names of the coordinates of a joint.
+    """
 
     name: str
     family: str
@@ -49,7 +52,7 @@ class Kind:
         return found
 
     def coordinate(self, name: str) -> str:
-        """The name of a coordinate of a joint that may be given as "first"."""
+        """The name of a coordinate of a joint; "first" gives the name of the first one."""
         return self.coordinates[0] if name == "first" else name
 
     def function(self, verb: str) -> Any:
@@ -159,8 +162,8 @@ class Definition:
             self._names.append("inputs")
 
     def fill(self, fields: Mapping[str, Any]) -> Definition:
-        """Set the fields that are not None, functions last because their shapes follow from the
-        others. Returns the definition."""
+        """Set the fields that are not None. Functions are set last, because the shapes of their
+        results follow from the other fields. Returns the definition."""
         unknown = [name for name in fields if name not in self._names]
         if unknown:
             names = ", ".join(self._names)
@@ -199,7 +202,7 @@ class Definition:
         return tuple(one.id.index1 - 1 for one in own)
 
     def _set_count(self, given: Mapping[str, Any]) -> None:
-        """Set the number of points of a spline from its times if both lists are new."""
+        """Set the number of points of a spline, if its times and values are both given."""
         if "times" in given and "values" in given:
             self.struct.count = np.size(given["times"])
 

@@ -38,7 +38,8 @@ class Frame(NamedTuple):
         return cmath.exp(1j * self.angle)
 
     def local(self, axes: tuple[float, float]) -> complex:
-        """The ground coordinates of a point in body axes. A particle has only the origin."""
+        """Convert a point from ground axes to body axes. The only point of a particle is the
+        origin."""
         point = complex(*axes)
         s = (point - self.place) / self.turned
         at_origin = not self.has_angle and abs(s) <= 1e-9 * (abs(point) + abs(self.place))

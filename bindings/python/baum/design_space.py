@@ -27,7 +27,7 @@ class Frame(NamedTuple):
 
     @classmethod
     def of(cls, body: Body, changes: Mapping[str, Any] | None = None) -> Frame:
-        """The pose of a body with some fields of its definition changed."""
+        """The frame of a body whose definition has these changes."""
         if body.kind is None:
             return cls(np.zeros(3), np.eye(3), True)
         values = {**body.definition, **(changes or {})}
@@ -40,7 +40,8 @@ class Frame(NamedTuple):
         return cls(place, matrix(p / np.linalg.norm(p)), has_axes)
 
     def local(self, point: Any) -> Array:
-        """The ground coordinates of a point in body axes; a particle has only the origin."""
+        """Convert a point from ground axes to body axes. The only point of a particle is the
+        origin."""
         return (np.asarray(point) - self.place) @ self.axes if self.has_axes else np.zeros(3)
 
 
@@ -106,9 +107,9 @@ def coordinate(values: Values, name: str) -> float:
 def check_turned(
     element: Element, used_angles: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
 ) -> None:
-    """Refuse to change a relative orientation that a joint takes from the design configuration
-    without a field for it: that of a weld or a prismatic joint, or the zero of an angle that a
-    driver, a coupling or a spring uses."""
+    """Refuse changes that rotate the bodies of a joint relative to each other, if the joint takes
+    its relative orientation from the design configuration and has no field for it. Such joints are
+    welds, prismatic joints, and joints whose angle a driver, a coupling or a spring uses."""
     kind = element.kind.name if element.kind else ""
     is_spatial = element.kind is not None and element.kind.is_spatial
     has_used_angle = is_spatial and element in used_angles

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import html
 import os
 import sys
@@ -11,24 +10,17 @@ import tempfile
 import warnings
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from . import _abi, _calls
-from ._lib import default, lib
-from ._values import address, number, vector
-from .channels import WHOLE, Channel
-from .elements import Body
-from .typing import Array, ArrayLike, ChannelLike, Scalar
+from . import _motion, pictures
+from ._lib import lib
+from ._values import address, vector
+from .typing import ArrayLike
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
-    from .run import Run
 
-TraceLike = Union[ChannelLike, Body]
 HEIGHT = 720  # [px] of a page in a notebook
-ROOM = 1 << 18  # [byte] first size of the buffer, enough for most pages
 
 
 class Drawing:
@@ -46,9 +38,15 @@ class Drawing:
     def _repr_svg_(self) -> str:
         return self._svg
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the picture to an SVG file."""
-        Path(path).write_text(self._svg, encoding="utf-8")
+    def save(self, path: str | os.PathLike[str], *, dpi: float = 192) -> None:
+        """Write the picture to a file: .svg or .pdf, which are vector graphics, or .png with `dpi`
+        pixels per inch. The picture has 96 units per inch. PDF and PNG need Matplotlib: ImportError
+        without it. ValueError for other suffixes."""
+        suffix = Path(path).suffix.lower()
+        if suffix == ".svg":
+            Path(path).write_text(self._svg, encoding="utf-8")
+        else:
+            pictures.save(self._svg, path, suffix, dpi)
 
 
 class Page:
@@ -87,123 +85,20 @@ def is_notebook() -> bool:
     return shell is not None and hasattr(shell, "kernel")
 
 
-def _print(mechanism: Mechanism, function: Any, *arguments: Any) -> str:
-    """Return the text that a function of the library writes into a buffer."""
-    size = ctypes.c_size_t(ROOM)
-    room: Any = b""
-    while len(room) <= size.value:
-        room = ctypes.create_string_buffer(size.value + 1)
-        _calls.make(function, mechanism.handle, *arguments, room, len(room), ctypes.byref(size))
-    return str(room.value, "utf-8")
-
-
-def mechanism_of(run: Run) -> Mechanism:
-    """The mechanism of a run. Raises ValueError if the run was pickled."""
-    if run.mechanism is None:
-        raise ValueError("this run was pickled; only a run with its mechanism can be shown")
-    return run.mechanism
-
-
 def draw(mechanism: Mechanism, q: ArrayLike | str | None) -> Drawing:
     if isinstance(q, str):
         if q != "assembled":
             raise ValueError(f'q is {q!r}, must be positions, "assembled" or None')
-        return Drawing(_print(mechanism, lib.baum_mechanism_svg_assembled))
+        return Drawing(_motion.print_text(lib.baum_mechanism_svg_assembled, mechanism))
     given = None if q is None else vector(q, mechanism.sizes.nq, "q")
-    return Drawing(_print(mechanism, lib.baum_mechanism_svg, address(given)))
+    return Drawing(_motion.print_text(lib.baum_mechanism_svg, mechanism, address(given)))
 
 
-# ---- pages ---------------------------------------------------------------------------------------
+def page(motion: _motion.Motion) -> Page:
+    return Page(motion.print(lib.baum_page_print))
 
 
-def _structs(channels: Sequence[Channel]) -> Any:
-    return (_abi.baum_channel * len(channels))(*(channel.struct for channel in channels))
-
-
-def _texts(texts: Sequence[str]) -> Any:
-    return (ctypes.c_char_p * len(texts))(*(text.encode(errors="replace") for text in texts))
-
-
-def _trace(mechanism: Mechanism, trace: TraceLike) -> Channel:
-    return trace.pose if isinstance(trace, Body) else mechanism.channel(trace)
-
-
-def _marks(run: Run) -> list[tuple[float, str, int]]:
-    """Return times, texts and kinds of warnings, near-singular intervals and events, sorted by
-    time."""
-    kinds = _abi.baum_mark_kind
-    marks = [(warning.first, str(warning), kinds.BAUM_MARK_WARNING) for warning in run.warnings]
-    for x in run.near_singular:
-        text = f"near a singular configuration, {x.branch}"
-        marks.append((x.t, text, kinds.BAUM_MARK_SINGULAR))
-    marks += [(event.t, f"event {event.event}", kinds.BAUM_MARK_EVENT) for event in run.events]
-    return sorted(marks, key=lambda mark: mark[0])
-
-
-def is_reaction(channel: Channel) -> bool:
-    return bool(channel.struct.quantity == _abi.baum_quantity.BAUM_JOINT_REACTION)
-
-
-def of_run(
-    run: Run,
-    title: str | None,
-    traces: Sequence[TraceLike],
-    shown: Sequence[Channel],
-    plots: Sequence[tuple[str, Array]],
-) -> Page:
-    """Make the page of a run. shown: channels q and reactions. plots: label and column (n) of each
-    curve."""
-    rows = np.ascontiguousarray(np.hstack([run[channel] for channel in shown]))
-    return _make(mechanism_of(run), run.t, shown, rows, title, traces, plots, _marks(run))
-
-
-def of_arrays(
-    mechanism: Mechanism,
-    t: ArrayLike,
-    q: ArrayLike,
-    title: str | None,
-    traces: Sequence[TraceLike],
-    plots: Mapping[str, ArrayLike],
-    marks: Sequence[tuple[Scalar, str]],
-) -> Page:
-    """Make the page of a motion that is given as arrays."""
-    times = vector(t, None, "t")
-    rows = np.ascontiguousarray(q, dtype=np.float64)
-    wanted = (len(times), mechanism.sizes.nq)
-    if rows.shape != wanted:
-        raise ValueError(f"q: an array of shape {wanted} is wanted, not {rows.shape}")
-    steps = np.diff(times)
-    if not (np.isfinite(times).all() and ((steps > 0).all() or (steps < 0).all())):
-        raise ValueError("t: finite times are wanted that only rise or only fall")
-    columns = [(label, vector(values, len(times), label)) for label, values in plots.items()]
-    kind = _abi.baum_mark_kind.BAUM_MARK_EVENT
-    events = [(number(when, "time of a mark"), str(text), kind) for when, text in marks]
-    return _make(mechanism, times, [WHOLE["q"]], rows, title, traces, columns, events)
-
-
-def _make(
-    mechanism: Mechanism,
-    t: Array,
-    shown: Sequence[Channel],
-    rows: Array,
-    title: str | None,
-    traces: Sequence[TraceLike],
-    plots: Sequence[tuple[str, Array]],
-    marks: Sequence[tuple[float, str, int]],
-) -> Page:
-    times = np.ascontiguousarray(t)
-    values = np.array([column for _, column in plots]).T.copy()
-    mark_times = np.array([t for t, _, _ in marks])
-    paths = [_trace(mechanism, trace) for trace in traces]
-    struct = default(_abi.baum_page)
-    struct.title = None if title is None else title.encode(errors="replace")
-    struct.times, struct.count = address(times), len(times)
-    struct.channels, struct.channel_count = _structs(shown), len(shown)
-    struct.rows = address(rows)
-    struct.plots, struct.plot_count = address(values), len(plots)
-    struct.plot_labels = _texts([label for label, _ in plots])
-    struct.traces, struct.trace_count = _structs(paths), len(paths)
-    struct.mark_times, struct.mark_count = address(mark_times), len(marks)
-    struct.mark_texts = _texts([text for _, text, _ in marks])
-    struct.mark_kinds = (ctypes.c_int32 * len(marks))(*(kind for _, _, kind in marks))
-    return Page(_print(mechanism, lib.baum_page_print, ctypes.byref(struct)))
+def figure(motion: _motion.Motion, sample: int, size: tuple[float, float] | None = None) -> Drawing:
+    """The picture of a sample. size: width and height [px], by default those of the library."""
+    svg = motion.print(lib.baum_page_svg, sample)
+    return Drawing(svg if size is None else pictures.resized(svg, size))

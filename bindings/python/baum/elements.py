@@ -126,10 +126,10 @@ class Body(Element):
 
     @property
     def outline(self) -> list[Outline]:
-        """The shapes that replace the shape of the body in drawings; empty if it draws itself. Can
-        be set at any time, also for ground, but not while another thread draws: to a shape
-        (baum.Polygon, Circle, Box, Cylinder, Sphere, Mesh), to the corners (n, 2) of a polygon, to
-        an SVG path (str, y upward), to a list of these, or to None."""
+        """The shapes that replace the shape of the body in drawings; empty if its shape follows
+        from its joints. Can be set at any time, also for ground, but not while another thread
+        draws: to a shape (baum.Polygon, Circle, Box, Cylinder, Sphere, Mesh), to the corners (n, 2)
+        of a polygon, to an SVG path (str, y upward), to a list of these, or to None."""
         return outlines.read(self)
 
     @outline.setter
@@ -181,8 +181,9 @@ class Joint(Element):
     @property
     def coordinate(self) -> Channel:
         """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
-        along an axis [m], [m/s]. Of a joint with several coordinates the first: the displacement of
-        a cylindrical joint, the angle of a universal joint, x of a planar joint."""
+        along an axis [m], [m/s]. A joint with several coordinates gives the first one: the
+        displacement of a cylindrical joint, the angle of a universal joint, x of a planar joint in
+        space."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property

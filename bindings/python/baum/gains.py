@@ -52,14 +52,15 @@ def taylor() -> Gains:
 
 
 def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
-    """Gains of an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta. hertz: frequency
-    [Hz] > 0. damping_ratio: [-] > 0."""
+    """Gains given as an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta. hertz:
+    natural frequency [Hz] > 0. damping_ratio: [-] > 0, 1 is critical."""
     return Gains("frequency", hertz=hertz, damping_ratio=damping_ratio)
 
 
 def deadbeat() -> Gains:
     """Gains with the fastest decay per step. Needs a fixed step. Runge-Kutta methods of order above
-    1 lose their order with these gains. Multistep methods have no such gains and are refused."""
+    1 lose their order with these gains. Multistep methods have no such gains and refuse the rule.
+    """
     return Gains("deadbeat")
 
 

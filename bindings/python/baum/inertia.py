@@ -6,9 +6,10 @@
     plate = inertia.box(2.0, 0.3, 0.2, 0.01)
     shaft = inertia.cylinder(0.5, radius=0.02, length=0.4, axis="x")
 
-Solids are uniform. Tensors are about the centre of mass and in axes along the edges or the axis.
-The tensor of a body of several parts is the sum of the tensors of the parts, each rotated by
-rotate() into the axes of the body and moved by shift() to the centre of mass of the body.
+The density of a solid is uniform. Tensors are about the centre of mass, in axes along the edges or
+the axis of the solid. The tensor of a body of several parts is the sum of the tensors of the parts,
+each rotated by rotate() into the axes of the body and moved by shift() to the centre of mass of the
+body.
 """
 
 from __future__ import annotations

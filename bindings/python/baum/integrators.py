@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Integrators by name, and their stability with Baumgarte's gains.
 
-The functions of stability take an integrator or its name. They raise ValueError for a name that
+The functions stability...() take an integrator or its name. They raise ValueError for a name that
 does not exist, TypeError for values that are not numbers, and baum.Error for an integrator without
-a region of stability, such as one that chooses its steps.
+a region of stability, such as "cvode_bdf" and "rattle".
 """
 
 from __future__ import annotations
@@ -87,8 +87,8 @@ class Amplification(NamedTuple):
 
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
     spectral_radius: the largest |z| [-]. roots: the largest root z of each of the two modes.
-    damping: the fraction of a violation that a step removes, 1 - |z| with full precision. Numbers
-    are NaN for methods without a region.
+    damping: 1 - spectral_radius without cancellation, the fraction of the slowest violation that a
+    step removes. Numbers are NaN for methods without a region.
     """
 
     stability: str
@@ -114,7 +114,8 @@ def stability(integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar) -
 
 
 def stability_limit(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
-    """Largest alpha h [-] for which alpha = damping_ratio x beta is stable; 0 if none is."""
+    """Largest alpha h [-] up to which alpha = damping_ratio x beta is stable; 0 if small gains are
+    unstable."""
     ratio = number(damping_ratio, "damping_ratio")
     return _numbers(lib.baum_stability_limit, 1, integrator, ratio)[0]
 
@@ -186,12 +187,12 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """The effect of gains with a method in words, also for a method that chooses its steps."""
+    """The effect of gains with a method in words, also for a method without a region."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 
 def _arrays(function: Any, integrator: Any, value: float) -> Array:
-    """Call a function that fills two arrays, first to request their length."""
+    """Call a function that fills two arrays, once for their length and once to fill them."""
     address = lookup(integrator).address
     count = ctypes.c_int32()
     _calls.make(function, address, value, 0, None, None, ctypes.byref(count))

@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, S
 
 import numpy as np
 
-from . import _abi, _calls, _html, _records, design, design_space, drawings
+from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings
 from ._lib import lib, text
+from ._motion import TraceLike
 from ._values import number, numbers, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition, sizes
-from .drawings import Drawing, Page, TraceLike
+from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
 from .simulation import Simulation, takes_options
@@ -150,7 +151,7 @@ class Mechanism(Adding, AddingInSpace):
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
         table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
         drawing = str(self.draw())
-        return drawing + table if "<title>" in drawing else table  # nothing has a place
+        return drawing + table if "<title>" in drawing else table  # there is nothing to draw
 
     def _count(self, family: str) -> int:
         return sum(
@@ -196,7 +197,7 @@ class Mechanism(Adding, AddingInSpace):
         return found
 
     def find(self, family: str, value: Any) -> Any:
-        """The body, joint or input of a handle, a name or an id of the library; None for the id
+        """The body, joint or input for a handle, a name or an id of the library; None for the id
         "none". Raises KeyError or TypeError for anything else."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
@@ -329,13 +330,13 @@ class Mechanism(Adding, AddingInSpace):
 
         With another position, angle or orientation of a body, the copy is the same mechanism in
         another design configuration: joints and forces keep their points and axes in body axes, and
-        they keep the lengths, angles and offsets that they took from the design configuration.
-        In the copy's definitions all of these are given as numbers. Assembly closes the joints,
-        which may move the changed body too: give position and angle that fit, or held=True. A joint
-        or force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
-        configuration. Angles of spatial joints are 0 in the new design configuration. ValueError if
-        this would change an angle that a driver, a coupling or a spring uses, or the relative
-        orientation of a spatial weld or prismatic joint.
+        they keep the lengths, angles and offsets that they took from the design configuration. In
+        the copy's definitions all of these are given as numbers. Assembly closes the joints, which
+        may move the changed body too: give position and angle that fit, or held=True. A joint or
+        force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
+        configuration. Angles of spatial joints are 0 in the new design configuration. Raises
+        ValueError if the changes would alter the angle of a spatial joint that a driver, a coupling
+        or a spring uses, or the relative orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -353,8 +354,8 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """The numbers that place joints and forces in body axes before bodies are moved, by
-        element."""
+        """For each joint and force, its name and the numbers that it takes from the present design
+        configuration and must keep when bodies are moved."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
@@ -455,11 +456,12 @@ class Mechanism(Adding, AddingInSpace):
     def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
         """A picture of the design configuration, of the "assembled" configuration, or of positions
         q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
-        it.
+        it, and so do "x.pdf" and "x.png" with Matplotlib.
 
-        Red lines show where a joint is open: between points that should coincide, from a point to
-        the line, plane or curve on which it should be, and between axes that should be parallel. If
-        the mechanism cannot be assembled, "assembled" shows where assembly gave up.
+        Red lines show where the constraints of a joint are violated: between points that should
+        coincide, from a point to the line, plane or curve on which it should be, and between axes
+        that should be parallel. If the mechanism cannot be assembled, "assembled" shows the
+        configuration in which assembly stopped.
         """
         return drawings.draw(self, q)
 
@@ -474,15 +476,16 @@ class Mechanism(Adding, AddingInSpace):
         plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
         marks: Sequence[tuple[Scalar, str]] = (),
     ) -> Page:
-        """A page that shows any motion of a frozen mechanism, such as one that was computed
-        elsewhere or joined from several runs. Run.page() shows a run.
+        """A page that shows any motion of a frozen mechanism, for example a motion that was
+        computed elsewhere or joined from several runs. Run.page() shows a run.
 
         t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
         traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
-        neighbours with the same unit share a plot. marks: times [s] and texts of events on the time
-        axis. Constraint violations of q are shown as they are.
+        consecutive curves with the same unit share a plot. marks: times [s] and texts of events on
+        the time axis. Constraint violations of q are shown as they are.
         """
-        made = drawings.of_arrays(self, t, q, title, traces, plots, marks)
+        motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
+        made = drawings.page(motion)
         if path is not None:
             made.save(path)
         return made

@@ -52,7 +52,7 @@ def _table(value: Any, widths: Sequence[int], label: str) -> Array:
 
 class Outline:
     """Base class of the shapes that a body can be given: Polygon, Circle, Box, Cylinder, Sphere,
-    Mesh. Lengths are in metres, in the axes of the body. color: "#rrggbb"; None: a color for each
+    Mesh. Lengths are in metres, in the axes of the body. color: "#rrggbb"; None: chosen for each
     body."""
 
     color: str | None
@@ -153,7 +153,7 @@ class Cylinder(Outline):
 class Mesh(Outline):
     """Triangles, at most 200 000.
 
-    vertices: (n, 3). triangles: (m, 3) rows of `vertices`, from 0.
+    vertices: (n, 3). triangles: (m, 3) indices of rows of `vertices`, from 0.
     """
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, color: str | None = None) -> None:
@@ -206,7 +206,7 @@ def _is_table(value: Any) -> bool:
 
 
 def shapes(value: Any, nested: bool = False) -> list[Outline]:
-    """The shapes that a user means."""
+    """The shapes for a value that a user gave."""
     if value is None:
         return []
     if isinstance(value, Outline):
@@ -240,8 +240,8 @@ class Structs:
             self.array[k] = struct
 
     def check(self) -> None:
-        """Raise the error of the library for outlines that it refuses, before their body is
-        added: give them to the ground of another mechanism."""
+        """Raise the error of the library for outlines that it refuses, before their body is added.
+        For this purpose they are given to the ground of a temporary mechanism."""
         if self.count == 0:
             return
         mechanism = ctypes.c_void_p()

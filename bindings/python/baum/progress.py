@@ -52,7 +52,7 @@ class Line:
         try:
             self._out.write(f"\r{self._title}: {text:<{BAR + 28}}{end}")
             self._out.flush()
-        except (OSError, ValueError):  # nobody watches any more
+        except (OSError, ValueError):  # the stream was closed
             self._next = float("inf")
 
     def close(self) -> None:

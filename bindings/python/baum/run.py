@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn, Sequence
 
 import numpy as np
 
-from . import _html, _records, drawings, units
+from . import _html, _motion, _records, drawings, movies, units
+from ._motion import Forces, TraceLike
 from ._rotation import matrix
-from .channels import WHOLE, Channel, Layout
-from .drawings import Page, TraceLike
+from ._values import number
+from .channels import Channel, Layout
+from .drawings import Drawing, Page
 from .elements import Body, Element
 from .errors import Status, Warning
-from .typing import Array, ChannelLike
+from .typing import Array, ChannelLike, Progress, Scalar
 
 if TYPE_CHECKING:
     import pandas
@@ -40,12 +42,12 @@ class _ByName:
 
 
 class Counters(_ByName, _records.Counters):
-    __doc__ = f"{_records.Counters.__doc__}"  # help() does not show that of a base
+    __doc__ = f"{_records.Counters.__doc__}"  # help() does not show that of a base class
     __slots__ = ()
 
 
 class NearSingular(_ByName, _records.NearSingular):
-    __doc__ = f"{_records.NearSingular.__doc__}"  # help() does not show that of a base
+    __doc__ = f"{_records.NearSingular.__doc__}"  # help() does not show that of a base class
     __slots__ = ()
 
 
@@ -62,8 +64,8 @@ class Event(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where a body is in q and v. in_body_axes: the angular velocity in v is in body axes, although
-    the channel of the body has it in ground axes."""
+    """Indices of a body in q and v. in_body_axes: v contains the angular velocity in body axes,
+    while the channel of the body has it in ground axes."""
 
     q: slice
     v: slice
@@ -283,7 +285,7 @@ class Run:
         places[-1].set_xlabel("t [s]")
         return places
 
-    # ---- pages -----------------------------------------------------------------------------------
+    # ---- pages, pictures and movies --------------------------------------------------------------
 
     def page(
         self,
@@ -291,16 +293,18 @@ class Run:
         *,
         title: str | None = None,
         traces: Sequence[TraceLike] = (),
-        forces: bool = True,
+        forces: Forces = None,
         plots: Sequence[ChannelLike] | None = None,
     ) -> None:
         """Write a page that shows the motion in any browser: one HTML file that loads nothing.
 
         traces: paths to draw, of bodies or channels such as m["rod"].pose_of((0.1, 0)). forces:
-        show recorded reactions as arrows. plots: channels to plot beside the picture, by default
-        all recorded ones but q, v and reactions. Warnings and events are marked on the time axis.
-        At most 600 samples are kept, among them the extremes of plotted columns. Raises ValueError
-        for a run without its mechanism, KeyError for a channel that was not recorded.
+        recorded reactions to show as arrows, by default all. True is all, but raises ValueError if
+        there are none; a list chooses some, such as ["A.reaction"]; False is none. plots: channels
+        to plot beside the picture, by default all recorded ones but q, v and reactions. Warnings
+        and events are marked on the time axis. At most 600 samples are kept, among them the
+        extremes of plotted columns. Raises ValueError for a run without its mechanism, KeyError for
+        a channel that was not recorded.
         """
         self._page(title, traces, forces, plots).save(path)
 
@@ -309,7 +313,7 @@ class Run:
         *,
         title: str | None = None,
         traces: Sequence[TraceLike] = (),
-        forces: bool = True,
+        forces: Forces = None,
         plots: Sequence[ChannelLike] | None = None,
     ) -> Page:
         """The page of page(), shown at once: in a notebook in a frame, else in the browser."""
@@ -322,21 +326,67 @@ class Run:
         self,
         title: str | None,
         traces: Sequence[TraceLike],
-        forces: bool,
+        forces: Forces,
         plots: Sequence[ChannelLike] | None,
     ) -> Page:
-        known = self._channels.values()
-        reactions = [channel for channel in known if drawings.is_reaction(channel)]
-        shown = [WHOLE["q"], *(reactions if forces else ())]
         if plots is None:
-            others = [channel for channel in known if channel not in reactions]
-            plots = [channel for channel in others if channel.key not in ("q", "v")]
+            others = [key for key, x in self._channels.items() if not _motion.is_reaction(x)]
+            plots = [key for key in others if key not in ("q", "v")]
         columns = []
         for plot in plots:
             key = plot.key if isinstance(plot, Channel) else plot
             for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
                 columns.append((f"{name} [{unit}]" if unit else name, values))
-        return drawings.of_run(self, title, traces, shown, columns)
+        known = self._channels.values()
+        return drawings.page(_motion.of_run(self, known, traces, forces, title, columns))
+
+    def figure(
+        self,
+        t: Scalar,
+        *,
+        traces: Sequence[TraceLike] = (),
+        forces: Forces = None,
+        size: tuple[float, float] | None = None,
+    ) -> Drawing:
+        """A picture of the run at the time t [s], for papers: figure(t).save("x.pdf"), or "x.svg".
+
+        Between two samples, positions are interpolated by cubic polynomials with the recorded
+        velocities, and reactions linearly. traces: paths from the start to t. forces: as in page().
+        size: width and height [px], 96 per inch. The view holds the whole motion, so that pictures
+        at several times have the same scale; m.draw(run.q[k]) fits one configuration. Raises
+        ValueError for a time outside of the run and for a run without its mechanism.
+        """
+        motion = _motion.of_run(self, self._channels.values(), traces, forces)
+        time = number(t, "t")
+        first, last = sorted(self.t[[0, -1]])
+        if not first <= time <= last:
+            raise ValueError(f"t: {time:g} s is not between {first:g} s and {last:g} s")
+        whole, samples = _motion.refined(motion, self, np.array([time]))
+        return drawings.figure(whole, samples[0], size)
+
+    def movie(
+        self,
+        path: str | os.PathLike[str],
+        fps: Scalar = 30,
+        speed: Scalar = 1.0,
+        *,
+        size: tuple[float, float] = (640, 480),
+        traces: Sequence[TraceLike] = (),
+        forces: Forces = None,
+        progress: Progress = True,
+    ) -> None:
+        """Write a movie of the run: .mp4 by the program ffmpeg, or .gif by Pillow.
+
+        fps: frames per second of the movie; delays in a GIF are rounded to 1/100 s. speed: seconds
+        of the run per second of the movie. size: width and height [px]. traces, forces and the
+        interpolation between samples: as in figure(). progress: True shows a bar in a terminal or a
+        notebook; a function progress(t) is called after each frame.
+
+        Raises ImportError without Matplotlib, RuntimeError without ffmpeg, ValueError for
+        other suffixes and for a run without its mechanism.
+        """
+        motion = _motion.of_run(self, self._channels.values(), traces, forces)
+        movies.write(self, motion, path, fps, speed, size, progress)
 
 
 def _place(body: Body) -> Place:

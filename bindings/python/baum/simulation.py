@@ -16,7 +16,6 @@ from typing import (
     Mapping,
     Sequence,
     TypeVar,
-    Union,
     overload,
 )
 
@@ -25,6 +24,7 @@ from numpy.typing import NDArray
 
 from . import _abi, _calls
 from ._lib import default, lib, text
+from ._motion import TraceLike
 from ._values import address, integer, number, truth, vector, word
 from .callbacks import event_function
 from .channels import Channel, Layout
@@ -34,6 +34,7 @@ from .definitions import COORDINATES
 from .errors import Error, Status, Warning, as_warning, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, integrators, lookup, names
+from .live import Live, View, Watcher, open_view
 from .progress import RunLine, stream
 from .run import Account, Counters, EnergyAccount, Event, NearSingular, Run
 from .typing import (
@@ -54,7 +55,6 @@ if TYPE_CHECKING:
     from .mechanism import Mechanism
 
 Method = TypeVar("Method", bound=Callable[..., Any])
-Watcher = Union[Callable[[float], object], None]
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
@@ -135,14 +135,12 @@ def make_options(method: Any, values: Mapping[str, Any]) -> Any:
     return options
 
 
-def _progress(holder: list[Watcher]) -> Any:
-    """A progress function for the library that calls holder[0](t); holder[0] may change between
-    calls."""
+def _progress(live: Live) -> Any:
+    """A progress function for the library."""
 
     def call(simulation: Any, t: float, user: Any) -> int:
         try:
-            watcher = holder[0]
-            return int(watcher is not None and bool(watcher(t)))
+            return int(live.call(simulation, t))
         except BaseException as error:
             _calls.raise_later(error)
             return 1
@@ -208,8 +206,8 @@ class Simulation(_calls.Closing):
         "kinematics"                         neither: drivers prescribe all degrees of freedom
         baum.integrators() lists them with order and formulations.
     step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
-    atol: added to rtol [unit of the coordinate] >= 0, default none. max_step: longest variable step
-        [s] > 0, default none. Set it if forces start late.
+    atol: [unit of the coordinate] >= 0, added to rtol times the scale, default none. max_step:
+        longest variable step [s] > 0, default none. Set it if forces start late.
     formulation: "default" is the first formulation that the integrator offers; "unstabilized",
         "baumgarte", "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
         "generalized_alpha" have "index3" only.
@@ -221,13 +219,13 @@ class Simulation(_calls.Closing):
         and multipliers [-] > 0. tolerance_lambda: finite only for "ida" with "baumgarte" or
         "unstabilized".
     start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
-        configuration that violates constraints; "as_given" accepts it unchanged.
-    solver: "auto", "klu", "qr" or "block". check_derivatives: compare the derivatives of your
+    configuration that violates constraints; "as_given" accepts it without assembly. solver: "auto",
+    "klu", "qr" or "block". check_derivatives: compare the derivatives of your
         functions with differences first. max_steps: number of steps after which a call fails.
     energy_account: record the works that `energy_account` and its channel report.
     error_check: estimate the error of the motion by a second integration
-        (counters.error_estimate), and warn if it is large. Without it, runs with fixed steps are
-        still checked as soon as their error may matter.
+        (counters.error_estimate), and warn if it is large. Without this option, runs with fixed
+        steps are checked only when the sum of their local errors is large enough to matter.
     progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
         A function progress(t) is called every progress_interval seconds of wall time, and cancels
         the run if it returns a true value.
@@ -273,8 +271,9 @@ class Simulation(_calls.Closing):
         self.mechanism = mechanism
         self._own_progress = _checked(progress)
         self._own_watcher: Watcher = None if progress is True else self._own_progress
-        self._watcher = [self._own_watcher]
-        self._keep = struct.progress = _progress(self._watcher)
+        self._live = Live(struct.progress_interval)
+        self._live.function = self._own_watcher
+        self._keep = struct.progress = _progress(self._live)
         self._has_account = bool(energy_account)
         self._layouts: dict[tuple[str, ...], Layout] = {}
         self._event_functions: list[Any] = []
@@ -386,8 +385,8 @@ class Simulation(_calls.Closing):
     def set_input(self, input: InputLike, value: Scalar) -> None:
         """Set an input from the present time on. The value holds until it is set again.
 
-        Variable-step methods restart; multistep methods then take small steps. A loop that sets
-        inputs often runs best with a fixed step, or with "rk8".
+        Variable-step methods restart; those with several steps (CVODE, IDA) then take small steps.
+        A loop that sets inputs often runs best with a fixed step, or with "rk8".
         """
         found = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
@@ -449,7 +448,7 @@ class Simulation(_calls.Closing):
         function(t, q, v) of the whole state passes zero. direction: 1 rising, -1 falling in time, 0
         both. terminal: the call ends with Status.STOP_EVENT at the event, and the next call
         continues; otherwise it is only recorded in `events`. name: for messages. tolerance: of the
-        time [s], default chosen by the library. coordinate: which one of `joint`, as in driver().
+        time [s], default its rounding. coordinate: which one of `joint`, as in driver().
         """
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()
@@ -514,7 +513,12 @@ class Simulation(_calls.Closing):
     def cancel(self) -> None:
         """Ask the run to stop after its present step. May be called from any thread or signal
         handler."""
+        self._live.cancelled = True
         lib.baum_simulation_cancel(self._owner.address)
+
+    def close(self) -> None:
+        super().close()
+        self._live.end()
 
     def _run(
         self,
@@ -528,7 +532,11 @@ class Simulation(_calls.Closing):
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
-        self._watcher[0] = line or (wanted if callable(wanted) else None)
+        live = self._live
+        live.function = line or (wanted if callable(wanted) else None)
+        live.cancelled = False
+        if live.servers and (live.paused or live.function is not None):
+            live.begin(self._owner.address)
         status: Status
         try:
             if at_once:
@@ -541,11 +549,13 @@ class Simulation(_calls.Closing):
             self._warn()
             raise
         finally:
-            self._watcher[0] = self._own_watcher
+            live.function = self._own_watcher
             if line is not None:
                 line.close()
         if status != Status.OK:
             self._warn()
+        if live.servers:
+            live.returned(self._owner)
         return status
 
     def _call(self, function: Any, *arguments: Any) -> Any:
@@ -555,6 +565,30 @@ class Simulation(_calls.Closing):
         return self._owner.call(function, *arguments)
 
     # ---- reading ---------------------------------------------------------------------------------
+
+    def view(
+        self,
+        *,
+        title: str | None = None,
+        traces: Sequence[TraceLike] = (),
+        paused: bool = False,
+        browser: bool = True,
+    ) -> View:
+        """Open a page in the browser that follows this run, at up to 60 frames a second. Notebooks
+        show the returned baum.View.
+
+        traces: paths to draw, as in Run.page(). paused: the run waits until you start it in the
+        page. browser: False opens nothing; visit View.url.
+
+        The page has buttons that pause the run, take one step of the integrator, and resume the
+        run. While the run is paused, the call that advances it waits; Ctrl-C and cancel() end the
+        waiting. The run goes on when its pages are closed. A view ends with close(), at the end of
+        a `with` block, or with the simulation. The server answers only programs of this computer
+        that know the secret in its address.
+        """
+        return open_view(
+            self, self._live, self._owner, title, traces, truth(paused, "paused"), browser
+        )
 
     @property
     def time(self) -> float:
@@ -647,7 +681,7 @@ class Simulation(_calls.Closing):
         return found
 
     def _warn(self) -> None:
-        """Issue Python warnings for warnings of the run that are new or have occurred again."""
+        """Issue a Python warning for each warning of the run that is new or has occurred again."""
         before, self._warned = self._warned, {}
         for warning in self.warnings:
             self._warned[warning.code] = warning.count

@@ -399,7 +399,7 @@ class Study(_calls.Closing):
 
     @property
     def methods(self) -> list[StudyMethod]:
-        """The methods, with the cost factor of one more digit."""
+        """All methods, with the factor by which one more digit of accuracy increases the cost."""
         count = lib.baum_study_method_count(self._owner.address)
         return [
             self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
@@ -511,7 +511,8 @@ class Study(_calls.Closing):
         how = (_form(form), _title(title))
         size = ctypes.c_size_t()
         self._owner.call(lib.baum_study_print, *how, None, 0, ctypes.byref(size))
-        room = ctypes.create_string_buffer(size.value + 1024)  # its date is another one
+        # The report is made twice, and its date may be longer the second time.
+        room = ctypes.create_string_buffer(size.value + 1024)
         self._owner.call(lib.baum_study_print, *how, room, len(room), None)
         return room.value.decode(errors="replace")
 

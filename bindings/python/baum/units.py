@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Units of the columns of channels; "-" for pure numbers, "" if they depend on user functions."""
+"""Units of the columns of channels: "-" for a pure number, "" if the unit depends on user
+functions."""
 
 from __future__ import annotations
 
@@ -97,7 +98,7 @@ def _driven(joint: Joint) -> Kind | None:
 
 
 def _reaction(joint: Joint, columns: int) -> Units:
-    """Force and moment, or generalized forces over the velocities of planar bodies."""
+    """Units of force and moment, or of generalized forces on planar bodies."""
     assert joint.kind is not None
     moved = joint.kind if joint.kind.units else _driven(joint)
     if moved is not None and moved.is_spatial:

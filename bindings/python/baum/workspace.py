@@ -94,7 +94,7 @@ class Workspace(_calls.Closing):
         return moved
 
     def difference(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """The displacement (nv) by which move() goes from one configuration to another."""
+        """The displacement (nv) by which move() takes `start` to `end`."""
         out = np.empty(self._sizes.nv)
         start, end = self._q(start), self._q(end)
         self._call(lib.baum_workspace_difference, address(start), address(end), address(out))
@@ -159,7 +159,8 @@ class Workspace(_calls.Closing):
 
     def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
         """Reaction of a joint as in its channel `reaction`: for most joints the force [N] and the
-        moment [N m] on body_b (3). lambda_: multipliers (nc), as acceleration() returns them."""
+        moment [N m] on body_b (3, in space 6). lambda_: multipliers (nc), as acceleration() returns
+        them."""
         found = self.mechanism.find("joint", joint)
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))

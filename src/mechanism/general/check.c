@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks whether the derivatives that user functions give agree with differences of user functions.
+/* Checks derivatives that user functions return against finite differences of user functions.
  *
- * The check compares a given value g with differences d for a sequence of decreasing steps. g is
- * accepted if
+ * The check compares the value g that a user function returned with differences d, for a sequence
+ * of decreasing steps. g is accepted if
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * holds for one step. The second term allows for the rounding of an entry that is small compared
- * with the others of its row. g is rejected if this holds for no step, and if the best d and at
- * least one more d differ from g by more than the error of d. This error is 20 times the difference
- * of the two orders (difference.c), plus the difference from the previous step, plus rounding. At a
- * kink, such as dry friction at rest, the derivatives on both sides differ by the same amount for
- * every step. The function has no derivative there, and the check passes.
+ * holds for one step. The size of a row is its largest entry, scaled. The second term allows for
+ * the rounding of an entry that is small compared with the others of its row. g is rejected if this
+ * holds for no step, and if the best d and at least one more d differ from g by more than the error
+ * of d. This error is 20 times the difference of the two orders (difference.c), plus twice the
+ * difference from the d of the previous step, plus rounding. At a kink, such as dry friction at
+ * rest, the derivatives on both sides differ by the same amount for every step. The function has no
+ * derivative there, and the check passes.
  *
- * The check evaluates the design configuration and three configurations near it, in which no value
- * is zero or symmetric by chance. Phi is not zero there, so derivatives that are only correct for
- * Phi = 0 are rejected. If a function fails in a configuration, the check skips this configuration;
- * if it fails in all, the check fails. (A function may fail in the design configuration because
- * free velocities are set to zero there.)
+ * The check evaluates the design configuration and three configurations near it. In these,
+ * coordinates and velocities are quasi-random, so that no value is zero or symmetric by chance. Phi
+ * is not zero there, so derivatives that are only correct for Phi = 0 are rejected. If a function
+ * fails in a configuration, the check skips this configuration; if it fails in all, the check
+ * fails. (A function may fail in the design configuration because free velocities are set to zero
+ * there.)
  */
 #include "mechanism/general/check.h"
 
@@ -34,24 +36,24 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* Results for the entries of one ray (see difference.h) so far. */
+/* Results so far, for each entry of the derivative along one ray (difference.h). */
 typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value for the previous step */
-  double *value;    /* best */
+  double *value;    /* best difference */
   double *error;    /* error of the best value; < 0: the given value is accepted */
   double *quality;  /* error of the best value, relative to the variation of the function */
   double *step;     /* step of the best value */
   double *wrong;    /* number of steps for which the given value looks wrong */
 } trial;
 
-/* The given values for one ray, and the sizes that determine their rounding. */
+/* The values to be checked along one ray. */
 typedef struct column {
   const baum_i_claim *claim;
   const baum_i_stencil *stencil;
   const baum_i_field *field;
   const baum_i_ray *ray;
-  const double *row_size; /* (size) of the field, or NULL */
+  const double *row_size; /* (size of the field) see find_row_size(); or NULL */
   int first;              /* entry i of the ray is entry first + i stride of the claim */
   int stride;
 } column;
@@ -85,7 +87,8 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Update the results of the best step. The first step has the error NaN and is never the best. */
+/* Update the results of the best step. The first step has no previous value: its error is NaN, and
+ * it is never the best. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -130,7 +133,8 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* If a function is smooth, the difference of the one-sided derivatives decreases with the step. */
+/* Tell whether the function has no kink: the difference of its one-sided derivatives decreases with
+ * the step, or is too small to explain why the given value deviates. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
   double far = kink(c, at, &t->now, t->step[i], i);
@@ -168,7 +172,8 @@ static baum_status compare(const column *c, const baum_i_local *at)
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
-      return BAUM_OK; /* differences are useless so close to the edge of the domain */
+      return BAUM_OK; /* the function refuses nearby points for good, so differences cannot
+                       * decide */
     }
     if (status == BAUM_OK && judge_step(c, &t, step)) {
       return BAUM_OK;
@@ -187,8 +192,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* A field whose entries are moved to the indices of their derivatives, so that messages name the
- * derivatives. */
+/* Context of a field whose entries are stored at the indices of their derivatives, so that messages
+ * name the entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;
@@ -293,8 +298,8 @@ static double spread(int k)
 }
 
 enum { CONFIGURATIONS = 4 };
-/* [1/s] Scaled velocities below this are set to zero, because differences of q would be lost in
- * rounding. */
+/* [1/s] Scaled velocities below this are set to zero, because displacements along them would be
+ * lost in the rounding of q. */
 static const double REST = 1e-12;
 
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mechanism/general/columns.h"
 
-/* Return the column of velocity i of a body among the `width` columns. In space a planar body
- * rotates about z. */
+/* Return the column of velocity i of a body among the `width` columns. In space, the angle of a
+ * planar body is the rotation about z, column 5. */
 BAUM_I_INLINE int column(const baum_i_body *body, int width, int i)
 {
   return width == BAUM_I_SPACE && i == 2 && body->type->frame == BAUM_I_FRAME_BODY ? 5 : i;
@@ -47,7 +47,7 @@ BAUM_I_INLINE void pack_wide(const baum_mechanism *mechanism, const baum_i_span 
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed)
 {
-  if (width == BAUM_I_PLANE) { /* planar elements avoid the cost of column() */
+  if (width == BAUM_I_PLANE) { /* a constant width, with which column() costs nothing */
     pack_wide(mechanism, span, BAUM_I_PLANE, rows, wide, packed);
   } else {
     pack_wide(mechanism, span, BAUM_I_SPACE, rows, wide, packed);
@@ -70,7 +70,7 @@ void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_sp
   const ptrdiff_t size = (ptrdiff_t)span->body_count * width;
   for (int k = 0; k < span->body_count; k++, wide += width * size) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
-    if (width == BAUM_I_PLANE) { /* a planar body has the first nv columns */
+    if (width == BAUM_I_PLANE) { /* column(body, width, i) is i */
       pack(mechanism, span, width, body->nv, wide, packed);
       packed += (ptrdiff_t)body->nv * span->nl;
       continue;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Packing of columns. Functions of element types (kernels) write the same columns for each body. In
- * the plane there are three: x, y and angle. In space there are six: the velocity of the origin in
- * ground axes and the angular velocity in body axes. Packing copies only the columns that a body
- * has. A planar particle has no angle, a spatial particle has no angular velocity, and ground has
- * no columns. In space a planar body has x, y and the rotation about z.
+/* Conversion between wide and packed columns. Functions of element types compute with wide columns,
+ * which are the same for each body. In the plane there are three: x, y and angle. In space there
+ * are six: the velocity of the origin in ground axes and the angular velocity in body axes. Packed
+ * rows contain only the columns that a body has. A planar particle has no angle, a spatial particle
+ * has no angular velocity, and ground has no columns. In space a planar body has x, y and the
+ * rotation about z.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -14,12 +15,12 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* Gather `width` numbers of each body from a vector x (nv). Absent columns are zero, and all are
- * zero if x is NULL. */
+/* Gather `width` numbers of each body from a vector x (nv). Columns that a body does not have are
+ * set to zero. If x is NULL, all are zero. */
 void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
                            const double *x, double *wide);
 
-/* Add `width` numbers of each body to a vector x (nv). */
+/* Add `width` numbers of each body to a vector x (nv). Numbers of absent columns are ignored. */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *x);
 
@@ -81,18 +82,18 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
   }
 }
 
-/* Pack a square matrix over all columns to nl x nl. */
+/* Pack a square matrix over all wide columns to nl x nl. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);
 
-/* Pack second derivatives of a joint's rows over all columns to the blocks that are not NULL. nu_q
+/* Pack second derivatives of a joint's rows from wide columns to the blocks that are not NULL. nu_q
  * is not set, because it is zero for all joints with such rows. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 int width, const baum_i_joint_blocks *wide,
                                 const baum_i_joint_blocks *blocks);
 
-/* Pack a derivative of a force over all columns to its place in the squares of all forces, unless
- * these are NULL. */
+/* Pack a derivative of a force from wide columns to the force's block in `squares`. Does nothing if
+ * squares is NULL. */
 void baum_i_columns_pack_force(const baum_mechanism *mechanism, const baum_i_force *force,
                                int width, const double *wide, double *squares);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A function G(c_0, c_1) of two coordinates. It is a constraint on the coordinates of a point on a
- * curve or of two coupled joints, or an angle as a function of its cosine and sine.
+/* A function G(c_0, c_1) of two coordinates. It has three uses: for a point on a curve, G = 0 is
+ * the equation of the curve; for a coupling, G = 0 relates the coordinates of two joints; for a
+ * spatial joint, G is the angle as a function of its cosine and sine.
  *
  * A row has up to four bodies, in the order of its span, and `width` columns for each of them.
  */
@@ -18,8 +19,8 @@ enum {
 typedef struct baum_i_inner {
   baum_i_coordinate c;
   baum_i_coordinate_blocks blocks; /* with lambda = 1; only for linearize */
-  int columns;                     /* of its two bodies */
-  int at[BAUM_I_PAIR_COLUMNS];     /* their indices among the columns of the row */
+  int columns;                     /* number of columns of its two bodies */
+  int at[BAUM_I_PAIR_COLUMNS];     /* index of each of them among the columns of the row */
 } baum_i_inner;
 
 /* G and its derivatives at (c_0, c_1). */
@@ -30,8 +31,8 @@ typedef struct baum_i_outer {
   double third[4];  /* G_000, G_001, G_011, G_111; only for gamma_q */
 } baum_i_outer;
 
-/* Set the columns of a coordinate in a row. Each body has `width` columns in the coordinate and
- * `row_width` in the row; `place` are the places of the two bodies in the row. */
+/* Set inner->columns and inner->at. Each body has `width` columns in the coordinate and `row_width`
+ * in the row. The row contains the two bodies as its bodies number place[0] and place[1]. */
 void baum_i_composed_place(baum_i_inner *inner, int width, int row_width, const int place[2]);
 
 /* Extract the columns of a coordinate from the columns of the row. */
@@ -41,7 +42,7 @@ void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, doubl
 void baum_i_composed_add_gradient(const baum_i_inner x[2], const baum_i_outer *g, double *gradient);
 double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g);
 
-/* Second derivatives with respect to the columns of the row. New terms are added to them. */
+/* Second derivatives with respect to the columns of the row. Functions add to them. */
 typedef struct baum_i_composed_blocks {
   int columns;
   double *jw_q;
@@ -55,7 +56,8 @@ typedef struct baum_i_composed_blocks {
 void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, const double *w,
                                double lambda, const baum_i_composed_blocks *out);
 
-/* Write the requested parts of a row to the places of its joint. */
+/* Write the parts of a row for which `out` has arrays to the places of the joint in these
+ * arrays. */
 void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point, int width,
                              const baum_i_inner x[2], const baum_i_outer *g,
                              const baum_i_rows *out);

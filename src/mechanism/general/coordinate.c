@@ -24,7 +24,8 @@ const char *baum_i_coordinate_name(baum_joint_coordinate which)
 
 /* ---- checks ---- */
 
-/* The index of a coordinate in the list of a joint type, or -1 if the type does not have it. */
+/* Return the index of a coordinate in the list of a joint type, or -1 if the type does not have
+ * it. */
 static int find(const baum_i_joint_type *type, baum_joint_coordinate which)
 {
   int k = 0;
@@ -120,7 +121,7 @@ double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_jo
 
 /* ---- revolutions ---- */
 
-/* The angle last stored for a coordinate, followed by its rate. */
+/* Return a pointer to the stored angle of a coordinate, which is followed by its rate. */
 static double *angle_of(const baum_i_joint_coordinate *c, const baum_i_point *point)
 {
   int k = BAUM_I_COORDINATES * (c->joint->element.index - 1) + c->number;

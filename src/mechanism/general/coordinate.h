@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coordinates of joints, which drivers, couplings, joint springs, channels and events use.
+/* Coordinates of joints. Drivers, couplings, joint springs, channels and events use them.
  *
- * Positions give an angle in space only up to revolutions. Of the possible values, the one nearest
- * to the expected angle is taken. The expected angle is angles[2 k] at the time angles[2 n] and
- * changes at the rate angles[2 k + 1], where k is the index of the coordinate among the n =
- * BAUM_I_COORDINATES joint_count coordinates of all joints. A run updates `angles` after every
- * step. Without angles, or with zeros, the angle is between -pi and pi.
+ * In space, positions determine the angle of a joint only up to whole revolutions. Of the possible
+ * values, the one nearest to an expected angle is taken. The expected angle is linear in time: at
+ * the time angles[2 n] it is angles[2 k], and its rate is angles[2 k + 1]. Here k is the index of
+ * the coordinate among the n = BAUM_I_COORDINATES * joint_count coordinates of all joints. A run
+ * updates `angles` after every step. If `angles` is NULL or all zeros, the angle is between -pi and
+ * pi.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATE_H
@@ -25,16 +26,16 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
                                     baum_joint_coordinate which, const char *label,
                                     const baum_i_coordinate_fields *fields);
 
-/* Its name in messages: "angle". */
+/* Return the name of a coordinate for messages, such as "angle". */
 const char *baum_i_coordinate_name(baum_joint_coordinate which);
 
-/* The coordinate of a checked definition. */
+/* Return the coordinate that a checked definition selects. */
 baum_i_joint_coordinate baum_i_joint_coordinate_of(const baum_mechanism *mechanism,
                                                    baum_joint_id id, baum_joint_coordinate which);
 
 /* True for an angle [rad], false for a displacement [m]. */
 bool baum_i_is_angle(const baum_i_joint_coordinate *c);
-/* True for an angle that positions give only up to revolutions. */
+/* True for an angle that positions determine only up to whole revolutions. */
 bool baum_i_is_spatial_angle(const baum_i_joint_coordinate *c);
 
 static inline void baum_i_coordinate_at(const baum_i_joint_coordinate *c, const baum_i_point *point,
@@ -55,8 +56,9 @@ static inline void baum_i_coordinate_linearize(const baum_i_joint_coordinate *c,
   c->joint->type->coordinate_linearize(c->joint, c->number, point, w, lambda, out);
 }
 
-/* Value of the coordinate in the design configuration. Only elements added after the joint may call
- * this, in `lower`. */
+/* Return the value of the coordinate in the design configuration. Call it only in `lower` of
+ * elements that were added after the joint, because the parameters of the joint must have been
+ * set. */
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint_coordinate *c);
 
 /* ---- revolutions ---- */
@@ -73,9 +75,10 @@ double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_poin
 /* Expect all angles to stay constant from the time t on. */
 void baum_i_hold_angles(baum_i_point *point, double t);
 
-/* Update the angles of a point from its positions. Each angle is predicted from the last one with
- * the mean of the last and the present rate, and the value nearest to the prediction is taken.
- * Returns the largest deviation from a prediction, at most half a revolution [rad]. */
+/* Update the angles of a point from its positions. Each angle is predicted from its last value with
+ * the mean of its last and its present rate. Of the possible values, the one nearest to the
+ * prediction is taken. Returns the largest deviation from a prediction, in rad, which is at most
+ * pi. */
 double baum_i_follow_angles(baum_i_point *point);
 
 #endif

@@ -3,8 +3,8 @@
  * M(q, t) and the force g(q, v, t). Either v = q', or q' = N(q) v with the user functions of
  * coordinates_manifold.c.
  *
- * Derivatives of g that are not given, and all derivatives of M a, are finite differences
- * (difference.c).
+ * All derivatives of M a, and those derivatives of g for which there is no user function, are
+ * finite differences (difference.c).
  */
 #include <math.h>
 #include <string.h>

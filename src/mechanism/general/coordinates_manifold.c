@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks the user functions of a manifold. With m(s) = move(q, s v), they satisfy m' = rate(q, v)
- * and m'' = d/ds rate(m(s), v) at s = 0, and difference(q, m(1)) = v.
+/* Calls and checks the user functions of a manifold. With m(s) = move(q, s v), correct functions
+ * satisfy m'(0) = rate(q, v), m''(0) = d/ds rate(m(s), v) at s = 0, and difference(q, m(1)) = v.
  */
 #include "mechanism/general/coordinates_manifold.h"
 
@@ -202,7 +202,8 @@ static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
   const double *scale = at->point->mechanism->position_scale + body->q;
   memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
   double way = 0.0;
-  for (int k = 0; k < MOVES && isfinite(way); k++) { /* stop if the functions fail */
+  for (int k = 0; k < MOVES && isfinite(way); k++) { /* way is not finite if the functions return
+                                                      * such values */
     way = 0.0;
     memcpy(moved, normal, (size_t)body->nq * sizeof *moved);
     move(body, SHORT / baum_i_local_rate(at), at->v, moved);

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Coupling: one row that couples the coordinates of two joints.
  *
- *   Phi  = c_b - f(c_a)                  (1)
- *   f(x) = ratio x + offset, or the user's law: a cam whose follower is a joint
+ *   Phi  = c_b - f(c_a)                  (1 row)
+ *   f(x) = ratio x + offset, or a user function (the law), as for a cam that moves joint_b
  *
  * J, gamma and second derivatives follow from the chain rule of composed_row.c; the types of the
  * joints give c and its derivatives. The third derivative of a law, which only gamma_q needs, comes
  * from differences of the second one.
  *
- * Spatial angles are known only up to revolutions. A revolution of a changes Phi by 2 pi ratio, a
- * revolution of b by 2 pi. Of the resulting values of Phi, the one nearest to zero is taken. The
- * row therefore does not depend on counted revolutions, unless there is a law, or the ratio of two
- * angles is not rational.
+ * Positions determine spatial angles only up to whole revolutions. A revolution of c_a changes Phi
+ * by 2 pi ratio, a revolution of c_b by 2 pi. Of all values that Phi can have, the one nearest to
+ * zero is taken. The row is therefore independent of the number of revolutions made, except with a
+ * law, or if the ratio of two spatial angles is not rational.
  *
  * The row acts on the bodies of joint_a and joint_b. If the joints share a body, it is listed once,
  * and the columns of both joints are added.
@@ -45,7 +45,8 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* Ratios of spatial angles may have denominators up to 1000, more than wheels have teeth. */
+/* Smallest period of Phi [revolutions]. It allows ratios of spatial angles with denominators up to
+ * 1000, which is more than the number of teeth of a gear. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
 
@@ -87,9 +88,9 @@ static int find(const int *bodies, int count, int body)
   return k;
 }
 
-/* The smallest change of Phi by revolutions of spatial angles: the greatest common divisor of the
- * changes by one revolution of a and one of b. 0 if there are no spatial angles or no divisor above
- * SMALLEST_PART revolutions.
+/* Return the smallest change of Phi that whole revolutions of spatial angles can cause: the
+ * greatest common divisor of the changes by one revolution of a and by one of b. Returns 0 if there
+ * is no spatial angle, or if the divisor is below SMALLEST_PART.
  */
 static double period_of(const baum_i_joint_coordinate *a, const baum_i_joint_coordinate *b,
                         double ratio)

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives by central differences of sixth order.
  *
- *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h              c = 3/4, -3/20, 1/60,   error h^6 f(7)/140
- *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
+ *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h             c = 3/4, -3/20, 1/60,   error h^6 f^(7)/140
+ *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2  c = 3/2, -3/20, 1/90,   error h^6 f^(8)/560
  *
- * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. If s is
- * measured in relevant changes (the scale of a coordinate), the best steps are near 2^-8 and 2^-6.
+ * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. For
+ * steps relative to the scale of a coordinate, the best ones are near 2^-8 for f' and 2^-6 for f''.
  * The steps used are a little smaller, so that functions that vary three times as fast as the scale
- * suggests lose no accuracy. The errors are about 1e-13 and 1e-11.
+ * suggests lose no accuracy. The errors are about 1e-13 for f' and 1e-11 for f''.
  *
  * The same values give differences of fourth order (c = 2/3, -1/12 and 4/3, -1/12). If the two
- * orders agree to 1e-7, the error of the sixth order is about 1e-11; for first derivatives 1e-9 can
- * be required. If they do not agree, the scale is too large for F, and the step is reduced until
- * they agree. A scale that is wrong by a factor of 1e6 costs time, but no accuracy. The search ends
- * if the difference of the orders is only rounding.
+ * orders agree to 1e-7, the error of the sixth order is about 1e-11. For first derivatives, an
+ * agreement to 1e-9 is required. If they do not agree, the scale is too large for F, and the step
+ * is reduced until they agree. A scale that is wrong by a factor of 1e6 costs time, but no
+ * accuracy. The search also ends if the difference of the orders is only rounding.
  *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
@@ -220,8 +220,9 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* Estimate the effect of the rounding of q by the size of F after q has been moved by half a
- * relevant change. (At the point itself F may be zero.) A failure of F there is ignored. */
+/* On a manifold, rounding of q causes an error in proportion to the size of F nearby. Estimate this
+ * size by evaluating F after q has been moved by half its scale, because at the point itself F may
+ * be zero. If F fails there, this error is not estimated. */
 static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;
@@ -307,7 +308,7 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
   for (int k = 0; k < stencil->steps; k++) {
     here.point->retry = false;
     status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
-    /* A function that fails at this distance may be close to the edge of its domain. */
+    /* If the function asks for a smaller step (retry), its domain may end near this point. */
     if (status != BAUM_OK && !here.point->retry) {
       return status;
     }

@@ -66,8 +66,8 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 /* ---- evaluation ---- */
 
 /* Evaluates the coordinate and returns its difference from s; for an angle in space, modulo whole
- * revolutions. These are subtracted from coordinate and s first, because the difference of two
- * large angles would have a large rounding error. */
+ * revolutions. Whole revolutions are removed from both before the subtraction, because the
+ * difference of two large angles would have a large rounding error. */
 static double find_offset(const baum_i_joint_coordinate *driven, const baum_i_point *point,
                           double s, baum_i_coordinate *c)
 {
@@ -123,7 +123,7 @@ void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, d
   driven->type->place(driven, point, at);
 }
 
-/* Only for a driven joint in space. */
+/* Called only if the driven joint is spatial. */
 void baum_i_driver_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
                               const double *lambda, double six[BAUM_I_SPACE])
 {

@@ -18,9 +18,9 @@
 /* The names of the definition fields that select the driven coordinate. */
 extern const baum_i_coordinate_fields baum_i_driver_fields;
 
-/* Parameters; those of the driver's own type follow. */
+/* Indices of the first parameters of a driver. Those of its own type follow. */
 enum {
-  BAUM_I_DRIVER_S, /* at t0 */
+  BAUM_I_DRIVER_S, /* s, s' and s'' at t0 */
   BAUM_I_DRIVER_DS,
   BAUM_I_DRIVER_DDS,
   BAUM_I_DRIVER_T0,
@@ -28,10 +28,11 @@ enum {
   BAUM_I_DRIVER_NUMBERS
 };
 
-/* Replaces s(t) by a polynomial; the replace_law of all drivers. */
+/* Replaces s(t) by the polynomial s[0] + s[1] (t - t0) + s[2] (t - t0)^2 / 2. */
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
-/* Checks that s is finite. The message names `source`, for example "law()". */
+/* Checks that value, rate and acceleration (s) are finite. The message names `source`, for example
+ * "law()". */
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3]);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Driver: one row that prescribes the coordinate of another joint (driven.h) by
  *
- *   s(t) = value + rate t + acceleration t^2 / 2, or the user's law
+ *   s(t) = value + rate t + acceleration t^2 / 2, or a user function (the law)
  */
 #include "base/message.h"
 #include "mechanism/definition.h"

@@ -172,7 +172,7 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spline_driver, "spline driver", fields), .check = check,
                  .own = own, .release = release,
-                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* zero: motion() is used */
   BAUM_I_DRIVER_MEMBERS(driven, motion),
 };
 

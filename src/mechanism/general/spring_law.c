@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The user's law of a spring: the call, and the check of its derivatives. Members of the types of
- * springs. */
+/* Calls and checks a user's law of a spring, and defines the functions that all types of springs
+ * share. */
 #include "mechanism/general/spring_law.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of springs: the tension as a function of a length and its rate. Of a torsion spring
- * these are an angle and its rate, of a joint spring a coordinate and its rate.
+/* Common part of springs: the tension T as a function of a length l and its rate l'. For a torsion
+ * spring, l is an angle; for a joint spring, it is a coordinate of a joint.
  *
- *   T = k (l - l_0) + c l', V = k (l - l_0)^2 / 2, or a user's law T(l, l') without V
+ *   T = k (l - l_0) + c l' with the potential V = k (l - l_0)^2 / 2, or a user's T(l, l') without V
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
 #define BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
@@ -14,7 +14,7 @@
 /* Parameters of a linear spring, in this order. */
 enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBERS };
 
-/* The fields that all definitions of springs have, one after the other. */
+/* The fields that all definitions of springs contain, in this order. */
 typedef struct baum_i_spring_def {
   double stiffness;
   double damping;
@@ -27,7 +27,7 @@ typedef struct baum_i_spring_def {
 #define BAUM_I_SPRING_OFFSET(DEF, field) (offsetof(DEF, field) - offsetof(DEF, stiffness))
 #define BAUM_I_HAS_SPRING_FIELD(DEF, field) \
   (BAUM_I_SPRING_OFFSET(DEF, field) == offsetof(baum_i_spring_def, field))
-/* Checks that a public definition has these fields in this order. */
+/* Check at compile time that a public definition has these fields in this order. */
 #define BAUM_I_CHECK_SPRING_DEF(DEF)                                                           \
   _Static_assert(BAUM_I_HAS_SPRING_FIELD(DEF, damping) && BAUM_I_HAS_SPRING_FIELD(DEF, law) && \
                    BAUM_I_HAS_SPRING_FIELD(DEF, user) &&                                       \
@@ -43,19 +43,19 @@ typedef struct baum_i_spring_def {
 typedef struct baum_i_spring_law {
   const baum_i_element *element;
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
-  baum_spring_fn *law;   /* replaces the numbers unless NULL */
+  baum_spring_fn *law;   /* user function that is used instead of `numbers`, or NULL */
   void *user;
   bool depends_on_rate; /* whether the law depends on l' */
 } baum_i_spring_law;
 
-/* T and its derivatives by l and l'. */
+/* T and its derivatives with respect to l and l'. */
 typedef struct baum_i_tension {
   double value;
   double by_length;
   double by_rate;
 } baum_i_tension;
 
-/* Call the user's law. Returns BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+/* Call the user function. Returns BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                    double length, double rate, baum_i_tension *out);
 
@@ -72,7 +72,8 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* Return the law of a spring. The numbers are its last parameters. */
+/* Return the law of a spring. `numbers` points to the last BAUM_I_SPRING_NUMBERS of its
+ * parameters. */
 static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                                                      const baum_i_spring_def *def,
                                                      const double *numbers)
@@ -84,7 +85,8 @@ static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                              .depends_on_rate = def->depends_on_velocity};
 }
 
-/* Set the numbers; `design` is the length in the design configuration. */
+/* Set `numbers` from the definition. `design` is the length in the design configuration, which is
+ * the default of l_0. */
 void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers);
 
 /* ---- members of the types of springs ---- */
@@ -94,12 +96,13 @@ void baum_i_spring_lower(const baum_i_force *force, double design, double *numbe
   .potential = baum_i_spring_potential, .power = baum_i_spring_power
 
 bool baum_i_spring_depends(const baum_i_force *force);
-/* Adds V. */
+/* Adds V to *sum, except for a user's law. */
 baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *point, double *sum);
-/* Adds the power of the tension, except the part that changes V. A user's law has no V. */
+/* Adds the power of the tension, except the part that changes V. For a user's law, all of it is
+ * added. */
 baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
                                 double sum[BAUM_I_POWERS]);
-/* Compares the derivatives that a user's law gives with differences. */
+/* Compares the derivatives that a user's law returns with differences. */
 baum_status baum_i_spring_check(const void *force, baum_i_point *point);
 
 #endif

@@ -6,10 +6,10 @@
  * Missing functions are replaced by differences (difference.c). Phi'' = J a - gamma, and a = 0
  * along the straight line q + s v, t + s, so
  *
- *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
+ *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0.
  *
- * The second form is more accurate and is used if J and nu are given. If J is not given, second
- * derivatives of Phi are
+ * The second form is more accurate. It is used if J is given, and nu is given or zero. If J is not
+ * given, second derivatives of Phi are found from those along single directions:
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
@@ -46,7 +46,8 @@ static int rows(const void *given)
   return def->row_count;
 }
 
-/* Return the relative error of the derivatives by difference.c that are used. */
+/* Return the relative error of those derivatives that are computed by differences
+ * (difference.c). */
 static double noise(const void *given)
 {
   const baum_user_constraint_def *def = given;
@@ -150,7 +151,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
   return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
-/* Find whether Phi changes with t at constant q, by a small step in both directions. */
+/* Find whether Phi changes with t at constant q, from its values a short time before and after. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -173,7 +174,8 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* In fast motion the step does not depend on `moves`, so it matters only if nu is missing. */
+  /* If the rate is at least 1, `moves` does not change it below. Then `moves` is needed only if J
+   * is given without nu: gamma_at() uses it to select the form of gamma. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
@@ -277,8 +279,8 @@ static baum_status products_by_columns(const second *s, const baum_i_local *at)
   return BAUM_OK;
 }
 
-/* Compute the derivative by q_j of column i of J, for all rows. If q is not a vector, q is first
- * moved along j, then along i. work (2 nl + rows). */
+/* Compute the derivative of column i of J with respect to q_j, for all rows. If q is not a vector,
+ * q is first moved along j, then along i. work (2 nl + rows). */
 static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, int i, int j,
                              double *work, double *out)
 {
@@ -343,8 +345,8 @@ static baum_status linearize_products(const second *s, const baum_i_local *at)
   return def_of(s->joint)->jacobian ? products_by_columns(s, at) : products_by_pairs(s, at);
 }
 
-/* Write the derivative of a function to out (size x nl), unless out is NULL. The function may
- * itself use differences. */
+/* Write the derivative of a function to out (size x nl), unless out is NULL. If the user did not
+ * give the function (is_given), `call` itself uses differences. */
 static baum_status linearize_by(const baum_i_joint *joint, baum_i_field_fn *call, bool is_given,
                                 baum_i_variable variable, const baum_i_local *at, double *out)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Generalized force g(q, v, t) on the named bodies, by user functions.
  *
- * Derivatives that are not given are computed by differences (difference.c).
+ * Derivatives for which there is no user function are computed by differences (difference.c).
  */
 #include "mechanism/definition.h"
 #include "mechanism/general/given_force.h"

@@ -3,8 +3,9 @@
  * result.
  *
  * A user function receives the coordinates of its bodies one after the other, in the order of the
- * definition, and fills a zeroed array. If it returns > 0, or values that are not finite, the call
- * fails with point->retry set, because a smaller step may help. If it returns < 0, the run stops.
+ * definition, and fills an array that has been set to zero. If it returns > 0, or values that are
+ * not finite, the call fails with point->retry set, because a smaller step may avoid the failure.
+ * If it returns < 0, the run stops.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 #define BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
@@ -16,12 +17,13 @@
  * its numbers of local positions and velocities. */
 int64_t baum_i_scratch_size(int columns, int rows);
 
-/* The point at which user functions are evaluated. A function that needs memory makes a copy of
- * this struct and takes memory from the copy, so all memory is free again when the function
- * returns. */
+/* The point at which user functions are evaluated. A function that needs scratch memory copies this
+ * struct and calls baum_i_take() on the copy. Since `free` of the original is unchanged, all memory
+ * is free again when the function returns. */
 typedef struct baum_i_local {
   baum_i_point *point;
-  const baum_i_span *span; /* if q must be moved on a manifold; NULL: q is a vector, ql = nl */
+  const baum_i_span *span; /* needed if q must be moved on a manifold; NULL: q is a vector, ql =
+                            * nl */
   int ql;
   int nl;
   double t;
@@ -64,18 +66,19 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
-/* The parts of a call before and after the user function, for user functions with other arguments.
- * Of `at`, only point and t are used. */
+/* For user functions with other arguments: call the first before and the second after the user
+ * function. Of `at`, they use only point and t. */
 void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out);
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out);
 
-/* Fail because a user function returned `answer` != 0. The message includes one that the function
- * set since baum_i_listen(). */
+/* Fail because a user function returned `answer` != 0. If the function itself set a message since
+ * baum_i_listen(), it is included. */
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
                                  baum_i_point *point);
 
-/* Return `joint 2 "circle": jacobian()[0][1]`. `entry` is an index into the output. */
+/* Return a text such as `joint 2 "circle": jacobian()[0][1]`. `entry` is an index into the
+ * output. */
 baum_i_text baum_i_user_entry(const baum_i_user_function *function, int entry);
 
 #endif

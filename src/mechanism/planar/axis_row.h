@@ -4,12 +4,12 @@
  * the pin in a slot. The distance along the axis is the coordinate of these joints. The rack and
  * pinion and the point on a curve also use this distance.
  *
- * Let e be the direction in body axes, u = A_a e, n = k x u, p the arms of the markers, r the
- * origins, and D = r_b + p_b - r_a. u . p_a is constant, because both vectors are fixed in body_a.
- * The distance f is
+ * Let e be the direction in body axes, u = A_a e, n = k x u, p_a and p_b the arms of the markers
+ * (planar.h), r_a and r_b the origins of the bodies, and D = r_b + p_b - r_a. u . p_a is constant,
+ * because both vectors are fixed in body_a. The distance f is
  *
  *   f     = u . (D - p_a)
- *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                           (6)
+ *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                    (6 columns)
  *   H     = f_qq, symmetric; its non-zero entries are
  *           angle_a, r_a: -n;  angle_a, r_b: n;  angle_a, angle_b: n . (k x p_b) = u . p_b;
  *           angle_a, angle_a: -u . D;  angle_b, angle_b: -u . p_b
@@ -27,7 +27,7 @@
 
 /* ---- an axis in definitions ---- */
 
-/* The fields that definitions with an axis begin with. */
+/* The first fields of definitions with an axis. */
 typedef struct baum_i_planar_axis_head {
   baum_i_planar_head head;
   double axis[2];
@@ -36,8 +36,8 @@ typedef struct baum_i_planar_axis_head {
 #define BAUM_I_PLANAR_AXIS_FIELDS(DEF) \
   BAUM_I_PLANAR_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "", 1.0, 0.0)
 
-/* Find the unit axis in the axes of body_a. If `point` is given (not NaN), both point and axis of
- * the definition are in ground axes. */
+/* Set `along` to the unit axis of a joint, in the axes of body_a. If `point` is given (not NaN),
+ * both point and axis of the definition are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
 /* ---- the row; inline, so that the compiler evaluates common terms once ---- */

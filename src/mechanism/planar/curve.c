@@ -5,7 +5,7 @@
  * equation.) With d from the marker on body_a to the marker on body_b:
  *
  *   (x, y) = A_a^T d, the distances of axis_row.h along (1, 0) and (0, 1)
- *   Phi    = F(x, y)                     (1)
+ *   Phi    = F(x, y)                     (1 row)
  *
  * J, gamma and second derivatives follow from the chain rule of composed_row.c. The third
  * derivatives of F, which only gamma_q needs, are differences of the second derivatives.
@@ -31,7 +31,7 @@ static baum_i_user_function function(const baum_i_joint *joint)
 }
 
 /* Return the point at which the curve function is called and differentiated, in the axes of the
- * curve. It refers to values, which contain q, v and scale. */
+ * curve. The result points into `values`, which contain q, v and scale. */
 static baum_i_local place_at(baum_i_point *point, const double values[6])
 {
   return (baum_i_local){.point = point,
@@ -108,7 +108,7 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
 {
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
-  double by_column[6]; /* F_xx by x, by y; F_xy by x, by y; F_yy by x, by y */
+  double by_column[6]; /* F_xxx, F_xxy, F_xyx, F_xyy, F_yyx, F_yyy */
   BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column));
   s->g.third[0] = by_column[0];
   s->g.third[1] = by_column[1];
@@ -144,7 +144,7 @@ static baum_status curve_field(const void *joint, const baum_i_local *at, double
 
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
-  static const baum_i_derived pairs[2][3] = {/* by x, by y */
+  static const baum_i_derived pairs[2][3] = {/* with respect to x, and to y */
                                              {{F_X, F}, {F_XX, F_X}, {F_XY, F_Y}},
                                              {{F_Y, F}, {F_XY, F_X}, {F_YY, F_Y}}};
   const baum_i_joint *joint = element;

@@ -2,8 +2,8 @@
 /* Distance joint, planar: a massless rod keeps two points at distance L. With d from the point on
  * body_a to the point on body_b, and F, G of separation.h:
  *
- *   Phi   = (d . d - L^2) / (2 L)          (1), about the change of length, smooth at d = 0
- *   J     = G^T d / L                                (6)
+ *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if this is small, and smooth at d = 0
+ *   J     = G^T d / L                                (6 columns)
  *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
  *
  *   (J w)_q = F_qq w / L,   (J^T lambda)_q = lambda F_qq / L,   gamma_v = -2 F_qq v / L

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the frames of all bodies in batches: first the angles, then their sines and cosines as
- * vectors, then the frames. If all bodies are planar bodies, no table of coordinates is needed.
+/* Computes the frames of all bodies in batches: first the angles, then their sines and cosines by
+ * vector instructions, then the frames. If all bodies are planar bodies, no table of coordinates is
+ * needed.
  */
 #include <math.h>
 

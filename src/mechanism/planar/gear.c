@@ -3,12 +3,12 @@
  * chapter 4; Haug 1989, chapter 3). Relative to the carrier both pitch circles have the same speed
  * at the point of contact, R_a w_a = -R_b w_b for external gears:
  *
- *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1)
- *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9), constant
+ *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1 row)
+ *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9 columns), constant
  *   gamma = 0, and so are all second derivatives
  *
- * The reaction consists only of moments, whose sum is zero, because the forces of the teeth and of
- * the wheels' pins form couples.
+ * The reaction on each body is a pure moment, because the tooth force on a wheel and the force of
+ * its pin form a couple. The sum of the three moments is zero.
  */
 #include <math.h>
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Planar joints whose rows are a point, a distance from an axis, or an angle.
  *
- * Revolute joint (pin) and fixed joint (weld): two points, one on each body, coincide. With
- * p = A s, p' = k x p = (-p_y, p_x), k x k x p = -p:
+ * Revolute joint (pin) and fixed joint (weld): two points, one on each body, coincide. With p = A
+ * s, k x p = (-p_y, p_x) and k x (k x p) = -p:
  *
- *   Phi   = r_a + p_a - r_b - p_b                               (2)
+ *   Phi   = r_a + p_a - r_b - p_b                               (2 rows)
  *   J     = [ I   k x p_a   -I   -k x p_b ]                     (2 x 6)
- *   gamma = p_a w_a^2 - p_b w_b^2                               (2)
+ *   gamma = p_a w_a^2 - p_b w_b^2                               (2 rows)
  *
  * lambda is the force on body_b. The second derivatives, with any vector w of six numbers, are
  *
@@ -19,7 +19,7 @@
  * fixed in body_a (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in the
  * axes of body_a, n = A_a (k x e), and d from the marker on body_a to the marker on body_b:
  *
- *   Phi = n . d             (1), see axis_row.h;  coordinate = A_a e . d
+ *   Phi = n . d             (1 row), see axis_row.h;  coordinate = A_a e . d
  *
  * Fixed and translational joint also keep the angle of body_b relative to body_a:
  *
@@ -60,7 +60,7 @@ static void angle(const baum_i_joint *joint, int number, const baum_i_point *poi
   };
 }
 
-/* The coordinate is linear. */
+/* The coordinate is linear, so its second derivatives are zero. */
 static void angle_linearize(const baum_i_joint *joint, int number, const baum_i_point *point,
                             const double w[6], double lambda, baum_i_coordinate_blocks *out)
 {
@@ -96,7 +96,7 @@ static void pin_gamma(const baum_i_planar_pair *pair, double *gamma)
   gamma[1] = pair->a.arm[1] * a - pair->b.arm[1] * b;
 }
 
-/* Set the columns angle_a to p_a a and angle_b to p_b b in two rows. */
+/* Set the column angle_a of two rows to the vector a p_a, and their column angle_b to b p_b. */
 static void set_angle_columns(const double p_a[2], double a, const double p_b[2], double b,
                               double *six)
 {
@@ -197,7 +197,7 @@ BAUM_I_DEFINE(joint, planar_fixed, fixed)
 
 /* ---- pin in a slot ---- */
 
-/* Own numbers of the joints with an axis. */
+/* Indices of the parameters that follow the two points, for the joints with an axis. */
 enum { AXIS = 0, NORMAL = 2, SLOT_NUMBERS = 4, ANGLE = SLOT_NUMBERS, SLIDER_NUMBERS };
 
 static baum_status lower_slot(const baum_mechanism *mechanism, const baum_i_joint *joint,

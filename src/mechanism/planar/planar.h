@@ -2,8 +2,9 @@
 /* Common part of planar joints and forces: points and markers.
  *
  * A marker is a point fixed on a body, at s in body axes. Its arm is p = A s, the vector from the
- * origin of the body in ground axes. With p' = k x p = (-p_y, p_x):
- *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
+ * origin of the body in ground axes. With k x p = (-p_y, p_x), the position, velocity and
+ * acceleration of the marker are
+ *   r = origin + p,   r' = v + w k x p,   r'' = a + alpha k x p - w^2 p.
  * The functions that evaluate one joint (kernels) write the six columns x_a y_a angle_a x_b y_b
  * angle_b (general/columns.h).
  */

@@ -2,9 +2,9 @@
 /* Load on one body, planar: force f at the point s, and torque t. If there is an input u, both are
  * multiplied by it; f and t below include u. With p = A s, g over (x, y, angle) is
  *
- *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
+ *   ground axes    g = (f_x, f_y, p x f + t)   g_q: only the entry (angle, angle), -p . f
  *                  V = -f . (r + p) when t = 0
- *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
+ *   follows_body   g = (A f, s x f + t)        g_q: only the column angle, k x A f over (x, y)
  *
  * where a x b = a_1 b_2 - a_2 b_1 for vectors a, b. A load with a torque has no potential, because
  * the work of a torque depends on the number of revolutions. A load with an input has no potential,
@@ -27,7 +27,7 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* In older versions `input` was padding after `follows_body`. */
+/* Older versions ended with `follows_body`. `input` begins in the padding that followed it. */
 static const size_t former[] = {
   offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
   0,

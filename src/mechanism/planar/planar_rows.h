@@ -24,7 +24,7 @@ enum {
 typedef struct baum_i_planar_pair {
   const double *s_a;
   const double *s_b;
-  const double *numbers; /* own numbers of the joint */
+  const double *numbers; /* parameters of the joint after s_a and s_b */
   const baum_i_frame *frame_a;
   const baum_i_frame *frame_b;
   baum_i_marker a;
@@ -39,7 +39,7 @@ typedef struct baum_i_planar_blocks {
   double gamma_v[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
 } baum_i_planar_blocks;
 
-/* Sets a value of each row, or six columns of each row. */
+/* Sets one value for each row, or six values (columns) for each row. */
 typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
 
 /* Sets second derivatives for w (6) and lambda (rows). out is zeroed before. */
@@ -165,7 +165,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* Define NAME_evaluate() and NAME_linearize() of a type by its kernels. */
+/* Define the functions NAME_evaluate() and NAME_linearize() of a type from its kernels. */
 #define BAUM_I_PLANAR_EVALUATE(NAME, ROWS, PHI, JACOBIAN, GAMMA)                           \
   static baum_status NAME##_evaluate(const baum_i_joint_group *group, baum_i_point *point, \
                                      const baum_i_rows *out)                               \
@@ -197,8 +197,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
-/* Set the points in the parameters; the joint then sets its own numbers. Statuses of
- * baum_i_planar_points(). */
+/* Set the points in the parameters; the joint then sets its own numbers. Returns what
+ * baum_i_planar_points() returns. */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

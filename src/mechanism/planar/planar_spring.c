@@ -4,14 +4,14 @@
  * separation.h:
  *
  *   T   = k (l - l_0) + c l'                       tension
- *   h   = l_q = G^T d / l                          (6)
- *   g   = -T h                                     (6)
+ *   h   = l_q = G^T d / l                          (6 columns)
+ *   g   = -T h                                     (6 entries)
  *   V   = k (l - l_0)^2 / 2
  *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
  *   g_v = -c h h^T                                                            (6 x 6)
  *
- * A user's law T(l, l') has no V, and k and c are its derivatives. At l = 0 the direction is
- * undefined, and force and derivatives are set to zero.
+ * For a user's law T(l, l') there is no V, and k and c in g_q and g_v are T_l and T_l'. At l = 0
+ * the direction is undefined, and force and derivatives are set to zero.
  */
 #include <float.h>
 #include <math.h>
@@ -61,7 +61,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   s.line = baum_i_separation_of(&a, &b);
   s.length = baum_i_separation_length(&s.line);
   if (s.length < DBL_MIN) {
-    /* The reciprocal of a denormal number is not finite. */
+    /* The reciprocal of a denormal number may overflow. */
     return (spring){.line = s.line};
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
@@ -124,8 +124,9 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* Add -T h: T e and its moment to body_a, and the opposite to body_b, with e = d / l. Pairs make
- * this fast, because every evaluation calls this function. */
+/* Add g = -T h: with e = d / l, the force T e and its moment on body_a, and the force -T e and its
+ * moment on body_b. Every evaluation calls this function, so it uses vector instructions
+ * (pair.h). */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;

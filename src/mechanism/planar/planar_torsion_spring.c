@@ -4,12 +4,12 @@
  * phi_0, over the six columns x_a y_a angle_a x_b y_b angle_b:
  *
  *   T   = k (phi - phi_0) + c phi'                 restoring torque
- *   h   = phi_q = (0 0 -1 0 0 1)                   (6)
- *   g   = -T h                                     (6)
+ *   h   = phi_q = (0 0 -1 0 0 1)                   (6 columns)
+ *   g   = -T h                                     (6 entries)
  *   V   = k (phi - phi_0)^2 / 2
  *   g_q = -k h h^T,   g_v = -c h h^T               (6 x 6)
  *
- * A user's law T(phi, phi') has no V, and k and c are its derivatives.
+ * For a user's law T(phi, phi') there is no V, and k and c in g_q and g_v are T_phi and T_phi'.
  */
 #include "mechanism/definition.h"
 #include "mechanism/general/spring_law.h"

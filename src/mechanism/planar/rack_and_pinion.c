@@ -4,13 +4,13 @@
  * chapter 3). With d from the marker on body_a to the marker on body_b, u = A_a e, and the
  * displacement s = u . d of axis_row.h:
  *
- *   Phi   = s - R (angle_b - angle_a) - offset        (1)
- *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6)
+ *   Phi   = s - R (angle_b - angle_a) - offset        (1 row)
+ *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6 columns)
  *   gamma and all second derivatives are those of s, because the row is linear in the angles
  *
- * At the contact the pinion is at rest relative to the rack. Its centre has the velocity R w u. Its
- * point at R n from the centre, with n = k x u, has the velocity R w u + w k x R n = 0, so this is
- * the point of contact.
+ * At the contact the pinion is at rest relative to the rack. Relative to the rack, its centre has
+ * the velocity R w u. Its point at R n from the centre, with n = k x u, has the velocity R w u + w
+ * k x R n = 0, so this is the point of contact.
  */
 #include <math.h>
 

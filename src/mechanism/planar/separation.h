@@ -6,7 +6,7 @@
  * angle_b:
  *
  *   F = d . d / 2,   d' = G v,   G = [ -I   -k x p_a   I   k x p_b ]         (2 x 6)
- *   F_q  = G^T d                                                             (6)
+ *   F_q  = G^T d                                                             (6 columns)
  *   F_qq = G^T G + diag(0 0 d . p_a 0 0 -d . p_b)                            (6 x 6), symmetric
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_SEPARATION_H

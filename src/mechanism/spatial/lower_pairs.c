@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Limit of 1 + cosine for opposite axes, and of the sine for parallel ones. Beyond it the x axis,
- * and so the zero of the angle, would not be determined. */
+/* Axes count as opposite if 1 + cosine is below this, and as parallel if the sine is. Then the x
+ * axis, and with it the zero of the angle, is not determined. */
 static const double OPPOSITE = 1e-6;
 
 /* ---- checks ---- */
@@ -69,7 +69,7 @@ static baum_status check_two_axes(const baum_mechanism *mechanism, const void *d
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis_b is not given", label);
 }
 
-/* ---- numbers ---- */
+/* ---- parameters ---- */
 
 static void normalize(double x[3])
 {
@@ -89,8 +89,8 @@ static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_jo
   return baum_i_spatial_points(mechanism, &joint->element, parameters);
 }
 
-/* Converts an axis of the definition to ground axes. It is given in ground axes if the joint is
- * given by `point`, otherwise in body axes. */
+/* Converts an axis of the definition to ground axes. The definition gives it in ground axes if it
+ * gives `point`, otherwise in body axes. */
 static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_frame *frame,
                       const double axis[3], double out[3])
 {
@@ -155,8 +155,8 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element).text);
 }
 
-/* Rotates x_a by the smallest rotation that takes z_a to z_b, and makes it x_b. Hence the angle is
- * 0 in the design configuration. */
+/* Sets x_b to x_a, rotated by the smallest rotation that takes z_a to z_b. Hence the angle is 0 in
+ * the design configuration. */
 static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {
@@ -172,7 +172,7 @@ static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_jo
   if (baum_i_spatial_is_given(def->axis_b)) {
     to_ground(&def->head, &b, def->axis_b, z);
   }
-  /* R x = x + n x x + n x (n x x) / (1 + c), n = z_a x z_b, c = z_a . z_b */
+  /* R y = y + n x y + n x (n x y) / (1 + c) with n = z_a x z_b and c = z_a . z_b */
   double c = baum_i_dot3(axes + 6, z);
   double n[3];
   double first[3];
@@ -270,7 +270,7 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
     BAUM_I_Z_GROUND, BAUM_I_APART                                   \
   }
 
-/* Axes are parallel. */
+/* z_a and z_b are parallel. */
 #define PARALLEL_ROWS       \
   {BAUM_I_X_A, BAUM_I_Z_B}, \
   {                         \

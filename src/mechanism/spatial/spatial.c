@@ -9,7 +9,8 @@
 
 #include "base/message.h"
 
-/* A particle and the point of its joint, both typed as decimals, coincide except for rounding. */
+/* Relative tolerance for equal points. A particle and the point of its joint, both typed as decimal
+ * numbers, are equal only up to rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What spatial joints and forces share: frames, and the fields that their definitions begin with.
- * They compute derivatives over six columns for each body (general/columns.h), also for a planar
- * body, which may take part in spatial joints and stays in its plane.
+/* Common part of spatial joints and forces: the first fields of their definitions, checks of these
+ * fields, and points. Spatial elements compute derivatives over six columns for each body
+ * (general/columns.h), also for a planar body, which may take part in spatial joints and stays in
+ * its plane.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
@@ -14,7 +15,7 @@
 
 /* ---- definitions ---- */
 
-/* The fields that every joint and spring begins with. */
+/* The first fields of every definition of a spatial joint or spring. */
 typedef struct baum_i_spatial_head {
   size_t struct_size;
   const char *name;
@@ -30,7 +31,8 @@ typedef struct baum_i_spatial_head {
     BAUM_I_OPTIONAL(DEF, point, POINT, "m"), BAUM_I_OPTIONAL(DEF, point_a, POINT, "m"), \
     BAUM_I_OPTIONAL(DEF, point_b, POINT, "m")
 
-/* Checks that a body has a position; _turning(): also an orientation. */
+/* Checks that a body has a position. baum_i_spatial_check_turning() also checks that it has an
+ * orientation. */
 baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
@@ -42,7 +44,7 @@ baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanis
                                                   const char *unit, const double s[3]);
 
 /* Checks that the bodies differ, and that the points are given either by `point` or by point_a and
- * point_b. An element with a length cannot use `point`. */
+ * point_b. An element with a length cannot use `point`, because its length would be zero. */
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
@@ -55,7 +57,7 @@ baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_
 void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                            baum_i_box *box);
 
-/* Either all entries of an optional point are given or none, which are NaN then. */
+/* If an optional point is not given, all its entries are NaN. */
 static inline bool baum_i_spatial_is_given(const double point[3])
 {
   return !isnan(point[0]);

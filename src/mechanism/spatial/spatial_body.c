@@ -4,7 +4,7 @@
  *
  *   p' = p o (0, w) / 2
  *   M = diag(m E, I), constant; for a particle M = m E
- *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r
+ *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r;   [a]x b = a x b
  *
  * A displacement (dr, dth), dth in body axes, changes p to p o exp(dth). The difference from p_1 to
  * p_2 is the logarithm of p_1^-1 o p_2.
@@ -24,8 +24,8 @@ enum { MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
 static const double NEAR_UNIT = 1e-6;
 
 /* Least principal moment relative to the largest. It replaces the zero moment of a slender rod
- * about its axis, which would make M singular. Bricard's mechanism of such rods then moves wrong by
- * only 2e-11 m in 5 s. */
+ * about its axis, which would make M singular. In Bricard's mechanism of such rods, this causes an
+ * error of only 2e-11 m after 5 s. */
 static const double SMALLEST_MOMENT = 1e-10;
 static const double ROUNDING = 1e-9;
 

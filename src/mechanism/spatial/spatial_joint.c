@@ -82,7 +82,8 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
 /* ---- coordinates ----
  *
  * A displacement is one product. An angle is atan2(s, c) = Im log z with z = c + i s. Its
- * derivatives by c and s follow from those of log z, with a factor i for each derivative by s:
+ * derivatives with respect to c and s follow from those of log z, with a factor i for each
+ * derivative with respect to s:
  *
  *   first 1 / z, second -1 / z^2, third 2 / z^3
  *

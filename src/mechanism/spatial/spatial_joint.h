@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spatial joint is a table of products (spatial_rows.h): its rows, and those that give its
- * coordinates. The functions of the type struct are the same for all.
+/* A spatial joint is a table of products (spatial_rows.h): those that are its rows, and those from
+ * which its coordinates are computed. All spatial joints have the same functions in the type
+ * struct.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
@@ -15,13 +16,14 @@ typedef struct baum_i_spatial_joint_type {
   /* For each coordinate: the product that is the displacement, or the two products that are sine
    * and cosine of the angle. */
   baum_i_spatial_row coordinate_rows[BAUM_I_COORDINATES][2];
-  /* Products that are 1 in the intended assembly. If the joint is assembled the wrong way round,
-   * which its rows allow, one of them is -1; or 0 in a weld turned by 120 degrees. */
+  /* Products of axes that are 1 in the intended assembly. The rows also hold in wrong assemblies:
+   * if axes are reversed, one of these products is -1; if a weld is rotated by 120 degrees about
+   * the diagonal of its axes, they are 0. */
   int directed_count;
   baum_i_spatial_row directed[2];
 } baum_i_spatial_joint_type;
 
-/* The fields that joints with axes begin with. */
+/* The first fields of definitions of joints with axes. */
 typedef struct baum_i_spatial_axis_head {
   baum_i_spatial_head head;
   double axis[3];

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Load on one body in space: force f at the point s, and moment n. Both are multiplied by the input
- * if there is one. For r (ground axes) and rotations (body axes), with F = A^T f:
+ * if there is one. Below, g is given over r (ground axes) and the rotation (body axes). Of g_q,
+ * only the given rows in the columns of the rotation are not zero. With F = A^T f and [a]x b = a x
+ * b:
  *
  *   ground axes    g = (f, s x A^T f + A^T n)     rows of rotation: [s]x [F]x + [A^T n]x
  *                  V = -f . (r + A s) where n = 0
@@ -150,7 +152,7 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-/* Writes the derivative of g by the rotation about axis j. */
+/* Writes the derivative of g with respect to the rotation about axis j. */
 static void set_column(const load *l, int j, double square[36])
 {
   const double axis[3] = {j == 0, j == 1, j == 2};

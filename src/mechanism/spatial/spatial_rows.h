@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every row of a spatial joint is a product of two vectors,
  *
- *   Phi = x . y - offset,
+ *   Phi = x . y,
  *
  * where x is a joint axis on body_a or body_b or a ground axis; y is such an axis, too, or the
  * vector e from body_a's point to body_b's. Coordinates of joints and the squared length of a rod
- * are such products as well, and all derivatives are sums of them. Let u = c + t (r_b - r_a) + u_a
- * + u_b, u_a and u_b fixed in the bodies. Its derivative along a motion (r_a', W_a, r_b', W_b) is
+ * are such products as well, and all derivatives are sums of them. Each vector has the form u = c +
+ * t (r_b - r_a) + u_a + u_b with c fixed to ground, a number t (1 for e, otherwise 0), and u_a and
+ * u_b fixed in the bodies. Its derivative along a motion with velocities r_a', r_b' and angular
+ * velocities W_a, W_b is
  *
- *   u' = t (r_b' - r_a') + W_a x u_a + W_b x u_b,
+ *   u' = t (r_b' - r_a') + W_a x u_a + W_b x u_b.
  *
- * which has the form of u, with c = t (r_b' - r_a') and t = 0: in further derivatives r' is
- * constant in ground axes, and W is constant in body axes. Hence
+ * This has the same form, with c = t (r_b' - r_a'), t = 0 and W_k x u_k instead of u_k, because in
+ * further derivatives r' is constant in ground axes, and W in body axes. Hence, with l = lambda,
  *
- *   (x . y)_q      on r_b: t_x y + t_y x, on r_a the opposite, on W_k: u_xk x y + u_yk x x
+ *   (x . y)_q      r_b: t_x y + t_y x; r_a: -(t_x y + t_y x); W_k: cross(u_xk, y) + cross(u_yk, x)
  *   gamma          = -(x'' . y + 2 x' . y' + x . y'')
  *   (J w)_q        = (x_w . y + x . y_w)_q,     x_w the derivative along w
  *   (J^T l)_q      row i: l (J e_i)_q;          gamma_v = -(J v)_q - ((J e_i)_q v)_i
@@ -40,7 +42,7 @@ enum {
 typedef struct baum_i_spatial_pair {
   const baum_i_spatial_frame *frame[2];
   double arm[2][3];
-  double axes[2][9]; /* x, y, z one after the other */
+  double axes[2][9]; /* x, y, z */
 } baum_i_spatial_pair;
 
 /* `numbers` holds the parameters of a joint, or only the points if has_axes is false. */
@@ -75,7 +77,8 @@ typedef struct baum_i_spatial_second {
   double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */
   double gamma_q[BAUM_I_PAIR_COLUMNS];
   double gamma_v[BAUM_I_PAIR_COLUMNS];
-  /* Row i is (J e_i)_q. Hence (J w)_q = w^T columns_q and (J^T l)_q = l columns_q. */
+  /* Row i is (J e_i)_q with the unit vector e_i. Hence (J w)_q = w^T columns_q and (J^T l)_q = l
+   * columns_q. */
   double columns_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
 } baum_i_spatial_second;
 

@@ -2,7 +2,7 @@
 /* Spring and damper in parallel between two points in space. With e from body_a's point to body_b's
  * (spatial_rows.h), l = |e|, h = l_q and the tension T(l, l') of general/spring_law.h:
  *
- *   g   = -T h                                                                (6)
+ *   g   = -T h                              (12 entries, 6 for each body)
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (l')_q
  *   g_v = -T_l' h h^T
  *

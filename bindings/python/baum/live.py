@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pages that follow a run in progress.
+
+A View is a small web server for this computer only, with a thread of its own. The run leaves the
+newest frame in a Live object, at most 60 times a second, and never waits for a page: each page has
+a thread that sends the newest frame, and what a slow page misses is omitted. Only a page that
+pauses the run makes it wait, in the thread that advances it.
+"""
+
+from __future__ import annotations
+
+import html
+import threading
+import time
+import weakref
+import webbrowser
+from typing import TYPE_CHECKING, Callable, NamedTuple, Sequence, Union
+
+import numpy as np
+
+from . import drawings
+from ._lib import lib
+from ._values import numbers
+from .typing import Array
+
+if TYPE_CHECKING:
+    from ._calls import Handle
+    from ._motion import TraceLike
+    from ._server import Server
+    from .simulation import Simulation
+
+Watcher = Union[Callable[[float], object], None]
+
+FRAME = 1 / 60  # [s] least time between two frames
+AWAY = 2.0  # [s] without a page until a run that a page has paused goes on
+
+
+class Frame(NamedTuple):
+    """t: [s]. q: positions (nq)."""
+
+    t: float
+    q: Array
+
+
+class Live:
+    """What a run and its views know of each other: the newest frame, and whether the run waits.
+
+    The library's progress function calls call(). function: the user's progress function of the
+    present call, which is called every `interval` seconds.
+    """
+
+    def __init__(self, interval: float) -> None:
+        self.function: Watcher = None
+        self.servers: list[Server] = []
+        self.pages = 0
+        self.paused = False
+        self.frame = Frame(0.0, np.empty(0))
+        self.cancelled = False
+        self._interval = self._interval_now = interval
+        self._due = self._function_due = 0.0
+        self._held_at = float("nan")
+        self._left_at: float | None = None
+        self._steps = threading.Semaphore(0)
+        self._lock = threading.Lock()
+
+    # ---- in the thread that advances the run -----------------------------------------------------
+
+    def call(self, address: int, t: float) -> bool:
+        """Whether the user cancels the run, at a step within a call of the library."""
+        if not self.servers:
+            self.set_interval(address)
+            return self.function is not None and bool(self.function(t))
+        now = time.perf_counter()
+        if now >= self._due or self.paused:
+            self._follow(address)
+        if self.function is None or now < self._function_due:
+            return False
+        self._function_due = now + self._interval
+        return bool(self.function(t))
+
+    def begin(self, address: int) -> None:
+        """Prepare for a call, if the run is paused or has a progress function."""
+        self._function_due = time.perf_counter() + self._interval
+        self.set_interval(address)
+
+    def returned(self, owner: Handle) -> None:
+        """Follow the run at the end of a call. Loops of short calls come here very often."""
+        if time.perf_counter() >= self._due or self.paused:
+            self._follow(owner.address)
+
+    def _follow(self, address: int) -> None:
+        """Show the present state, and wait while a page has paused the run."""
+        self._due = time.perf_counter() + FRAME
+        self.show(address)
+        self.set_interval(address)
+        if self.paused:
+            self._hold()
+            self.set_interval(address)
+
+    def show(self, address: int) -> None:
+        """Make the present state the newest frame."""
+        t = float(lib.baum_simulation_time(address))
+        q = numbers(lib.baum_simulation_q(address), len(self.frame.q))
+        if q is not None and np.isfinite(q).all():
+            if t != self.frame.t or (q != self.frame.q).any():
+                self.frame = Frame(t, q)
+
+    def _hold(self) -> None:
+        """Wait until a page steps or resumes, but only once where the run has not moved."""
+        if self.frame.t == self._held_at:
+            return
+        self._held_at = self.frame.t
+        while self.paused and self.servers and not self.cancelled:
+            if self._steps.acquire(timeout=0.05):
+                return
+            left = self._left_at
+            if self.pages == 0 and left is not None and time.monotonic() > left + AWAY:
+                self.paused = False
+
+    def set_interval(self, address: int) -> None:
+        """Have the library call at every step while paused, otherwise for every frame."""
+        wanted = self._interval
+        if self.servers:
+            wanted = 0.0 if self.paused else min(FRAME, wanted)
+        if wanted != self._interval_now:
+            lib.baum_simulation_set_progress_interval(address, wanted)
+            self._interval_now = wanted
+
+    def end(self) -> None:
+        """End all views."""
+        for server in list(self.servers):
+            server.end()
+
+    # ---- in the threads of pages -----------------------------------------------------------------
+
+    def pause(self) -> None:
+        while self._steps.acquire(blocking=False):
+            pass
+        self._held_at = float("nan")
+        self.paused = True
+
+    def resume(self) -> None:
+        self.paused = False
+
+    def step(self) -> None:
+        self._steps.release()
+
+    def enter(self) -> None:
+        with self._lock:
+            self.pages += 1
+
+    def leave(self) -> None:
+        with self._lock:
+            self.pages -= 1
+            self._left_at = time.monotonic()
+
+
+# ---- what the user has ---------------------------------------------------------------------------
+
+
+class View:
+    """A page that follows a run, made by Simulation.view(). url: its address, which only programs
+    of this computer can reach and which contains a secret.
+
+    It ends with close(), at the end of a `with` block, or with the simulation.
+    """
+
+    def __init__(self, server: Server) -> None:
+        self._server = server
+        self.url = server.url
+
+    def __repr__(self) -> str:
+        return f"<view, {'closed' if self.closed else self.url}>"
+
+    def _repr_html_(self) -> str:
+        if self.closed:
+            return html.escape(repr(self))
+        frame = f'<iframe src="{self.url}" width="100%" height="{drawings.HEIGHT}"'
+        return f'{frame} style="border: 0"></iframe>'
+
+    def __enter__(self) -> View:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    @property
+    def closed(self) -> bool:
+        """Whether the view has ended."""
+        return self._server.ended.is_set()
+
+    def close(self) -> None:
+        """End the view. Its pages keep what they show. A run that waits goes on if this was its
+        last view."""
+        self._server.end()
+        self._server.thread.join(5)
+
+
+def open_view(
+    simulation: Simulation,
+    live: Live,
+    owner: Handle,
+    title: str | None,
+    traces: Sequence[TraceLike],
+    paused: bool,
+    browser: bool,
+) -> View:
+    from ._server import Server  # the modules that it imports are large
+
+    live.frame = Frame(simulation.time, simulation.q)
+    server = Server(live, owner, simulation.mechanism, title, traces)
+    live.servers.append(server)
+    if paused:
+        live.pause()
+    weakref.finalize(simulation, server.end).atexit = False
+    owner.glance(live.set_interval)
+    server.thread.start()
+    if browser and not drawings.is_notebook():
+        webbrowser.open(server.url)
+    return View(server)

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the shared libraries, under one name each, beside the Python files, and the licenses of what they contain.
+set_property(TARGET baum baum_catalog PROPERTY VERSION)
+set_property(TARGET baum baum_catalog PROPERTY SOVERSION)
+install(TARGETS baum baum_catalog COMPONENT package LIBRARY DESTINATION baum RUNTIME DESTINATION baum
+        ARCHIVE EXCLUDE_FROM_ALL DESTINATION baum COMPONENT import_libraries)
+if(BAUM_BUNDLED)
+  install(DIRECTORY ${BAUM_BUNDLED_LICENSES} COMPONENT package DESTINATION ${SKBUILD_METADATA_DIR})
+endif()

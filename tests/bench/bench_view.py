@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much a live view slows a run: pairs of equal pieces of work without and with a view, in turn.
+
+usage: bench_view.py [PAIRS]
+
+Two pages read the frames, in processes of their own, as browsers do. Times are CPU times, because
+other programs may use the machine. They are split into what a call costs and what a frame costs,
+for the run and for the threads of the pages; at 60 frames in each second of the run, the sum of
+these is the most that the view can slow the run, on a machine with a single core.
+"""
+
+import contextlib
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+
+import baum
+from baum import live
+
+WORK = 0.25  # [s] of each piece
+READ = "import sys, urllib.request as r\nfor line in r.urlopen(sys.argv[1] + 'events'): pass"
+
+
+def crank():
+    m = baum.Mechanism()
+    crank = m.planar_body("crank", mass=1, inertia=0.1, position=(0.5, 0), angular_velocity=5, held=True)
+    rod = m.planar_body("rod", mass=1, inertia=0.4, position=(2, 0))
+    slider = m.planar_body("slider", mass=1, inertia=0.1, position=(3, 0))
+    m.revolute("O", m.ground, crank, point=(0, 0))
+    m.revolute("A", crank, rod, point=(1, 0))
+    m.revolute("B", rod, slider, point=(3, 0))
+    m.translational("guide", m.ground, slider, point=(3, 0))
+    return m.freeze()
+
+
+def chain(count):
+    m = baum.Mechanism()
+    before = m.ground
+    for k in range(count):
+        body = m.planar_body(f"body {k}", mass=1, inertia=0.1, position=(k + 0.5, 0))
+        m.revolute(f"joint {k}", before, body, point=(k, 0))
+        before = body
+    return m.freeze()
+
+
+def loop(s, steps):
+    for _ in range(steps):
+        s.step()
+
+
+def call(s, steps):
+    s.step(steps)
+
+
+@contextlib.contextmanager
+def pages(view, count=2):
+    readers = [subprocess.Popen([sys.executable, "-c", READ, view.url]) for _ in range(count)]
+    time.sleep(0.5)
+    yield
+    for reader in readers:
+        reader.terminate()
+        reader.wait()
+
+
+def spend(work, s, steps):
+    """CPU time of the thread that advances the run and of all other threads, and wall time [s]."""
+    begin = time.thread_time(), time.process_time(), time.perf_counter()
+    work(s, steps)
+    end = time.thread_time(), time.process_time(), time.perf_counter()
+    own, all_threads, wall = (b - a for a, b in zip(begin, end))
+    return np.array([own, all_threads - own, wall])
+
+
+def measure(label, mechanism, work, pairs):
+    """Print the costs. The runs change places, because their memory is not equally fast."""
+    runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
+    work(runs[0], 1000)
+    steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)
+    halves = [compare(work, steps, runs[k], runs[1 - k], pairs // 2) for k in (0, 1)]
+    call, frame, other = np.mean(halves, axis=0)
+    total = 100 * (call + 60 * (frame + other))
+    print(f"{label:<40}{100 * call:9.1f} %{1e6 * frame:9.0f} us{1e6 * other:9.0f} us{total:9.1f} %")
+
+
+def compare(work, steps, plain, seen, pairs):
+    """Medians of the share of the time that calls cost, and of the times that a frame costs."""
+    found = []
+    with seen.view(browser=False) as view, pages(view):
+        for k in range(pairs):
+            costs = []
+            for frame in (10.0, 1 / 60):  # without frames, only calls cost
+                live.FRAME = frame
+                spent = {s: spend(work, s, steps) for s in ((plain, seen) if k % 2 else (seen, plain))}
+                costs.append(((spent[seen] - spent[plain])[0] / spent[plain][0], *spent[seen]))
+            (call, *_), (both, own, others, wall) = costs
+            found.append((call, (both - call) * own / (60 * wall), others / (60 * wall)))
+    return np.median(found, axis=0)
+
+
+def main():
+    pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    print(f"medians of {pairs} pairs with two pages")
+    print(f"{'':<40}{'calls':>11}{'a frame':>12}{'pages':>12}{'at most':>11}")
+    thread = threading.Thread(target=measure_all, args=[pairs])  # where calls are made directly
+    thread.start()
+    thread.join()
+
+
+def measure_all(pairs):
+    for label, mechanism in (("slider-crank", crank()), ("chain of 50", chain(50)), ("chain of 500", chain(500))):
+        measure(f"{label}, one call", mechanism, call, pairs)
+        measure(f"{label}, one call for each step", mechanism, loop, pairs)
+
+
+if __name__ == "__main__":
+    main()

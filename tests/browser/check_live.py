@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""usage: check_live.py FOLDER
+
+Uses live views of planar and spatial runs in headless Chromium: frames arrive, the time bar grows,
+buttons and keys pause, step and resume the run, the past can be seen, and the end is shown. Leaves
+screenshots in FOLDER. On failure, lists the errors.
+"""
+
+import os
+import sys
+import threading
+import time
+
+import baum
+from baum import inertia
+from check_motion import NAME, SIZES, Checks, check_layout, key, wait
+from chromium import Chromium
+
+STEP = 1e-3  # [s]
+STEPS = 10  # of each call
+
+
+def plane():
+    m = baum.Mechanism()
+    crank = m.planar_body(NAME, mass=1, inertia=0.1, position=(0.5, 0), angular_velocity=5, held=True)
+    rod = m.planar_body("rod", mass=1, inertia=0.4, position=(2, 0))
+    slider = m.planar_body("slider", mass=1, inertia=0.1, position=(3, 0))
+    m.revolute("O", m.ground, crank, point=(0, 0))
+    m.revolute("A", crank, rod, point=(1, 0))
+    m.revolute("B", rod, slider, point=(3, 0))
+    m.translational("guide", m.ground, slider, point=(3, 0))
+    return m.freeze(), [rod]
+
+
+def space():
+    m = baum.Mechanism(up="z")
+    body = m.spatial_body(NAME, mass=2, inertia=inertia.box(2, 0.3, 0.4, 0.05), position=(0, 0.5, 0),
+                          angular_velocity=(1, 0, 0))
+    other = m.spatial_body("other", mass=1, inertia=inertia.rod(1, 0.5, axis="y"), position=(0, 1.2, 0))
+    m.spatial_revolute("hinge", m.ground, body, point=(0, 0, 0), axis=(1, 0, 0))
+    m.spherical("ball", body, other, point=(0, 0.9, 0))
+    return m.freeze(), [other]
+
+
+class Loop:
+    """Advances a run in real time, in a thread."""
+
+    def __init__(self, simulation):
+        self.simulation = simulation
+        self.going = True
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        while self.going:
+            self.simulation.step(STEPS)
+            time.sleep(STEP * STEPS)
+
+    def steps(self):
+        """Steps so far. The time can be read at any moment."""
+        return round(self.simulation.time / STEP)
+
+    def end(self):
+        self.going = False
+        self._thread.join(10)
+
+
+def until(browser, expression):
+    for _ in range(400):
+        if browser.run(expression):
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def is_held(loop):
+    before = loop.steps()
+    time.sleep(0.3)
+    return loop.steps() == before
+
+
+def check_frames(browser, loop, checks):
+    checks.expect(until(browser, "times.length > 20"), "no frames arrive")
+    checks.expect(browser.run("now === last && following_now()"), "the page does not show the newest frame")
+    checks.expect(browser.run("times.every((t, k) => k === 0 || t > times[k - 1])"), "times do not rise")
+    checks.expect(browser.run("table.every(column => column.length === times.length)"), "columns differ in length")
+    checks.expect(browser.run("traces[0].points.length === times.length"), "the path does not grow")
+    begin, since = browser.run("times.length"), time.monotonic()
+    time.sleep(1)
+    rate = (browser.run("times.length") - begin) / (time.monotonic() - since)
+    checks.expect(20 < rate <= 61, f"{rate:.0f} frames a second")
+    inside = ("framesAt(at(last)).every(({r}) => { const [x, y] = project(r); "
+              "return x >= 0 && x <= wide && y >= 0 && y <= high; })")
+    checks.expect(browser.run(inside), "a body is outside of the picture")
+    return rate
+
+
+def check_buttons(browser, loop, checks):
+    checks.expect(browser.run("find('play').textContent") == "Pause", "the button is not named Pause")
+    browser.click("#play")
+    checks.expect(until(browser, "find('play').textContent === 'Run'") and is_held(loop), "Pause does not hold the run")
+    before = loop.steps()
+    browser.click("#play + button")  # Step
+    time.sleep(0.3)
+    checks.expect(loop.steps() == before + 1, f"Step makes {loop.steps() - before} steps")
+    browser.run("document.activeElement.blur()")
+    key(browser, "ArrowRight")
+    time.sleep(0.3)
+    checks.expect(loop.steps() == before + 2, f"the arrow key makes {loop.steps() - before - 1} steps")
+    checks.expect(until(browser, f"Math.abs(now - {loop.simulation.time}) < 1e-9"), "a step is not shown")
+    key(browser, "ArrowLeft")
+    wait(browser)
+    checks.expect(browser.run("now < last && !following_now()"), "the past is not shown")
+    key(browser, " ")
+    time.sleep(0.3)
+    checks.expect(not is_held(loop), "the space bar does not resume")
+    checks.expect(browser.run("now < last"), "the past is left by new frames")
+    key(browser, "End")
+    time.sleep(0.2)
+    checks.expect(browser.run("now === last && following_now()"), "End does not follow the run again")
+    browser.run("(() => { const bar = find('time'); bar.value = 0.25;"
+                " bar.dispatchEvent(new Event('input', {bubbles: true})); })()")
+    checks.expect(browser.run("now < last && !following_now()"), "the time bar does not show the past")
+    key(browser, "End")
+
+
+def check_quiet(browser, checks):
+    checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
+    foreign = [url for url in browser.requests() if not url.startswith("http://127.0.0.1:")]
+    checks.expect(foreign == [], f"the page asked for {foreign}")
+    checks.expect(browser.run("window.taken") is None, "a name was run as a program")
+
+
+def check_page(browser, name, make, folder, checks):
+    m, traces = make()
+    with m.simulation("rk4", step=STEP) as s, s.view(title=NAME, traces=traces, browser=False) as view:
+        loop = Loop(s)
+        for width, height, phone in SIZES:
+            for scheme in ("light", "dark"):
+                checks.where = f"live {name} {width} {scheme}"
+                browser.size(width, height, phone, scheme)
+                browser.open(f"{view.url}?{width}{scheme}")
+                browser.run("window.following_now = () => Array.from(document.querySelectorAll('.bar button'))"
+                            ".find(b => b.textContent === 'Newest').hidden")
+                rate = check_frames(browser, loop, checks)
+                check_buttons(browser, loop, checks)
+                check_layout(browser, checks)
+                browser.screenshot(os.path.join(folder, f"live_{name}_{width}_{scheme}.png"), not phone)
+                check_quiet(browser, checks)
+        loop.end()
+        view.close()
+        checks.expect(until(browser, "find('play').textContent === 'Ended'"), "the end is not shown")
+        print(f"{name}: {rate:.0f} frames a second")
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    checks = Checks()
+    with Chromium() as browser:
+        for name, make in (("plane", plane), ("space", space)):
+            check_page(browser, name, make, folder, checks)
+    print(f"pictures are in {folder}; {len(checks.wrong)} wrong")
+    return 1 if checks.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Functions of fresh.sh and wheels.sh, which source this file: a bare Debian in a folder, made and used as root.
+
+# Mounts and processes are in separate namespaces and end with these.
+apart="unshare --mount --pid --fork --kill-child"
+
+# make_root ROOT RELEASE [OPTION OF debootstrap...]: with the mirror, proxy and certificates that apt and pip use here.
+make_root() {
+  root=$1
+  release=$2
+  shift 2
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' "Label: Debian" | head -n 1)
+  [ -n "$mirror" ] || { echo "apt has no mirror of Debian here: add one to /etc/apt"; return 1; }
+  rm -rf "$root"
+  mkdir -p "$root"
+  $apart debootstrap --variant=minbase "$@" "$release" "$root" "$mirror" >"$root.log" 2>&1 || {
+    tail -n 20 "$root.log"
+    return 1
+  }
+  apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90here" || true
+  # If the package ca-certificates is installed later, it also adds this folder's certificates to the bundle.
+  mkdir -p "$root/usr/local/share/ca-certificates"
+  cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates" 2>/dev/null || true
+  for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt "${PIP_CERT:-}"; do
+    [ ! -f "$file" ] || install -D -m 644 "$file" "$root$file"
+  done
+}
+
+# inside ROOT FOLDER COMMAND...: run it in the bare system, with only those environment variables that locate the packages.
+inside() {
+  root=$1
+  folder=$2
+  shift 2
+  set -- PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root "$@"
+  for name in http_proxy https_proxy no_proxy PIP_INDEX_URL PIP_CERT; do
+    eval "value=\${$name:-}"
+    [ -z "$value" ] || set -- "$name=$value" "$@"
+  done
+  $apart --mount-proc="$root/proc" chroot "$root" env -i --chdir="$folder" "$@"
+}

@@ -1,0 +1,217 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: wheels.sh PROJECT
+# As root: builds the packages for all systems and runs them: on Linux in bare Debians that have Python and nothing
+# else, for aarch64 in an emulator, for Windows in Wine, WebAssembly in Node. What is for macOS is only built.
+# BAUM_TARGETS names some of the targets of build_wheels.py; linux-x86_64 is always among them.
+set -eu
+cd "$1"
+project=$PWD
+work=$project/build/wheels
+targets=${BAUM_TARGETS:-linux-x86_64 linux-aarch64 windows-x86_64 wasm32-wasi macos-arm64 macos-x86_64}
+. tests/install/root.sh
+
+fail() {
+  echo "$*"
+  exit 1
+}
+
+# The package of a target.
+package() {
+  find "$work/out" -name "baum-*$1*" | head -n 1
+}
+
+# unpack TARGET FILE: what the package contains, in test/ of the target's folder.
+unpack() {
+  test=$work/$1/test
+  rm -rf "$test"
+  mkdir -p "$test/out"
+  case $2 in
+    *.whl) python3 -m zipfile -e "$2" "$test" ;;
+    *) tar -C "$test" -xf "$2" ;;
+  esac
+  size=$(stat -c %s "$2")
+  [ "$size" -le 1500000 ] || fail "$2 has $size bytes"
+  find "$test" -name lesser.txt | grep -q . || fail "$2 lacks the text of the LGPL"
+  ! grep -rF "$project" "$test" || fail "$2 contains the path of the build"
+}
+
+# compile TARGET SUFFIX LINK...: examples/first.c and portable.c.
+compile() {
+  compiler=$work/$1/bin/cc
+  suffix=$2
+  shift 2
+  for source in examples/first.c tests/install/portable.c; do
+    program=$(basename "$source" .c)
+    "$compiler" -std=c11 -O2 -Iinclude "$source" -o "$test/$program$suffix" "$@" -lm
+  done
+}
+
+# compare TARGET: the largest differences to Linux x86-64, of CVODE and IDA apart. Wide vectors change the last digits
+# there, unless the library does not find them.
+compare() {
+  case $1 in
+    *aarch64 | wasm*)
+      ! grep -q avx2 /proc/cpuinfo || ! cmp -s "$work/linux-x86_64/test/portable.txt" "$test/portable.txt" ||
+        fail "linux-x86_64 does not use AVX2"
+      ;;
+  esac
+  awk -v target="$1" '
+    NR == FNR { known[$1] = $2; next }
+    $1 in known && $1 !~ /^#/ {
+      kind = $1 ~ /cvode|ida/ ? "CVODE and IDA" : "others"
+      difference = $2 > known[$1] ? $2 - known[$1] : known[$1] - $2
+      if (!(kind in most) || difference > most[kind]) most[kind] = difference
+    }
+    END { for (kind in most) printf "%s: %s differ by %.1e from linux-x86_64\n", target, kind, most[kind] }' \
+    "$work/linux-x86_64/test/portable.txt" "$test/portable.txt"
+}
+
+# run TARGET COMMAND... : run first.c and portable.c; in the command, @ stands for the program.
+run() {
+  target=$1
+  shift
+  for program in first portable; do
+    command=$(echo "$*" | sed "s|@|$program|")
+    sh -c "$command" >"$test/$program.txt" || { cat "$test/$program.txt"; fail "$target: $program failed"; }
+  done
+  diff "$work/linux-x86_64/test/first.txt" "$test/first.txt"
+  grep -q "^# 0 failures" "$test/portable.txt" || fail "$target: portable ended early"
+  [ -s "$test/out/größe.study" ] && grep -q second "$test/out/größe.txt" || fail "$target: files are missing"
+  compare "$target"
+}
+
+# needs LIBRARY PATTERN: it needs no other shared libraries.
+needs() {
+  if readelf -d "$1" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' | grep -vE "$2"; then
+    fail "$1 needs these"
+  fi
+}
+
+c_library='^(libc\.so\.6|libm\.so\.6|libpthread\.so\.0|ld-linux[a-z0-9-]*\.so\.[12]|libbaum\.so)$'
+
+test_linux() {
+  unpack linux-x86_64 "$(package manylinux*x86_64)"
+  needs "$test/baum/libbaum.so" "$c_library"
+  needs "$test/baum/libbaum_catalog.so" "$c_library"
+  compile linux-x86_64 "" -L"$test/baum" -lbaum -lbaum_catalog -Wl,-rpath,"\$ORIGIN/baum"
+  "$test/first" >"$test/first.txt"
+  run linux-x86_64 "$test/@ $test/out"
+  for release in bookworm trixie; do
+    test_bare "$release"
+  done
+}
+
+# The first program in Python of the README.
+readme_program() {
+  awk '/^```python/ { inside = 1; next } /^```/ && inside { exit } inside' "$project/bindings/python/README.md"
+}
+
+test_bare() {
+  bare=$work/root-$1
+  make_root "$bare" "$1" --include=python3-venv
+  mkdir -p "$bare/root/baum"
+  tar -C "$project" --exclude=./build --exclude=./.git -cf - . | tar -C "$bare/root/baum" -xf -
+  cp "$(package manylinux*x86_64)" "$bare/root"
+  readme_program >"$bare/root/program.py"
+  cat >"$bare/root/time.py" <<'END'
+import time, sys
+import numpy
+begun = time.perf_counter()
+import baum
+print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__}: import baum takes "
+      f"{1e3 * (time.perf_counter() - begun):.0f} ms after import numpy")
+END
+  echo "==== $1"
+  inside "$bare" /root sh -ec '
+    if command -v cc || ls /usr/lib/*/libsundials* /usr/lib/*/libklu* 2>/dev/null; then
+      echo "this root is not bare"
+      exit 1
+    fi
+    python3 -m venv venv
+    venv/bin/pip install --quiet numpy baum-*.whl
+    venv/bin/python time.py && venv/bin/python time.py
+    venv/bin/python program.py
+    cd baum
+    ../venv/bin/python -m unittest discover -s tests/python >../tests.log 2>&1 || { cat ../tests.log; exit 1; }
+    tail -n 3 ../tests.log' ||
+    fail "$1: failed"
+  rm -rf "$bare"
+}
+
+test_aarch64() {
+  unpack linux-aarch64 "$(package manylinux*aarch64)"
+  needs "$test/baum/libbaum.so" "$c_library"
+  compile linux-aarch64 "" -L"$test/baum" -lbaum -lbaum_catalog -Wl,-rpath,"\$ORIGIN/baum"
+  arm=$work/root-aarch64
+  make_root "$arm" bookworm --arch=arm64 --foreign --include=python3
+  for file in "$arm"/var/cache/apt/archives/*.deb; do
+    dpkg-deb -x "$file" "$arm"
+  done
+  cp "$(command -v qemu-aarch64-static)" "$arm/usr/bin"
+  mkdir -p "$arm/root/out"
+  cp -R "$test/first" "$test/portable" "$test/baum" "$arm/root"
+  run linux-aarch64 "chroot $arm /usr/bin/qemu-aarch64-static /root/@ /root/out && cp -R $arm/root/out $test"
+  "$work/venv/bin/python" -m pip install --quiet --target "$arm/root/site" --platform manylinux_2_17_aarch64 \
+    --platform manylinux2014_aarch64 --platform manylinux_2_28_aarch64 --python-version 3.11 --only-binary :all: \
+    "$(package manylinux*aarch64)"
+  cp -R tests/python "$arm/root/tests"
+  for name in run joints events laws space study workspace; do
+    echo "test_$name"
+    env -i PYTHONPATH=/root/site HOME=/root "$(command -v chroot)" "$arm" /usr/bin/qemu-aarch64-static \
+      /usr/bin/python3.11 -m unittest discover -s /root/tests -p "test_$name.py" >"$test/$name.txt" 2>&1 || {
+      cat "$test/$name.txt"
+      fail "linux-aarch64: test_$name failed"
+    }
+    tail -n 3 "$test/$name.txt"
+  done
+  rm -rf "$arm"
+}
+
+test_windows() {
+  unpack windows-x86_64 "$(package win_amd64)"
+  if objdump -p "$test/baum/libbaum.dll" | sed -n 's/.*DLL Name: //p' | grep -vE '^(KERNEL32|api-ms-win-crt-.*)\.dll$'; then
+    fail "libbaum.dll needs these"
+  fi
+  compile windows-x86_64 .exe "$work/windows-x86_64/cmake/libbaum.dll.a" \
+    "$work/windows-x86_64/cmake/libbaum_catalog.dll.a"
+  cp "$test"/baum/*.dll "$test"
+  export WINEPREFIX="$work/wine" WINEDEBUG=-all
+  wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
+  run windows-x86_64 "cd $test && $wine @.exe out | tr -d '\\r'"
+  test_windows_layout
+}
+
+# The structs of the Python package have the layout of Windows: test_abi.py with a compiler whose programs Wine runs.
+test_windows_layout() {
+  cat >"$test/cc" <<END
+#!/bin/sh
+for output; do :; done
+"$compiler" "\$@" -o "\$output.exe"
+printf '#!/bin/sh\nexec %s "\$0.exe"\n' "$wine" >"\$output"
+chmod +x "\$output"
+END
+  chmod +x "$test/cc"
+  "$work/venv/bin/python" -m pip install --quiet numpy
+  CC=$test/cc BAUM_LIBRARY=$work/linux-x86_64/test/baum/libbaum.so PYTHONPATH=bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$work/venv/bin/python" -m unittest discover -s tests/python -p test_abi.py
+}
+
+test_wasm() {
+  unpack wasm32-wasi "$(package wasm32)"
+  compile wasm32-wasi .wasm -L"$test/lib" -lbaum_catalog -lbaum
+  run wasm32-wasi "node --no-warnings tests/install/wasi.mjs $test/@.wasm $test/out ."
+}
+
+# shellcheck disable=SC2086
+python3 bindings/python/packaging/build_wheels.py $targets
+for target in $targets; do
+  echo "==== $target"
+  case $target in
+    linux-x86_64) test_linux ;;
+    linux-aarch64) test_aarch64 ;;
+    windows-x86_64) test_windows ;;
+    wasm32-wasi) test_wasm ;;
+    macos-*) unpack "$target" "$(package "macosx*_${target#*-}")" ;;
+  esac
+done

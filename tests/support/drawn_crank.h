@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A small mechanism for the tests of drawings, pictures and pages. */
+#ifndef BAUM_TEST_SUPPORT_DRAWN_CRANK_H
+#define BAUM_TEST_SUPPORT_DRAWN_CRANK_H
+
+#include <baum/baum.h>
+
+/* The name of the wheel: tags, quotes, a backslash, and letters written from right to left. */
+extern const char DRAWN_HOSTILE[];
+
+baum_body_id drawn_body(baum_mechanism *m, const char *name, double x, double y);
+void drawn_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b, double x,
+               double y);
+/* A crank with two pins, a rod with three pins, a block on a guide, and a wheel. Not frozen. */
+baum_mechanism *drawn_crank(void);
+
+#endif
