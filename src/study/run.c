@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a study: first the reference, then all entries in several threads for their errors, then one
- * after the other for their times, and last validations. */
+/* Runs a study. First it computes the reference. Then it runs all entries in several threads for
+ * their errors, and one after the other for their times. Last it validates entries. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much a live view slows a run: pairs of equal pieces of work without and with a view, in turn.
+"""How much a live view slows a run: does the same work alternately without and with a view.
 
 usage: bench_view.py [PAIRS]
 
-Two pages read the frames, in processes of their own, as browsers do. Times are CPU times, because
-other programs may use the machine. They are split into what a call costs and what a frame costs,
-for the run and for the threads of the pages; at 60 frames in each second of the run, the sum of
-these is the most that the view can slow the run, on a machine with a single core.
+Two processes read the frames, as browsers do. Times are CPU times, because other programs may use
+the machine. The table lists the cost of calls, and the cost of a frame for the thread of the run and
+for the threads that serve the pages. The last column is the sum at 60 frames per second: the largest
+slowdown of the run, reached on a machine with a single core.
 """
 
 import contextlib
@@ -75,7 +75,8 @@ def spend(work, s, steps):
 
 
 def measure(label, mechanism, work, pairs):
-    """Print the costs. The runs change places, because their memory is not equally fast."""
+    """Print the costs. Each of two runs is measured both with and without the view, because their
+    memory is not equally fast."""
     runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
     work(runs[0], 1000)
     steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)
@@ -86,7 +87,7 @@ def measure(label, mechanism, work, pairs):
 
 
 def compare(work, steps, plain, seen, pairs):
-    """Medians of the share of the time that calls cost, and of the times that a frame costs."""
+    """Medians of the relative cost of calls and of the times [s] that a frame takes."""
     found = []
     with seen.view(browser=False) as view, pages(view):
         for k in range(pairs):
