@@ -88,7 +88,10 @@ def check_frames(browser, loop, checks):
     begin, since = browser.run("times.length"), time.monotonic()
     time.sleep(1)
     rate = (browser.run("times.length") - begin) / (time.monotonic() - since)
-    checks.expect(20 < rate <= 61, f"{rate:.0f} frames a second")
+    checks.expect(rate > 20, f"{rate:.0f} frames a second")
+    # Since the page was opened, because a busy browser handles waiting frames at once.
+    mean = browser.run("1000 * times.length / performance.now()")
+    checks.expect(mean <= 61, f"{mean:.0f} frames a second in the mean")
     inside = ("framesAt(at(last)).every(({r}) => { const [x, y] = project(r); "
               "return x >= 0 && x <= wide && y >= 0 && y <= high; })")
     checks.expect(browser.run(inside), "a body is outside of the picture")
