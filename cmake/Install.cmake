@@ -33,6 +33,9 @@ foreach(target IN LISTS BAUM_SUNDIALS_TARGETS)
   string(REPLACE "SUNDIALS::" " -lsundials_" flag ${target})
   string(APPEND BAUM_PC_PRIVATE ${flag})
 endforeach()
+if(TARGET MPI::MPI_C) # SUNDIALS 7 of Debian is compiled for MPI
+  string(APPEND BAUM_PC_PRIVATE " -lmpi")
+endif()
 string(APPEND BAUM_PC_PRIVATE " -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig")
 # The archive of suitesparseconfig may need OpenMP.
 execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp.so OUTPUT_VARIABLE path

@@ -64,7 +64,8 @@ typedef struct baum_gains {
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
-/** Gains relative to the step, stable in the region of the method. With the two Euler methods,
+/** Gains given by the products alpha h and (beta h)^2. They are stable if these lie in the
+ *  stability region of the method. With the two Euler methods,
  *  |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma| remain. Runge-Kutta
  *  methods lose order as with baum_gains_deadbeat(), for the same reason.
  *  @param alpha_h   [-] alpha h >= 0

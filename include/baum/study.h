@@ -85,8 +85,8 @@ typedef struct baum_study_options {
   const char *file;
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress. Not owned. Default: NULL. */
-  /** Run entries that may be recommended also over twice the span and from perturbed starts, so
-   *  that recommendations hold there. Default: true. */
+  /** Before an entry is recommended, run it over twice the span and from perturbed starts, too, so
+   *  that the recommendation holds there. Default: true. */
   bool validate;
 } baum_study_options;
 

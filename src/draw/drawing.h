@@ -22,7 +22,7 @@ typedef enum baum_i_form {
   BAUM_I_BETWEEN,  /* from a point on `body` to one on `other`; moved to the left by y of a third */
   BAUM_I_ARROW,    /* from a point on `body` along a vector in the axes of `other` */
   /* from a point on `body` to the nearest point of what is given on `other`: */
-  BAUM_I_TO_LINE,  /* the line through all further points */
+  BAUM_I_TO_LINE,  /* the open line whose corners are the other points */
   BAUM_I_TO_PLANE, /* a plane: point; normal */
   BAUM_I_TO_SPHERE /* a sphere: centre; radius, 0, 0 */
 } baum_i_form;

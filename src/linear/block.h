@@ -253,7 +253,7 @@ typedef struct baum_i_block_kernel {
   double (*correct)(baum_i_block *block);
   /* Copies a (nv) and tells whether all numbers are finite. */
   bool (*read_motion)(const baum_i_block *block, double *a);
-  /* Copies lambda (nc) after corrections. */
+  /* Copies lambda (nc), with the corrections made so far. */
   void (*read_lambda)(const baum_i_block *block, double *lambda);
 } baum_i_block_kernel;
 

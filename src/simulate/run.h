@@ -98,8 +98,8 @@ struct baum_simulation {
 /* Copy time, positions and velocities. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints in space: continue the angles in the workspace to those at a
- * state. Returns the result of baum_i_follow_angles(). */
+/* Count the revolutions of joints in space: set the angles in the workspace to those of a state,
+ * plus the revolutions that keep them continuous. Returns the result of baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)

@@ -23,7 +23,7 @@ LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
-Every message and warning of the library, generated from the sources by `python3 tests/layout/check_messages.py --write .` `#`
+Every message and warning of the library, from the sources: `python3 tests/layout/check_messages.py --write .` writes this page. `#`
 stands for a number, `...` for a name or another text. `sh tests/run.sh coverage` lists the messages that no test triggers.
 [theory/errors.md](theory/errors.md) explains the warnings, [status.h](../include/baum/status.h) the statuses. *As failed* stands for
 the status of the failure that the message passes on.

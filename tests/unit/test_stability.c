@@ -167,8 +167,8 @@ static double segment_distance(point w, point p, point q)
   return hypot(p.A + t * a[0] - w.A, p.B + t * a[1] - w.B);
 }
 
-/* Returns the distance from w to the points with |z| <= 0.9. For Euler methods these form a
- * triangle whose corners have the roots z = (r, r), (-r, -r) and (r, -r). */
+/* Returns the distance from w to the region of the plane (A, B) where both roots have |z| <= 0.9.
+ * For Euler methods this is a triangle; the roots at its corners are (r, r), (-r, -r), (r, -r). */
 static double triangle_distance(int method, point w)
 {
   double r = 0.9;

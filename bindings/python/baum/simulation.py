@@ -392,7 +392,7 @@ class Simulation(_calls.Closing):
         self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
 
     def schedule_input(self, input: InputLike, times: ArrayLike, values: ArrayLike) -> None:
-        """Give an input values[k] from times[k] [s] on; before times[0] it keeps its present value.
+        """Set an input to values[k] from time times[k] [s] on; until then it keeps its value.
 
         times: (n) rising. values: (n). Steps end at these times, and multistep methods restart
         there. set_input() ends the schedule.
