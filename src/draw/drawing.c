@@ -175,7 +175,9 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
     baum_i_draw_symbol(out, k);
     baum_i_draw_gaps(out, &out->places[k]);
   }
-  qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);
+  if (out->shapes) {
+    qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);
+  }
   return out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 

@@ -224,8 +224,9 @@ static void put_plots(table *t, baum_i_buffer *out)
 
 /* ---- frames ---- */
 
-/* Marks the samples with the smallest and the largest value of each plotted column. */
-static void mark_extremes(const table *t, bool *kept)
+/* Marks the samples with the smallest and the largest value of each plotted column. Returns the
+ * number of columns. */
+static int mark_extremes(const table *t, bool *kept)
 {
   int marked = 0;
   for (int k = 0; k < t->column_count && marked < EXTREMES; k++) {
@@ -240,6 +241,7 @@ static void mark_extremes(const table *t, bool *kept)
       marked++;
     }
   }
+  return marked;
 }
 
 /* Chooses the samples to keep: all, or some at equal intervals and the extremes. */
@@ -252,10 +254,7 @@ static baum_status choose_frames(table *t)
     baum_i_free(kept);
     return baum_i_fail_memory();
   }
-  if (n > FRAMES) {
-    mark_extremes(t, kept);
-  }
-  const int64_t even = n > FRAMES ? FRAMES - 2 * EXTREMES : n;
+  const int64_t even = n > FRAMES ? FRAMES - 2 * mark_extremes(t, kept) : n;
   for (int64_t k = 0; k < even; k++) {
     kept[even > 1 ? k * (n - 1) / (even - 1) : 0] = true;
   }
@@ -291,7 +290,7 @@ static void put_ranges(const table *t, baum_i_buffer *out)
   for (int k = 0; k < t->column_count; k++) {
     double range[2];
     find_range(t, &t->columns[k], range);
-    baum_i_putf(out, "%s[%.9g,%.9g]", k ? "," : "", range[0], range[1]);
+    baum_i_putf(out, "%s[%.17g,%.17g]", k ? "," : "", range[0], range[1]);
   }
 }
 

@@ -187,6 +187,7 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
   for (int k = 0; k < 2; k++) { /* both orders of the meshes */
     two[k].points = high[0];
     two[1 - k].points = low[0];
+    two[0].point_count = two[1].point_count = 3;
     two[0].triangle_count = two[1].triangle_count = 1;
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";

@@ -240,6 +240,22 @@ def check_time(browser, checks):
     browser.click("#play")
 
 
+# A body turns by TURN [rad] between the first two samples: 0.4 of the way is shown only if it turns little.
+SHARE_SHOWN = """(() => {
+  const column = table[3 + bodies.find(body => body.kind === 'body').q], kept = column[1];
+  column[1] = column[0] + TURN;
+  const share = at(times[0] + .4 * (times[1] - times[0]))[2];
+  column[1] = kept;
+  return share;
+})()"""
+
+
+def check_coarse(browser, checks):
+    for turn, shown in ((0.1, 0.4), (0.5, 0), (2 * np.pi + 0.1, 0.4)):
+        share = browser.run(SHARE_SHOWN.replace("TURN", str(turn)))
+        checks.expect(abs(share - shown) < 1e-9, f"a turn of {turn:.1f} rad is shown at {share} of the way")
+
+
 def check_view(browser, spatial, checks):
     before = browser.run("[view.scale, view.azimuth, view.shift[0]]")
     mouse(browser, ("mouseWheel", 0.5, 0.5), deltaX=0, deltaY=-300)
@@ -391,6 +407,8 @@ def main():
                     browser.open(f"{page}?{width}{scheme}#t=0.5")
                     check_layout(browser, checks)
                     check_time(browser, checks)
+                    if name == "plane":
+                        check_coarse(browser, checks)
                     check_view(browser, name == "space", checks)
                     check_two_fingers(browser, name == "space", checks)
                     browser.run("find('names').click(), find('centres').click()")

@@ -90,7 +90,14 @@ class Pages(unittest.TestCase):
         x = self.run_["slider.pose"][:, 0]
         np.testing.assert_allclose(values, [x.min(), x.max()], rtol=1e-8)
 
+    def test_one_name_need_not_be_in_a_list(self):
+        data = data_of(self.page(traces="rod", forces="B.reaction", plots="slider.pose", title=5))
+        self.assertEqual([len(data[key]) for key in ("traces", "reactions", "plots")], [1, 1, 3])
+        self.assertEqual(data["title"], "5")
+
     def test_wrong_choices_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "no samples"):
+            self.m.simulate([], "rk4", step=1e-3).show()
         with self.assertRaises(KeyError):
             self.run_.show(plots=["A.phi"])
         with self.assertRaises(KeyError):
@@ -111,6 +118,19 @@ class Pages(unittest.TestCase):
         self.assertEqual({mark["kind"] for mark in marks}, {"warning", "singular"})
         for mark in marks:
             self.assertEqual(mark["kind"] == "singular", mark["text"].startswith("near a singular configuration"))
+
+    def test_a_failure_is_marked_where_the_run_stopped(self):
+        m = baum.Mechanism()
+        body = m.planar_body("body", mass=1, inertia=1)
+        m.force("push", [body], lambda t, q, v: [float("nan") if t > 0.3 else 0.0, 0, 0])
+        with self.assertRaises(baum.Error) as caught:
+            m.freeze().simulate(np.linspace(0, 1, 11), "rk4", step=1e-2)
+        run = caught.exception.run
+        with mock.patch("webbrowser.open", return_value=True) as opened:
+            marks = data_of(run.show())["marks"]
+        os.remove(opened.call_args[0][0].removeprefix("file://"))
+        self.assertEqual((marks[-1]["t"], marks[-1]["kind"]), (run.t[-1], "warning"))
+        self.assertIn("push", marks[-1]["text"])
 
     def test_notebooks_show_it_in_a_frame(self):
         with mock.patch("baum.drawings.is_notebook", return_value=True):
@@ -147,6 +167,17 @@ class Motions(unittest.TestCase):
         self.assertEqual([plot["label"] for plot in data["plots"]], ["x [m]"])
         self.assertEqual(data["ranges"][data["plots"][0]["column"]], [0, 3])
         self.assertEqual(data["marks"], [{"t": 0.5, "kind": "event", "text": "half"}])
+
+    def test_small_motions_far_away_keep_their_digits(self):
+        self.q[:, 0] = 5.4e6 + 1e-3 * self.t
+        t = 1.7e9 + self.t
+        ranges = data_of(self.m.page(t, self.q))["ranges"]
+        self.assertEqual(ranges[0], [t[0], t[-1]])
+        self.assertEqual(ranges[1], [self.q[0, 0], self.q[-1, 0]])
+
+    def test_a_long_motion_keeps_600_samples(self):
+        t = np.linspace(0, 1, 5001)
+        self.assertEqual(data_of(self.m.page(t, np.tile(self.q[0], (5001, 1))))["frames"], 600)
 
     def test_wrong_arrays_are_refused(self):
         for t, q in ((self.t[1:], self.q), (self.t, self.q[:, 1:]), (0 * self.t, self.q)):

@@ -198,7 +198,9 @@ class Movies(unittest.TestCase):
 
     def test_wrong_values_are_refused(self):
         for path, options in (("x.avi", {}), ("x.gif", {"fps": 0}), ("x.gif", {"speed": -1}),
-                              ("x.gif", {"speed": 1e-9}), ("x.gif", {"size": (1, 2, 3)})):
+                              ("x.gif", {"speed": 1e-9}), ("x.gif", {"size": (1, 2, 3)}),
+                              ("x.gif", {"size": (0, 0)}), ("x.gif", {"size": (1e7, 1e7)}),
+                              ("x.gif", {"fps": 1e-300})):
             with self.assertRaises(ValueError):
                 self.run_.movie(path, **options)
 

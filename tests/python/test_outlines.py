@@ -139,6 +139,17 @@ class Forms(unittest.TestCase):
         with self.assertRaisesRegex(baum.Error, "triangle_count is 0"):
             body_of(baum.Mesh(CORNERS, np.empty((0, 3), int)))
 
+    def test_arrays_that_are_assigned_are_converted_and_checked(self):
+        mesh = baum.Mesh(CORNERS, [(0, 1, 2)])
+        mesh.vertices = (np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]) @ mesh.vertices.T).T.astype(np.float32)
+        mesh.triangles = mesh.triangles[:, ::-1].astype(np.int64)
+        found = body_of(mesh).outline[0]
+        np.testing.assert_array_equal(found.vertices, mesh.vertices)
+        np.testing.assert_array_equal(found.triangles, mesh.triangles)
+        mesh.triangles = np.array([(0, 1, 4)])
+        with self.assertRaisesRegex(ValueError, "from 0 to 3"):
+            body_of(mesh)
+
     def test_limits_are_those_of_the_library(self):
         many = np.zeros((_mesh_files.LIMIT + 1, 3), int)
         body_of(baum.Mesh(CORNERS, many[1:]))
@@ -277,6 +288,13 @@ class Files(unittest.TestCase):
         self.assert_tetrahedron(self.load("c.obj", points + negative))
         mesh = self.load("d.obj", "v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n 3 4\n")
         np.testing.assert_array_equal(mesh.triangles, [(0, 1, 2), (0, 2, 3)])
+
+    def test_only_regular_files_are_read(self):
+        for name in ("zero.stl", "pipe.obj"):
+            path = os.path.join(self.folder, name)
+            os.symlink("/dev/zero", path) if name == "zero.stl" else os.mkfifo(path)
+            with self.assertRaisesRegex(ValueError, "regular file"):
+                baum.Mesh.load(path)
 
     def test_broken_files_are_refused_at_their_place(self):
         good, text = self.binary(), self.text()

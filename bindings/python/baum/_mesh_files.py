@@ -28,6 +28,8 @@ def load(path: str | os.PathLike[str]) -> tuple[Array, Triangles]:
     readers = {".stl": _stl, ".obj": _obj}
     if file.suffix.lower() not in readers:
         raise ValueError(f"{file}: an STL or OBJ file is wanted, with the ending .stl or .obj")
+    if file.exists() and not file.is_file():
+        raise ValueError(f"{file}: a regular file is wanted")
     if file.stat().st_size > LARGEST:
         raise ValueError(f"{file}: the file is larger than {LARGEST >> 20} MB")
     vertices, triangles = readers[file.suffix.lower()](file, file.read_bytes())

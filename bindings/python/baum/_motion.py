@@ -45,7 +45,7 @@ class Motion(NamedTuple):
         values = np.array([column for _, column in self.plots]).T.copy()
         mark_times = np.array([t for t, _, _ in self.marks])
         struct = default(_abi.baum_page)
-        struct.title = None if self.title is None else self.title.encode(errors="replace")
+        struct.title = None if self.title is None else str(self.title).encode(errors="replace")
         struct.times, struct.count = address(self.t), len(self.t)
         struct.channels, struct.channel_count = _structs(self.shown), len(self.shown)
         struct.rows = address(self.rows)
@@ -73,10 +73,18 @@ def _structs(channels: Sequence[Channel]) -> Any:
 
 
 def _texts(texts: Sequence[str]) -> Any:
-    return (ctypes.c_char_p * len(texts))(*(text.encode(errors="replace") for text in texts))
+    return (ctypes.c_char_p * len(texts))(*(str(text).encode(errors="replace") for text in texts))
+
+
+def listed(value: Any) -> Any:
+    """A list of one, if one name, channel or body was given instead of a list."""
+    return [value] if isinstance(value, (str, Channel, Body)) else value
 
 
 def _trace(mechanism: Mechanism, trace: TraceLike) -> Channel:
+    """The channel of the path of a body, of its name, or of a channel."""
+    if isinstance(trace, str) and trace in mechanism and isinstance(mechanism[trace], Body):
+        trace = mechanism[trace]
     return trace.pose if isinstance(trace, Body) else mechanism.channel(trace)
 
 
@@ -96,7 +104,7 @@ def _chosen(mechanism: Mechanism, recorded: Iterable[Channel], forces: Forces) -
         if not reactions:
             raise ValueError('forces: no reaction was recorded; name some in record=["A.reaction"]')
         return reactions
-    chosen = [mechanism.channel(channel) for channel in forces]
+    chosen = [mechanism.channel(channel) for channel in listed(forces)]
     for channel in chosen:
         if not is_reaction(channel):
             raise ValueError(f"forces: {channel.key} is not the reaction of a joint")
@@ -104,14 +112,16 @@ def _chosen(mechanism: Mechanism, recorded: Iterable[Channel], forces: Forces) -
 
 
 def _marks(run: Run) -> list[Mark]:
-    """Return times, texts and kinds of warnings, near-singular intervals and events, sorted by
-    time."""
+    """Return times, texts and kinds of warnings, near-singular intervals, events and the failure,
+    sorted by time."""
     kinds = _abi.baum_mark_kind
     marks = [(warning.first, str(warning), kinds.BAUM_MARK_WARNING) for warning in run.warnings]
     for x in run.near_singular:
         text = f"near a singular configuration, {x.branch}"
         marks.append((x.t, text, kinds.BAUM_MARK_SINGULAR))
     marks += [(event.t, f"event {event.event}", kinds.BAUM_MARK_EVENT) for event in run.events]
+    if run.failure is not None and len(run.t):
+        marks.append((float(run.t[-1]), run.failure, kinds.BAUM_MARK_WARNING))
     return sorted(marks, key=lambda mark: mark[0])
 
 
@@ -127,9 +137,11 @@ def of_run(
     mechanism = run.mechanism
     if mechanism is None:
         raise ValueError("this run was pickled; only a run with its mechanism can be shown")
+    if len(run.t) == 0:
+        raise ValueError("this run has no samples to show")
     shown = [WHOLE["q"], *_chosen(mechanism, recorded, forces)]
     rows = np.ascontiguousarray(np.hstack([run[channel] for channel in shown]))
-    paths = [_trace(mechanism, trace) for trace in traces]
+    paths = [_trace(mechanism, trace) for trace in listed(traces)]
     t = np.ascontiguousarray(run.t)
     return Motion(mechanism, t, shown, rows, paths, title, plots, _marks(run))
 
@@ -155,7 +167,7 @@ def of_arrays(
     curves = [(label, vector(values, len(times), label)) for label, values in plots.items()]
     kind = _abi.baum_mark_kind.BAUM_MARK_EVENT
     events = [(number(when, "time of a mark"), str(text), kind) for when, text in marks]
-    paths = [_trace(mechanism, trace) for trace in traces]
+    paths = [_trace(mechanism, trace) for trace in listed(traces)]
     return Motion(mechanism, times, [WHOLE["q"]], rows, paths, title, curves, events)
 
 

@@ -92,7 +92,7 @@ class Server(http.server.ThreadingHTTPServer):
         frame, text = self._text
         if frame is not self.live.frame:
             frame = self.live.frame
-            q = ",".join(["%.7g"] * len(frame.q)) % tuple(frame.q.tolist())
+            q = ",".join(map(repr, frame.q.tolist()))
             text = f'"t":{frame.t!r},"q":[{q}]'
             self._text = (frame, text)
         return f'{{{text},"paused":{"true" if self.live.paused else "false"}}}'

@@ -103,6 +103,7 @@ class _Pen:
 
     def __init__(self) -> None:
         self.polygons: list[list[complex]] = []
+        self._before = 0  # points of all polygons but the last
         self._here = self._start = 0j
         self._closed = False
         # Kind and last control point of the last curve.
@@ -110,7 +111,7 @@ class _Pen:
 
     @property
     def count(self) -> int:
-        return sum(map(len, self.polygons))
+        return self._before + len(self.polygons[-1]) if self.polygons else 0
 
     def draw(self, command: str, relative: bool, numbers: list[float]) -> None:
         control, self._control = self._control, None
@@ -122,6 +123,7 @@ class _Pen:
         if command == "M" or self._closed:  # begins a subpath; without M, where the last one began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
+            self._before = self.count
             self.polygons.append([self._start])
             if command == "M":
                 return

@@ -33,8 +33,7 @@ function follow() {
   touched = touched || view.scale !== scale || view.shift.some(x => x !== 0);
   const frames = framesAt(at(last)), before = room;
   room = `${wide} ${high}`;
-  const left = shape => (['line', 'area'].includes(shape.form) ? shape.points : shape.points.slice(0, 1))
-    .some(point => isOutside(project(moved(frames[shape.body], point))));
+  const left = shape => shape.places.some(point => isOutside(project(moved(frames[shape.body], point))));
   if (!touched && (room !== before || shapes.some(left))) { fit(); scale = view.scale; }
 }
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import html
 import threading
 import time
+import warnings
 import weakref
 import webbrowser
 from typing import TYPE_CHECKING, Callable, NamedTuple, Sequence, Union
@@ -215,6 +216,6 @@ def open_view(
     weakref.finalize(simulation, server.end).atexit = False
     owner.glance(live.set_interval)
     server.thread.start()
-    if browser and not drawings.is_notebook():
-        webbrowser.open(server.url)
+    if browser and not drawings.is_notebook() and not webbrowser.open(server.url):
+        warnings.warn(f"no browser was found; the page is {server.url}", stacklevel=3)
     return View(server)

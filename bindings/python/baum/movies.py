@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _motion, pictures
 from ._lib import lib
-from ._values import number, vector
+from ._values import number
 from .progress import Line, stream
 from .typing import Array, Progress, Scalar
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .run import Run
 
 MOST = 100_000  # frames
+MOST_PIXELS = 8192  # in width and height
 TICK = 100  # [Hz] delays between the frames of a GIF are multiples of 1/TICK
 
 
@@ -43,7 +44,7 @@ def write(
     out = stream() if progress is True else None
     line = None if out is None else Line(out, f"movie of {len(times)} frames")
     try:
-        _draw(whole, samples, writer, path, vector(size, 2, "size"), line, progress)
+        _draw(whole, samples, writer, path, pictures.pixels(size, MOST_PIXELS), line, progress)
     finally:
         if line is not None:
             line.close()
@@ -51,8 +52,8 @@ def write(
 
 def _positive(value: Scalar, label: str) -> float:
     given = number(value, label)
-    if not 0 < given < float("inf"):
-        raise ValueError(f"{label}: a number > 0 is wanted, not {given:g}")
+    if not 1e-9 <= given <= 1e9:
+        raise ValueError(f"{label}: a number from 1e-9 to 1e9 is wanted, not {given:g}")
     return given
 
 

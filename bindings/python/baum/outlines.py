@@ -50,6 +50,18 @@ def _table(value: Any, widths: Sequence[int], label: str) -> Array:
     return np.ascontiguousarray(np.pad(array, ((0, 0), (0, 3 - array.shape[1]))))
 
 
+def _triples(value: Any, count: int) -> NDArray[np.int32]:
+    """A new array (m, 3) of indices below count."""
+    given = np.asarray(value)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"triangles: the shape (m, 3) is wanted, not {given.shape}")
+    if given.dtype.kind not in "iu":
+        raise TypeError(f"triangles: whole numbers are wanted, not {given.dtype}")
+    if given.size and not (0 <= given.min() and given.max() < count):
+        raise ValueError(f"triangles: numbers must be from 0 to {count - 1}")
+    return np.array(given, dtype=np.int32, order="C")
+
+
 class Outline:
     """Base class of the shapes that a body can be given: Polygon, Circle, Box, Cylinder, Sphere,
     Mesh. Lengths are in metres, in the axes of the body. color: "#rrggbb"; None: chosen for each
@@ -77,9 +89,10 @@ class Polygon(Outline):
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
-        struct.form, struct.points = Form.BAUM_OUTLINE_POLYGON, address(self.points)
-        struct.point_count = len(self.points)
-        return [self.points]
+        points = _table(self.points, (2, 3), "points")
+        struct.form, struct.points = Form.BAUM_OUTLINE_POLYGON, address(points)
+        struct.point_count = len(points)
+        return [points]
 
 
 class Circle(Outline):
@@ -94,8 +107,8 @@ class Circle(Outline):
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
-        struct.form, struct.radius = Form.BAUM_OUTLINE_CIRCLE, self.radius
-        struct.center = (ctypes.c_double * 3)(*self.center)
+        struct.form, struct.radius = Form.BAUM_OUTLINE_CIRCLE, number(self.radius, "radius")
+        struct.center = (ctypes.c_double * 3)(*_point(self.center, "center"))
         return []
 
 
@@ -124,8 +137,8 @@ class Box(Outline):
 
     def _fill(self, struct: Any) -> list[Any]:
         struct.form = Form.BAUM_OUTLINE_BOX
-        struct.size = (ctypes.c_double * 3)(*self.size)
-        struct.center = (ctypes.c_double * 3)(*self.center)
+        struct.size = (ctypes.c_double * 3)(*_point(self.size, "size"))
+        struct.center = (ctypes.c_double * 3)(*_point(self.center, "center"))
         return []
 
 
@@ -144,9 +157,9 @@ class Cylinder(Outline):
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
-        struct.form, struct.radius = Form.BAUM_OUTLINE_CYLINDER, self.radius
-        struct.start = (ctypes.c_double * 3)(*self.start)
-        struct.end = (ctypes.c_double * 3)(*self.end)
+        struct.form, struct.radius = Form.BAUM_OUTLINE_CYLINDER, number(self.radius, "radius")
+        struct.start = (ctypes.c_double * 3)(*_point(self.start, "start"))
+        struct.end = (ctypes.c_double * 3)(*_point(self.end, "end"))
         return []
 
 
@@ -158,14 +171,7 @@ class Mesh(Outline):
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, color: str | None = None) -> None:
         self.vertices = _table(vertices, (3,), "vertices")
-        given = np.asarray(triangles)
-        if given.ndim != 2 or given.shape[1] != 3:
-            raise ValueError(f"triangles: the shape (m, 3) is wanted, not {given.shape}")
-        if given.dtype.kind not in "iu":
-            raise TypeError(f"triangles: whole numbers are wanted, not {given.dtype}")
-        if given.size and not (0 <= given.min() and given.max() < len(self.vertices)):
-            raise ValueError(f"triangles: numbers must be from 0 to {len(self.vertices) - 1}")
-        self.triangles: NDArray[np.int32] = given.astype(np.int32, order="C")
+        self.triangles = _triples(triangles, len(self.vertices))
         self.color = color
 
     @classmethod
@@ -187,10 +193,12 @@ class Mesh(Outline):
         return f"<mesh of {len(self.vertices)} vertices and {len(self.triangles)} triangles>"
 
     def _fill(self, struct: Any) -> list[Any]:
-        struct.form, struct.points = Form.BAUM_OUTLINE_MESH, address(self.vertices)
-        struct.point_count, struct.triangle_count = len(self.vertices), len(self.triangles)
-        struct.triangles = self.triangles.ctypes.data_as(ctypes.POINTER(ctypes.c_int32))
-        return [self.vertices, self.triangles]
+        vertices = _table(self.vertices, (3,), "vertices")
+        triangles = _triples(self.triangles, len(vertices))
+        struct.form, struct.points = Form.BAUM_OUTLINE_MESH, address(vertices)
+        struct.point_count, struct.triangle_count = len(vertices), len(triangles)
+        struct.triangles = triangles.ctypes.data_as(ctypes.POINTER(ctypes.c_int32))
+        return [vertices, triangles]
 
 
 # A shape, the corners of a polygon (n, 2), a path of SVG, or several of them.

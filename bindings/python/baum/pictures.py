@@ -13,6 +13,7 @@ import xml.etree.ElementTree as xml
 from typing import TYPE_CHECKING, Any
 
 from ._values import vector
+from .typing import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,11 +34,19 @@ def size_of(svg: str) -> tuple[float, float]:
     return float(root.attrib["width"]), float(root.attrib["height"])
 
 
+def pixels(size: Any, most: float) -> Array:
+    """Width and height."""
+    given = vector(size, 2, "size")
+    if not ((given >= 1) & (given <= most)).all():
+        raise ValueError(
+            f"size: width and height from 1 to {most:g} pixels are wanted, not {size!r}"
+        )
+    return given
+
+
 def resized(svg: str, size: Any) -> str:
     """The picture in another size [px]; the drawing is scaled to fit and centred."""
-    width, height = vector(size, 2, "size")
-    if not (0 < width < 1e5 and 0 < height < 1e5):
-        raise ValueError(f"size: width and height in pixels are wanted, not {size!r}")
+    width, height = pixels(size, 1e5)
     return re.sub(
         r'width="\d+" height="\d+"', f'width="{width:g}" height="{height:g}"', svg, count=1
     )

@@ -90,10 +90,11 @@ class Run:
     is a recorded channel (n x columns). Poses and velocities of bodies need no recording, because
     they are parts of q and v: run["slider.pose"].
 
-    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early. counters:
-    what the run has cost. explain: the methods of the run, as text. warnings: a baum.Warning for
-    each kind. near_singular, events: lists for the whole simulation so far. energy_account: at the
-    end; None without the option energy_account.
+    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early. failure: the
+    message of the error, if the run failed; its samples are `run` of the error. counters: what the
+    run has cost. explain: the methods of the run, as text. warnings: a baum.Warning for each kind.
+    near_singular, events: lists for the whole simulation so far. energy_account: at the end; None
+    without the option energy_account.
 
     A run can be pickled; its `mechanism` is then None.
     """
@@ -110,6 +111,7 @@ class Run:
         self.mechanism: Mechanism | None = mechanism
         self.t = times
         self.status = status
+        self.failure: str | None = None
         self.counters, self.explain, self.warnings = account[:3]
         self.near_singular, self.events, self.energy_account = account[3:]
         self._slices = layout.slices
@@ -333,7 +335,7 @@ class Run:
             others = [key for key, x in self._channels.items() if not _motion.is_reaction(x)]
             plots = [key for key in others if key not in ("q", "v")]
         columns = []
-        for plot in plots:
+        for plot in _motion.listed(plots):
             key = plot.key if isinstance(plot, Channel) else plot
             for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
                 columns.append((f"{name} [{unit}]" if unit else name, values))

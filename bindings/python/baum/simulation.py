@@ -356,6 +356,7 @@ class Simulation(_calls.Closing):
         except BaseException as error:
             if not self._owner.busy:
                 recorded = self._make_run(layout, given, rows, done.value, _status_of(error))
+                recorded.failure = str(error)
                 error.run = recorded  # type: ignore[attr-defined]
             raise
         return self._make_run(layout, given, rows, done.value, status)
