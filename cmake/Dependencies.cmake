@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds what baum is built on, or stops with the sentence that helps. Sets
+# Finds what baum is built on, or stops with a message that names the package. Sets
 #   BAUM_BACKENDS      what the library links
 #   BAUM_CAPABILITIES  compile definitions that tell the sources what is there
 

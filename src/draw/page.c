@@ -147,9 +147,9 @@ static double value_at(const column *c, int64_t sample)
   return c->angle ? remainder(x, BAUM_I_REVOLUTION) : x;
 }
 
-static void add_column(table *t, const double *values, int64_t stride, bool angle, bool plotted)
+static void add_column(table *t, const double *values, int64_t stride, bool plotted)
 {
-  t->columns[t->column_count++] = (column){values, stride, angle, plotted};
+  t->columns[t->column_count++] = (column){values, stride, false, plotted};
 }
 
 bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
@@ -158,14 +158,19 @@ bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
          m->joints[baum_i_joint_index(m, c->joint)]->type->width > 0;
 }
 
-static bool is_angle(const baum_mechanism *m, int position)
+/* Adds the columns of q. Angles of planar bodies are reduced. */
+static void add_positions(table *t, const double *q)
 {
-  for (int k = 1; k <= m->body_count; k++) {
-    if (m->bodies[k]->q + 2 == position) {
-      return baum_i_frame_of(m->bodies[k]) == BAUM_I_FRAME_BODY;
+  const int first = t->column_count;
+  for (int k = 0; k < t->mechanism->nq; k++) {
+    add_column(t, q + k, t->width, false);
+  }
+  for (int k = 1; k <= t->mechanism->body_count; k++) {
+    const baum_i_body *body = t->mechanism->bodies[k];
+    if (baum_i_frame_of(body) == BAUM_I_FRAME_BODY) {
+      t->columns[first + body->q + 2].angle = true;
     }
   }
-  return false;
 }
 
 /* Writes the list of reactions and adds their columns to the table. */
@@ -187,7 +192,7 @@ static void put_reactions(table *t, baum_i_drawing *drawing, baum_i_buffer *out)
                   at->body[1], at->point[1][0], at->point[1][1], at->point[1][2], t->column_count,
                   width);
       for (int i = 0; i < width; i++) {
-        add_column(t, page->rows + place + i, t->width, false, false);
+        add_column(t, page->rows + place + i, t->width, false);
       }
       gap = ",";
     }
@@ -218,7 +223,7 @@ static void put_plots(table *t, baum_i_buffer *out)
     baum_i_put(out, k ? ",\n{\"label\":\"" : "\n{\"label\":\"");
     baum_i_put_user_text(out, page->plot_labels[k] ? page->plot_labels[k] : "", BAUM_I_JSON);
     baum_i_putf(out, "\",\"column\":%d}", t->column_count);
-    add_column(t, page->plots + k, stride, false, true);
+    add_column(t, page->plots + k, stride, true);
   }
 }
 
@@ -396,10 +401,8 @@ static baum_status put_page(table *t, baum_i_drawing *drawing, baum_i_buffer *ou
   baum_i_put_user_text(out, title, BAUM_I_JSON);
   baum_i_put(out, "\",\n\"drawing\":");
   baum_i_put_drawing(drawing, out);
-  add_column(t, t->page->times, 1, false, false);
-  for (int k = 0; k < t->mechanism->nq; k++) {
-    add_column(t, drawing->motion.q + k, t->width, is_angle(t->mechanism, k), false);
-  }
+  add_column(t, t->page->times, 1, false);
+  add_positions(t, drawing->motion.q);
   baum_i_put(out, ",\n\"reactions\":[");
   put_reactions(t, drawing, out);
   baum_i_put(out, "],\n\"plots\":[");

@@ -21,7 +21,7 @@
 
 #include "saved_scenes.h"
 
-enum { ANEW = 10 /* the other process creates a new run for every tenth buffer */ };
+enum { NEW_RUN_EVERY = 10 /* buffers; then the other process creates a new run */ };
 
 static const char *program; /* argv[0] */
 
@@ -125,7 +125,7 @@ static int be_the_other(char **arguments)
   for (int k = 0; k < count && fine; k++) {
     size_t size = 0;
     outcome came_to;
-    if (k % ANEW == 0) {
+    if (k % NEW_RUN_EVERY == 0) {
       baum_simulation_destroy(run);
       run = saved_scene_start(&scene);
     }

@@ -18,7 +18,7 @@
 
 /* ---- a pendulum on a frame fixed to ground, and three user coordinates with a row ---- */
 
-static int triple_mass(double t, const double *q, double *out, void *user)
+static int three_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
   (void)q;
@@ -28,8 +28,8 @@ static int triple_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static int triple_force(double t, const double *q, const double *v, const double *inputs,
-                        double *out, void *user)
+static int three_force(double t, const double *q, const double *v, const double *inputs,
+                       double *out, void *user)
 {
   (void)t;
   (void)q;
@@ -74,15 +74,15 @@ static baum_status add_frame(baum_mechanism *m)
   return status;
 }
 
-static baum_status add_triple(baum_mechanism *m)
+static baum_status add_three(baum_mechanism *m)
 {
-  baum_coordinates_def triple = baum_coordinates_def_default();
+  baum_coordinates_def three = baum_coordinates_def_default();
   baum_body_id id;
-  triple.size = 3;
-  triple.mass = triple_mass;
-  triple.force = triple_force;
-  triple.constant_mass = true;
-  baum_status status = baum_mechanism_add_coordinates(m, &triple, &id);
+  three.size = 3;
+  three.mass = three_mass;
+  three.force = three_force;
+  three.constant_mass = true;
+  baum_status status = baum_mechanism_add_coordinates(m, &three, &id);
   if (status == BAUM_OK) {
     baum_user_constraint_def row = baum_user_constraint_def_default();
     row.bodies = &id;
@@ -99,7 +99,7 @@ static baum_status build(baum_mechanism *m)
   static const double times[3] = {0.3, 0.1, 0.2};
   baum_status status = add_frame(m);
   if (status == BAUM_OK) {
-    status = add_triple(m);
+    status = add_three(m);
   }
   if (status == BAUM_OK) {
     int32_t count = 0;

@@ -227,7 +227,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   const struct {
     const char *text;
     size_t size;
-  } others[] = {{"Dear reader,\nthis is no study.\n", 32},
+  } others[] = {{"Hello,\nthis is no study.\n", 26},
                 {"\0\0\0\0", 4},
                 {"baum-study notes of mine", 24},
                 {"baum-study 3\0 library", 21}};

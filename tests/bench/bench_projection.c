@@ -29,7 +29,7 @@ typedef struct swept {
   int best;
 } swept;
 
-static const double DEARER = 1.25;
+static const double MOST_COST = 1.25;
 
 static double gain_at(int k)
 {
@@ -52,7 +52,7 @@ static swept sweep(const problem *at, const baum_mechanism *mechanism, baum_simu
   for (int k = 0; k < GAINS; k++) {
     o.gains = baum_gains_fixed(gain_at(k), gain_at(k));
     outcome found = run(at, mechanism, &o);
-    all.error[k] = found.evaluations <= DEARER * evaluations ? found.error : (double)INFINITY;
+    all.error[k] = found.evaluations <= MOST_COST * evaluations ? found.error : (double)INFINITY;
     all.best = all.error[k] < all.error[all.best] ? k : all.best;
   }
   return all;

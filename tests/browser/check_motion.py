@@ -18,6 +18,7 @@ import time
 import numpy as np
 
 import baum
+import moving
 from baum import inertia
 from chromium import Chromium
 
@@ -28,30 +29,18 @@ INK = "(draw(), stage.toDataURL())"
 
 
 def plane():
-    m = baum.Mechanism()
-    crank = m.planar_body(NAME, mass=1, inertia=0.1, position=(0.5, 0), angular_velocity=5, held=True)
-    rod = m.planar_body("rod", mass=1, inertia=0.4, position=(2, 0))
-    slider = m.planar_body("slider", mass=1, inertia=0.1, position=(3, 0))
-    m.revolute("O", m.ground, crank, point=(0, 0))
-    m.revolute("A", crank, rod, point=(1, 0))
-    m.revolute("B", rod, slider, point=(3, 0))
-    m.translational("guide", m.ground, slider, point=(3, 0))
-    m.spring("spring", m.ground, slider, stiffness=10, damping=1, point_a=(5, 0), point_b=(0, 0.1))
+    m = moving.plane(NAME)
+    m.spring("spring", m.ground, m["slider"], stiffness=10, damping=1, point_a=(5, 0), point_b=(0, 0.1))
     record = ["A.reaction", "guide.reaction", "slider.velocity", "energy"]
     run = m.freeze().simulate(np.linspace(0, 4, 401), "rk8", rtol=1e-8, record=record)
-    return run, [rod.pose_of((0, 0.2))]
+    return run, [m["rod"].pose_of((0, 0.2))]
 
 
 def space():
-    m = baum.Mechanism(up="z")
-    body = m.spatial_body(NAME, mass=2, inertia=inertia.box(2, 0.3, 0.4, 0.05), position=(0, 0.5, 0),
-                          angular_velocity=(1, 0, 0))
-    other = m.spatial_body("other", mass=1, inertia=inertia.rod(1, 0.5, axis="y"), position=(0, 1.2, 0))
-    m.spatial_revolute("hinge", m.ground, body, point=(0, 0, 0), axis=(1, 0, 0))
-    m.spherical("ball", body, other, point=(0, 0.9, 0))
+    m = moving.space(NAME)
     record = ["hinge.reaction", "ball.reaction", "hinge.coordinate"]
     run = m.freeze().simulate(np.linspace(0, 3, 301), "rk8", rtol=1e-8, record=record)
-    return run, [other]
+    return run, [m["other"]]
 
 
 def many():

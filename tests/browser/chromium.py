@@ -130,7 +130,7 @@ class Chromium:
 
     def complaints(self):
         """Return console messages, exceptions, and reports of blocked content. The software that
-        replaces a graphics card reports that copying pictures takes time: that is left out."""
+        replaces a graphics card reports that copying pictures takes time; this report is omitted."""
         out = []
         for event in self.events:
             details = event["params"]
