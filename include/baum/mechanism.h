@@ -222,6 +222,11 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /** Constraints Phi(q, t) = 0 on the coordinates of the named bodies, given by functions. Only phi
  *  is required. nv below is the total number of velocities of the named bodies.
  *
+ *  With velocity_level = true they are constraints J(q, t) v = nu(q, t) on velocities that are not
+ *  derivatives of a Phi (non-holonomic constraints, such as a wheel that does not slip). Then
+ *  jacobian is required, phi must be NULL, and the right side of (4) becomes gamma - alpha (J v -
+ *  nu).
+ *
  *  The functions must be valid everywhere, not only where Phi = 0. Missing derivatives are replaced
  *  by central differences of phi. These evaluate phi up to 0.006 time units before and after t for
  *  nu, and up to 0.05 for gamma. If phi is not defined before t = 0, give nu and gamma. */
@@ -230,13 +235,15 @@ typedef struct baum_user_constraint_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   /** (body_count) bodies acted on. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count;  /**< [-] > 0. Default: 0, must be set. */
-  int32_t row_count;   /**< [-] > 0. Default: 0, must be set. */
-  baum_q_fn *phi;      /**< out (row_count). Default: NULL, must be set. */
+  int32_t body_count; /**< [-] > 0. Default: 0, must be set. */
+  int32_t row_count;  /**< [-] > 0. Default: 0, must be set. */
+  /** out (row_count). Default: NULL, must be set unless velocity_level. */
+  baum_q_fn *phi;
   baum_q_fn *jacobian; /**< out (row_count x nv), J. Default: NULL, differences of phi. */
   baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
   baum_qv_fn *gamma;   /**< out (row_count), right side of (4). Default: NULL, differences. */
   void *user;          /**< Passed to the functions. Not owned. Default: NULL. */
+  bool velocity_level; /**< J v = nu without Phi; nu NULL: 0. Default: false. */
 } baum_user_constraint_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -625,6 +632,10 @@ typedef struct baum_mobility {
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
   char text[1024];           /**< These results in words, with the names of elements. */
+  int32_t velocity_rows;     /**< [-] rows of velocity level (non-holonomic constraints). */
+  /** [-] degrees of freedom of position: nv - rank of J without rows of velocity level.
+   *  degrees_of_freedom counts those of velocity, which are fewer if there are such rows. */
+  int32_t position_degrees_of_freedom;
 } baum_mobility;
 
 /** Count degrees of freedom, redundant and conflicting rows and free bodies, in the assembled
@@ -664,6 +675,9 @@ typedef struct baum_report {
   baum_body_id most_joined; /**< The body with most joints; none if there are no joints. */
   /** These results in words, with the names of elements and the reasons. */
   char text[2048];
+  int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
+  /** [-] nv - rank of J without rows of velocity level; -1: not known. */
+  int32_t position_degrees_of_freedom;
 } baum_report;
 
 /** Report what an evaluation costs, in the assembled initial configuration at t = 0 and with the

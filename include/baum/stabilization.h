@@ -167,6 +167,23 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
+/** Compute the amplification of rows of velocity level, J v = nu. Their equation J a = gamma - alpha
+ *  (J v - nu) has a single mode z = R(-alpha h), so z[1] is NaN.
+ *  @param      integrator   the method
+ *  @param      alpha_h      [-] alpha h, finite
+ *  @param[out] out          the result
+ *  @param      caller_size  sizeof *out
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
+BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrator, double alpha_h,
+                                                baum_amplification *out, size_t caller_size);
+
+/** Find the alpha h up to which rows of velocity level are stable.
+ *  @param      integrator  the method; its step is fixed
+ *  @param[out] alpha_h     [-] the limit
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region of stability) */
+BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integrator,
+                                                   double *alpha_h);
+
 /** Describe the effect of gains with a method in words, also for a method without a region.
  *  @param integrator  may be NULL
  *  @return  static text; NULL for NULL */

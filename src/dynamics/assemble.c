@@ -9,7 +9,8 @@
  * do not move. The small S (Levenberg, Marquardt) permits redundant rows. If rows contradict each
  * other, the system with S is a least-squares problem. The violation that it leaves is in the
  * conflicting rows only, and so identifies them. Steps are limited, and halved until the violation
- * decreases. Violations are compared as displacements |Phi_i| / d_i, where d_i is the norm of row i
+ * decreases. Rows of velocity level take part only in the assembly of velocities. Violations are
+ * compared as displacements |Phi_i| / d_i, where d_i is the norm of row i
  * of J after each column has been multiplied by the scale of its coordinate.
  */
 #include <math.h>
@@ -82,6 +83,18 @@ static void clear_held_columns(baum_workspace *w, const bool *held)
     for (int i = 0; i < block->rows; i++) {
       clear_held_entries(w, held, block, w->jacobian + block->value + i * block->cols);
     }
+  }
+}
+
+/* Clear rows of velocity level, which do not restrict positions. */
+static void clear_velocity_rows(const baum_workspace *w)
+{
+  const baum_mechanism *m = w->mechanism;
+  for (int k = 0; k < m->joint_count && m->velocity_rows; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    size_t count = (size_t)joint->velocity_rows * (size_t)joint->span.nl;
+    size_t all = (size_t)joint->rows * (size_t)joint->span.nl;
+    memset(w->jacobian + joint->jacobian + (all - count), 0, count * sizeof *w->jacobian);
   }
 }
 
@@ -271,6 +284,7 @@ static baum_status newton_step(assembly *s, double *size, bool *fell, bool first
   BAUM_I_TRY(baum_i_position_stage(w, s->t, s->q));
   leave(s);
   clear_held_columns(w, s->held);
+  clear_velocity_rows(w);
   baum_i_row_displacements(w, s->distance);
   s->fits = worst_displacement(s, w->phi) <= ROUNDING;
   if (first) {

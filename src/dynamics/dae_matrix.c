@@ -20,6 +20,9 @@
  * If row i has gains alpha_i, beta_i of its own, (J w)_q is still computed with w = v' + 2 alpha v,
  * and a second linearization adds 2 (alpha_i - alpha) (J v)_q.
  *
+ * A row of velocity level has no Phi: at index 1 there is no beta^2 J, at index 3 it has the entries
+ * of index 2, and in GGL 1 on the diagonal of mu.
+ *
  * A loop over all blocks, called a walk, emits entries in a fixed order. The first walk finds the
  * pattern and the slot of each entry; later walks add values to these slots. An omitted row has 1
  * on its diagonal.
@@ -147,9 +150,10 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
   const baum_workspace *w = f->w;
-  double gain = baum_i_row_gain(w, row - 2 * w->mechanism->nv);
+  int number = row - 2 * w->mechanism->nv;
+  double gain = baum_i_row_gain(w, number);
   double damping = 2.0 * f->dae->alpha * gain;
-  double beta = f->dae->beta * gain;
+  double beta = baum_i_is_velocity_row(w->mechanism, number) ? 0.0 : f->dae->beta * gain;
   double more = w->row_gains ? 2.0 * f->dae->alpha * (gain - 1.0) * w->jv_q[at] : 0.0;
   emit(s, row, column,
        keep * (w->jw_q[at] + more - w->gamma_q[at] - damping * w->nu_q[at] +
@@ -172,14 +176,14 @@ static void emit_position(const factors *f, int row, int column, int at, double 
 
 typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
 
-/* Emit row r of a joint; its rows begin at `first` + joint->row. */
-static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, emit_fn *entry,
-                     sink *s)
+/* Emit row r of a joint; its rows begin at `first` + joint->row. A row without equation has 1 on its
+ * diagonal. */
+static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, bool equation,
+                     emit_fn *entry, sink *s)
 {
   const baum_workspace *w = f->w;
   int row = first + joint->row + r;
-  bool omitted = w->rows.omitted[joint->row + r];
-  double keep = omitted ? 0.0 : 1.0;
+  double keep = equation && !w->rows.omitted[joint->row + r] ? 1.0 : 0.0;
   emit(s, row, row, 1.0 - keep);
   for (int j = 0; j < joint->span.nl; j++) {
     int at = joint->jacobian + r * joint->span.nl + j;
@@ -201,15 +205,17 @@ static emit_fn *entry_of(baum_residual index)
 static void walk_joint(const factors *f, const baum_i_joint *joint, sink *s)
 {
   int first = 2 * f->w->mechanism->nv;
+  int positions = joint->rows - joint->velocity_rows;
   emit_fn *entry = entry_of(f->dae->index);
+  emit_fn *velocity_entry = f->dae->index == BAUM_RESIDUAL_INDEX3 ? emit_velocity : entry;
   walk_multipliers(f, joint, s);
   for (int r = 0; r < joint->rows; r++) {
-    walk_row(f, joint, r, first, entry, s);
+    walk_row(f, joint, r, first, true, r < positions ? entry : velocity_entry, s);
   }
   if (f->dae->index == BAUM_RESIDUAL_GGL) {
     walk_correction(f, joint, s);
     for (int r = 0; r < joint->rows; r++) {
-      walk_row(f, joint, r, first + f->w->mechanism->nc, emit_position, s);
+      walk_row(f, joint, r, first + f->w->mechanism->nc, r < positions, emit_position, s);
     }
   }
 }

@@ -14,6 +14,7 @@
  *   Phi'
  *   Phi
  *
+ * A row of velocity level has no Phi: Phi' takes the place of Phi at index 3, and mu_i = 0 in GGL.
  * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. If rows have different gains,
  * alpha and beta are the gains of row i.
  */
@@ -34,6 +35,14 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }
 
+/* Phi, or Phi' of rows of velocity level. */
+static void position_level_rows(const baum_workspace *w, double *out)
+{
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    out[i] = baum_i_is_velocity_row(w->mechanism, i) ? w->phi_rate[i] : w->phi[i];
+  }
+}
+
 /* Rows of lambda. */
 static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
                             double *out)
@@ -42,7 +51,7 @@ static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const 
   switch (dae->index) {
   case BAUM_RESIDUAL_INDEX2:
   case BAUM_RESIDUAL_GGL: memcpy(out, w->phi_rate, bytes); break;
-  case BAUM_RESIDUAL_INDEX3: memcpy(out, w->phi, bytes); break;
+  case BAUM_RESIDUAL_INDEX3: position_level_rows(w, out); break;
   case BAUM_RESIDUAL_INDEX1:
   default: acceleration_rows(w, dae, dv, out); break;
   }
@@ -66,6 +75,14 @@ static void position_rows(const baum_mechanism *m, const double *q, const double
   const double *rates = baum_i_rates(m, q, v, out);
   for (int i = 0; i < m->nq; i++) {
     out[i] = dq[i] - rates[i];
+  }
+}
+
+/* mu = 0 of rows of velocity level. */
+static void hold_velocity_rows(const baum_mechanism *m, const double *mu, double *rows)
+{
+  for (int i = 0; i < m->nc && m->velocity_rows; i++) {
+    rows[i] = m->velocity_rows[i] ? mu[i] : rows[i];
   }
 }
 
@@ -105,6 +122,7 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   if (dae->index == BAUM_RESIDUAL_GGL) {
     v = baum_i_corrected_velocities(w, v, lambda + nc);
     memcpy(rows + nc, w->phi, (size_t)nc * sizeof *rows);
+    hold_velocity_rows(w->mechanism, lambda + nc, rows + nc);
     hold_omitted(w, lambda + nc, rows + nc);
   }
   position_rows(w->mechanism, y, v, dy, residual);

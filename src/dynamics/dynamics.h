@@ -71,22 +71,24 @@ struct baum_workspace {
   bool jacobian_ready;  /* the last evaluation has set all blocks of J */
   int32_t metric_ready; /* W has been chosen */
 
-  double *mass;            /* block values */
-  double *jacobian;        /* block values */
-  double *phi;             /* (nc) */
-  double *phi_rate;        /* (nc) */
-  double *nu;              /* (nc) */
-  double *gamma;           /* (nc) */
-  double *force;           /* (nv) */
-  double *rhs;             /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
-  double *a;               /* (nv) last solution */
-  double *lambda;          /* (nc) last solution */
-  double *work_v;          /* (2 nv) */
-  double *work_c;          /* (2 nc) */
-  double *shift;           /* (nc) regularization of assembly */
-  double *inputs;          /* (input_count) present values */
-  const double *row_gains; /* (nc) factors of the run on the gains of single rows; NULL: 1 */
-  double *metric;          /* (nv) diagonal of W, once metric_ready */
+  double *mass;     /* block values */
+  double *jacobian; /* block values */
+  double *phi;      /* (nc) */
+  double *phi_rate; /* (nc) */
+  double *nu;       /* (nc) */
+  double *gamma;    /* (nc) */
+  double *force;    /* (nv) */
+  double *rhs;      /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
+  double *a;        /* (nv) last solution */
+  double *lambda;   /* (nc) last solution */
+  double *work_v;   /* (2 nv) */
+  double *work_c;   /* (2 nc) */
+  double *shift;    /* (nc) regularization of assembly */
+  double *inputs;   /* (input_count) present values */
+  /* (nc) factors on the gains of single rows, 1/2 for rows of velocity level, times those of the
+   * run; NULL: 1 */
+  const double *row_gains;
+  double *metric; /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) for rates of q */
   double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
@@ -274,7 +276,7 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
 /* ---- project.c, assemble.c ---- */
 
 /* Change q, and then v, by the least change in the metric of M, so that they fulfil the constraints
- * at t. May also return BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q
+ * at t. Rows of velocity level restrict the directions in which q moves. May also return BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q
  * and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
 /* Change only v, including that of fixed bodies. */
@@ -296,6 +298,9 @@ baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const dou
  * the last acceleration, motion or projection, which must have succeeded. May return
  * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE; sets no message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
+/* The same for a displacement x: the part that the projection of positions removes. It is P x
+ * unless there are rows of velocity level. */
+baum_status baum_i_displaced_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out (nv) to the smallest vector, in the metric of M, with J out = rows (nc). rows may be
  * workspace->work_c. Returns the same statuses. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);

@@ -50,6 +50,7 @@ static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
     report->conflicting_rows += fabs(w->phi[i]) >= 0.1 * report->worst_phi ? 1 : 0;
   }
   report->degrees_of_freedom = -1;
+  report->position_degrees_of_freedom = -1;
   say(report, "Cannot be assembled: %s.", reason);
   return BAUM_OK;
 }
@@ -60,11 +61,17 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   const baum_i_row_set *r = &w->rows;
   BAUM_I_TRY(baum_i_find_rows(w, 0.0, q));
   report->degrees_of_freedom = m->nv - (m->nc > 0 ? r->rank : 0);
+  report->position_degrees_of_freedom = m->nv - (m->nc > 0 ? r->position_rank : 0);
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
   baum_status status = BAUM_OK;
   say(report, "%d %s, %d coordinates, %d constraint rows.", report->degrees_of_freedom,
       report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
+  if (m->velocity_row_count > 0) {
+    say(report, " %d %s of velocity level: %d of velocity, %d of position.", m->velocity_row_count,
+        m->velocity_row_count == 1 ? "row" : "rows", report->degrees_of_freedom,
+        report->position_degrees_of_freedom);
+  }
   if (r->count > 0) {
     char names[512] = "";
     BAUM_I_TRY(baum_i_position_stage(w, 0.0, q));
@@ -87,6 +94,7 @@ static baum_status report_mobility(baum_workspace *w, double *q, void *whole)
   baum_mobility *report = whole;
   const baum_mechanism *m = w->mechanism;
   memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
+  report->velocity_rows = m->velocity_row_count;
   baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held);
   if (status == BAUM_ERR_INCONSISTENT) {
     status = report_conflict(w, report);

@@ -59,3 +59,18 @@ baum_status baum_i_least_with_rows(baum_workspace *w, const double *rows, double
   }
   return solve_whole(w, rows, out);
 }
+
+baum_status baum_i_displaced_part(baum_workspace *w, const double *x, double *out)
+{
+  const baum_mechanism *m = w->mechanism;
+  if (m->velocity_row_count == 0) {
+    return baum_i_normal_part(w, x, out);
+  }
+  BAUM_I_TRY(baum_i_need_jacobian(w));
+  memset(w->work_c, 0, (size_t)m->nc * sizeof *w->work_c);
+  baum_i_jacobian_times(&w->structure, w->jacobian, x, w->work_c);
+  for (int i = 0; i < m->nc; i++) {
+    w->work_c[i] = m->velocity_rows[i] ? 0.0 : w->work_c[i];
+  }
+  return baum_i_least_with_rows(w, w->work_c, out);
+}

@@ -5,6 +5,9 @@
  *   [ M  J^T ] [ dq     ]   [  0   ]      [ M  J^T ] [ dv     ]   [ 0        ]
  *   [ J   0  ] [ lambda ] = [ -Phi ]      [ J   0  ] [ lambda ] = [ nu - J v ]
  *
+ * Phi of rows of velocity level is 0, so positions are projected in directions that these rows
+ * permit, and the projection of velocities removes the violation of these rows.
+ *
  * Newton's method on the positions ends when a step is so small that the next one, of the order of
  * its square, is below rounding.
  */

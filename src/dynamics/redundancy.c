@@ -16,6 +16,9 @@
  * singular, ambiguous ranks of its neighbours are also accepted: they occur because the rows of
  * long members rotate only little between the neighbours.
  *
+ * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
+ * independent set of these rows, and their number gives the degrees of freedom of position.
+ *
  * To find a neighbour, the configuration is moved along x, a solution of J x = nu in which all
  * degrees of freedom take part, and is then assembled.
  */
@@ -93,9 +96,12 @@ static void set_omitted(search *s, const rank_found *rank)
   int nc = s->w->mechanism->nc;
   s->kept = *rank;
   r->rank = rank->all;
+  r->position_rank = rank->all;
   r->count = nc - rank->all;
   for (int i = 0; i < nc; i++) {
+    bool of_velocity = baum_i_is_velocity_row(s->w->mechanism, i);
     r->omitted[i] = r->selected[i] ? 0 : 1;
+    r->position_rank -= r->selected[i] && of_velocity ? 1 : 0;
   }
 }
 

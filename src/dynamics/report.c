@@ -29,13 +29,20 @@ static void report_sizes(const baum_workspace *w, bool assembled, baum_report *r
   report->rows = m->nc;
   report->redundant_rows = w->rows.count;
   report->degrees_of_freedom = assembled ? m->nv - (m->nc > 0 ? w->rows.rank : 0) : -1;
+  report->velocity_rows = m->velocity_row_count;
+  report->position_degrees_of_freedom =
+    assembled ? m->nv - (m->nc > 0 ? w->rows.position_rank : 0) : -1;
   for (int k = 0; k < m->joint_count; k++) {
     report->constant_rows += m->joints[k]->type->scleronomic ? m->joints[k]->rows : 0;
   }
   say(report, "mechanism     bodies %d, joints %d, forces %d; velocities %d, rows %d",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc);
   if (assembled) {
-    say(report, ", degrees of freedom %d\n", report->degrees_of_freedom);
+    say(report, ", degrees of freedom %d", report->degrees_of_freedom);
+    if (report->velocity_rows > 0) {
+      say(report, " of velocity, %d of position", report->position_degrees_of_freedom);
+    }
+    say(report, "\n");
   } else {
     say(report, "\n              cannot be assembled\n");
   }

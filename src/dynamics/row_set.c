@@ -184,6 +184,7 @@ baum_status baum_i_omit_rows(baum_workspace *w, const unsigned char *omitted)
 void baum_i_copy_rows(baum_workspace *to, const baum_workspace *from)
 {
   to->rows.rank = from->rows.rank;
+  to->rows.position_rank = from->rows.position_rank;
   to->rows.rank_at_start = from->rows.rank_at_start;
   to->rows.count = from->rows.count;
   memcpy(to->rows.omitted, from->rows.omitted, (size_t)from->mechanism->nc);
@@ -291,7 +292,9 @@ static double find_missed(const baum_workspace *w, int row, double alpha, double
   const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, row)];
   int nl = joint->span.nl;
   const double *entry = w->jacobian + joint->jacobian + (ptrdiff_t)(row - joint->row) * nl;
-  double missed = 2.0 * alpha * w->phi_rate[row] + beta * beta * w->phi[row] - w->gamma[row];
+  double f = baum_i_row_gain(w, row);
+  double missed =
+    2.0 * f * alpha * w->phi_rate[row] + f * f * beta * beta * w->phi[row] - w->gamma[row];
   *size = fabs(missed);
   for (int k = 0; k < nl; k++) {
     double term = entry[k] * w->a[joint->span.columns[k]];

@@ -11,7 +11,8 @@
 #include <baum/dynamics.h>
 
 typedef struct baum_i_row_set {
-  int rank; /* of the mechanism, see redundancy.c */
+  int rank;          /* of the mechanism, see redundancy.c */
+  int position_rank; /* the same without rows of velocity level */
   /* rank of J at the initial configuration, which is (nearly) singular if this is less than
    * `rank` */
   int rank_at_start;

@@ -12,7 +12,7 @@
 #include "base/message.h"
 
 /* Factors on the entries of the full matrix, which is that of dae_matrix.c. */
-enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
+enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, BY_V, FACTORS };
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
@@ -33,6 +33,9 @@ static unsigned char factor_of(int nv, int row, int column)
 {
   if (row < nv) {
     return BY_NOTHING;
+  }
+  if (row >= 2 * nv && column >= nv && column < 2 * nv) {
+    return BY_V; /* J of rows of velocity level */
   }
   if (row >= 2 * nv || column >= 2 * nv) {
     return BY_ONE;
@@ -101,8 +104,10 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   double c = ratios->by_a / ratios->by_v;
   BAUM_I_TRY(baum_i_residual_matrix_fill(matrix->form, w, &dae, c, t, y, dy, matrix->full));
-  const double factors[FACTORS] = {
-    [BY_SCALE] = ratios->scale, [BY_SCALE_V] = ratios->scale * ratios->by_v, [BY_ONE] = 1.0};
+  const double factors[FACTORS] = {[BY_SCALE] = ratios->scale,
+                                   [BY_SCALE_V] = ratios->scale * ratios->by_v,
+                                   [BY_ONE] = 1.0,
+                                   [BY_V] = ratios->by_v};
   const baum_i_compressed *p = &matrix->pattern;
   const int32_t *slot = p->slot;
   int32_t full = count_full(matrix);

@@ -6,8 +6,9 @@
  *
  *   [ scale A   J^T ] [ dq ]     [ scale (M v' + J^T lambda - g) ]
  *   [ J         0   ] [ x  ] = - [ Phi                           ]
+ *   [ K         0   ]            [ Phi' of rows of velocity level ]
  *
- *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q
+ *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q,   K = by_v J + (J v)_q - nu_q
  *
  * If the product scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O.
  * Bauchau, A. Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.

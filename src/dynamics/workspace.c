@@ -77,7 +77,7 @@ static baum_status make_structure(baum_workspace *w)
   const baum_mechanism *m = w->mechanism;
   baum_i_mass_block *mass = baum_i_alloc((size_t)m->body_count, sizeof *mass);
   baum_i_row_block *rows = baum_i_alloc((size_t)m->joint_count, sizeof *rows);
-  w->structure = (baum_i_kkt_structure){.nv = m->nv, .nc = m->nc};
+  w->structure = (baum_i_kkt_structure){.nv = m->nv, .nc = m->nc, .last_rows = m->velocity_rows};
   w->structure.mass_blocks = mass;
   w->structure.row_blocks = rows;
   if (!mass || !rows) {
@@ -115,6 +115,7 @@ static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
   w->choice = choice;
   BAUM_I_TRY(baum_i_point_create(w->mechanism, &w->point));
   BAUM_I_TRY(make_arrays(w));
+  w->row_gains = w->mechanism->row_gains;
   set_inputs(w);
   BAUM_I_TRY(make_structure(w));
   return baum_i_kkt_create(&w->structure, choice, &w->kkt);

@@ -81,7 +81,9 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  * component of the estimated error of q normal to the constraint manifold is removed, because the
  * projection also removes this component of the true error:
  *
- *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
+ *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q,
+ *
+ * where the last J is without the rows of velocity level, which do not restrict q.
  *
  * The estimated error e_v of v is not changed, because the projection does not remove its whole
  * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q.
@@ -126,7 +128,7 @@ static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype
   if (status == BAUM_OK && error) {
     double *e = N_VGetArrayPointer(error);
     double *normal = N_VGetArrayPointer(run->work);
-    status = baum_i_normal_part(w, baum_i_tangent(w->mechanism, state, e, w->work_q), normal);
+    status = baum_i_displaced_part(w, baum_i_tangent(w->mechanism, state, e, w->work_q), normal);
     subtract(status == BAUM_OK ? nq : 0, baum_i_rates(w->mechanism, state, normal, w->work_q), e);
   }
   return answer_projection(&run->sundials, status);

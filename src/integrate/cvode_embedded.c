@@ -18,6 +18,8 @@
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
+ * Rows of velocity level have no Phi, so their beta_i is 0.
+ *
  * If q is not a vector, r_q stands for N^+ r_q in these equations, and dq = r_q + gamma N dv.
  *
  * Backward in time both alpha and gamma change their signs. Derivatives of forces are part of the
@@ -46,11 +48,9 @@ static int answer(baum_i_sundials *sundials, baum_status status)
 }
 
 /* Compute (s r_v + gamma beta^2 r_q) / (1 + s). */
-static double weigh(const baum_i_problem *problem, double gamma, double factor, double r_v,
-                    double r_q)
+static double weigh(double alpha, double beta, double gamma, double r_v, double r_q)
 {
-  double beta = factor * problem->beta;
-  double s = 2.0 * problem->direction * factor * problem->alpha * gamma;
+  double s = 2.0 * alpha * gamma;
   double stiffness = gamma * beta * beta;
   s += gamma * stiffness;
   return (s * r_v + stiffness * r_q) / (1.0 + s);
@@ -59,8 +59,9 @@ static double weigh(const baum_i_problem *problem, double gamma, double factor, 
 static baum_status solve_alike(const baum_i_problem *problem, double gamma, const double *r_q,
                                const double *r_v, double *work, double *normal)
 {
+  double alpha = problem->direction * problem->alpha;
   for (int i = 0; i < problem->workspace->mechanism->nv; i++) {
-    work[i] = weigh(problem, gamma, 1.0, r_v[i], r_q[i]);
+    work[i] = weigh(alpha, problem->beta, gamma, r_v[i], r_q[i]);
   }
   return baum_i_normal_part(problem->workspace, work, normal);
 }
@@ -77,7 +78,9 @@ static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, co
   baum_i_jacobian_times(&w->structure, w->jacobian, r_v, rows_v);
   baum_i_jacobian_times(&w->structure, w->jacobian, r_q, rows_q);
   for (int i = 0; i < nc; i++) {
-    rows_v[i] = weigh(problem, gamma, w->row_gains[i], rows_v[i], rows_q[i]);
+    double f = w->row_gains[i];
+    double beta = baum_i_is_velocity_row(w->mechanism, i) ? 0.0 : f * problem->beta;
+    rows_v[i] = weigh(f * problem->direction * problem->alpha, beta, gamma, rows_v[i], rows_q[i]);
   }
   return baum_i_least_with_rows(w, rows_v, normal);
 }

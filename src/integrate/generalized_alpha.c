@@ -4,6 +4,7 @@
  * not a vector: O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137), order 2:
  *
  *   M v'_1 + J^T lambda_1 = g,  Phi(t_1, q_1) = 0                                 at t_1 = t + h
+ *   (rows of velocity level: J v_1 = nu at t_1, q_1)
  *   q_1 = q moved by x,  x = h v + h^2 ((1/2 - beta) a + beta a_1)                (nq), x (nv)
  *   v_1 = v + h ((1 - gamma) a + gamma a_1)                                       (nv)
  *   (1 - alpha_m) a_1 + alpha_m a = (1 - alpha_f) v'_1 + alpha_f v'               (nv)

@@ -9,6 +9,8 @@
  *   index 3   Phi
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
+ * Rows of velocity level have Phi' also at index 3, and mu = 0 in GGL.
+ *
  * IDA solves these equations reliably under the following conditions, which were found by
  * measurement:
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3

@@ -40,7 +40,8 @@
  *
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
- * with the further entries R = r^2, C = r^-1 for mu. The solution is therefore x = C A(c0)^-1 R b.
+ * with the further entries R = r^2, C = r^-1 for mu, and with k = 2 for rows of velocity level at
+ * index 3. The solution is therefore x = C A(c0)^-1 R b.
  * IDA's own factor 2 / (1 + r) is a compromise for stiff equations. With it, each iteration leaves
  * the fraction (1 - r) / (1 + r) of the error of the multipliers. */
 #include "integrate/integrator.h"
@@ -250,8 +251,9 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
   double *b = N_VGetArrayPointer(right);
   double *rows = b + mechanism->nq + mechanism->nv;
   scale(b, mechanism->nq, ratio);
-  if (newton->index != BAUM_RESIDUAL_INDEX1) {
-    scale(rows, mechanism->nc, is_index3(newton) ? ratio * ratio : ratio);
+  for (int i = 0; i < mechanism->nc && newton->index != BAUM_RESIDUAL_INDEX1; i++) {
+    bool position = is_index3(newton) && !baum_i_is_velocity_row(mechanism, i);
+    rows[i] *= position ? ratio * ratio : ratio;
   }
   if (newton->index == BAUM_RESIDUAL_GGL) {
     scale(rows + mechanism->nc, mechanism->nc, ratio * ratio);

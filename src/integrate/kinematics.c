@@ -409,6 +409,14 @@ static baum_status make_configurations(kinematics_run *run, const baum_mechanism
 
 static baum_status check_freedom(const baum_workspace *w)
 {
+  if (w->mechanism->velocity_row_count > 0) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "kinematics: %d constraint %s of velocity level, so the motion does not "
+                       "follow from Phi(q, t) = 0 alone; choose an integrator of the equations of "
+                       "motion, such as baum_rk4 or baum_cvode_adams",
+                       w->mechanism->velocity_row_count,
+                       w->mechanism->velocity_row_count == 1 ? "row is" : "rows are");
+  }
   int degrees_of_freedom = w->mechanism->nv - (w->mechanism->nc > 0 ? w->rows.rank : 0);
   if (degrees_of_freedom == 0) {
     return BAUM_OK;

@@ -218,9 +218,23 @@ static baum_status check_body(const baum_i_body *body)
   return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
-/* Refuse variable masses and forces that depend on velocities. */
+static baum_status check_joint(const baum_i_joint *joint)
+{
+  if (joint->velocity_rows == 0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                     "simulation options: rattle needs constraints of positions, but %s has rows "
+                     "of velocity level; take rk4, rk8 or generalized_alpha",
+                     baum_i_label(&joint->element).text);
+}
+
+/* Refuse variable masses, forces that depend on velocities, and constraints of velocities alone. */
 static baum_status check_mechanism(const baum_mechanism *m)
 {
+  for (int k = 0; k < m->joint_count; k++) {
+    BAUM_I_TRY(check_joint(m->joints[k]));
+  }
   for (int i = 1; i <= m->body_count; i++) {
     BAUM_I_TRY(check_body(m->bodies[i]));
   }

@@ -84,6 +84,26 @@ baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h,
   return BAUM_OK;
 }
 
+baum_status baum_stability_velocity_at(const baum_integrator *integrator, double alpha_h,
+                                       baum_amplification *out, size_t caller_size)
+{
+  BAUM_I_TRY(check_integrator(integrator));
+  BAUM_I_TRY(baum_i_check_finite(LABEL, "alpha_h", "", alpha_h));
+  BAUM_I_TRY(baum_i_check_sized(out, caller_size, "baum_stability_velocity_at"));
+  baum_amplification amplification = {.struct_size = 0};
+  baum_i_velocity_amplification(&integrator->method, alpha_h, &amplification);
+  baum_i_give_sized(out, caller_size, &amplification, sizeof amplification);
+  return BAUM_OK;
+}
+
+baum_status baum_stability_velocity_limit(const baum_integrator *integrator, double *alpha_h)
+{
+  BAUM_I_TRY(check_fixed_step(integrator));
+  BAUM_I_TRY(check_out(alpha_h, "alpha_h"));
+  *alpha_h = baum_i_velocity_limit(&integrator->method);
+  return BAUM_OK;
+}
+
 const char *baum_stability_statement(const baum_integrator *integrator)
 {
   if (!integrator) {

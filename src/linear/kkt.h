@@ -38,6 +38,8 @@ typedef struct baum_i_kkt_structure {
   const baum_i_mass_block *mass_blocks;
   int row_block_count;
   const baum_i_row_block *row_blocks;
+  /* (nc) 1: of dependent rows, omit this one rather than a row with 0; NULL: all are alike */
+  const unsigned char *last_rows;
 } baum_i_kkt_structure;
 
 typedef struct baum_i_kkt_values {
@@ -120,7 +122,8 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
  * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
  * its length is at most `tolerance` after orthogonalization against the independent rows before it.
  * independent[i] (nc) receives 1 for the rows of one largest independent set, else 0. Rows with
- * independent[i] != 0 on entry are preferred, then rows with a lower number. BAUM_OK,
+ * independent[i] != 0 on entry are preferred, then rows with a lower number, but any row is
+ * preferred to the structure's last_rows. BAUM_OK,
  * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,

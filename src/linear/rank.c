@@ -75,12 +75,14 @@ static bool list_entries(const baum_i_kkt_structure *structure, const double *ja
   return true;
 }
 
-/* Lists marked rows first. */
-static void order_rows(int nc, const unsigned char *marked, int32_t *order)
+/* Lists the structure's last rows last, and otherwise marked rows first. */
+static void order_rows(const baum_i_kkt_structure *structure, const unsigned char *marked,
+                       int32_t *order)
 {
-  for (int pass = 0; pass < 2; pass++) {
-    for (int32_t i = 0; i < nc; i++) {
-      if ((marked[i] == 0) == (pass == 1)) {
+  for (int pass = 0; pass < 4; pass++) {
+    for (int32_t i = 0; i < structure->nc; i++) {
+      bool last = structure->last_rows && structure->last_rows[i];
+      if ((last ? 2 : 0) + (marked[i] == 0 ? 1 : 0) == pass) {
         *order++ = i;
       }
     }
@@ -93,7 +95,7 @@ static baum_status find_rank(const baum_i_kkt_structure *structure, const transp
   const baum_i_sparse_columns pattern = {structure->nv, structure->nc, columns->start,
                                          columns->velocity};
   baum_i_sparse_qr *qr = NULL;
-  order_rows(structure->nc, independent, columns->order);
+  order_rows(structure, independent, columns->order);
   BAUM_I_TRY(baum_i_sparse_qr_create(&pattern, columns->order, &qr));
   *rank = baum_i_sparse_qr_factor(qr, columns->value, tolerance, independent);
   baum_i_sparse_qr_destroy(qr);

@@ -122,6 +122,8 @@ static void place_joint(baum_i_element *element, const baum_i_totals *before)
   joint->row = (int)before->rows;
   joint->jacobian = (int)before->blocks;
   joint->square = (int)before->squares;
+  joint->velocity_rows =
+    joint->type->velocity_rows ? joint->type->velocity_rows(joint->element.def) : 0;
 }
 
 static void close_joint_list(baum_mechanism *mechanism, const baum_i_totals *all)

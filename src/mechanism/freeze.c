@@ -42,6 +42,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->position_scale);
   baum_i_free(mechanism->fixed_q);
   baum_i_free(mechanism->places);
+  baum_i_free(mechanism->velocity_rows);
+  baum_i_free(mechanism->row_gains);
   mechanism->parameters = NULL;
   mechanism->design_q = NULL;
   mechanism->design_v = NULL;
@@ -50,6 +52,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   mechanism->position_scale = NULL;
   mechanism->fixed_q = NULL;
   mechanism->places = NULL;
+  mechanism->velocity_rows = NULL;
+  mechanism->row_gains = NULL;
   mechanism->frozen = false;
 }
 
@@ -196,6 +200,33 @@ static baum_status make_arrays(baum_mechanism *mechanism)
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
+/* Mark the rows of velocity level. Their equation is J a = gamma - alpha (J v - nu), with alpha where
+ * rows of positions have 2 alpha. */
+static baum_status mark_velocity_rows(baum_mechanism *m)
+{
+  m->velocity_row_count = 0;
+  for (int k = 0; k < m->joint_count; k++) {
+    m->velocity_row_count += m->joints[k]->velocity_rows;
+  }
+  if (m->velocity_row_count == 0) {
+    return BAUM_OK;
+  }
+  m->velocity_rows = baum_i_alloc((size_t)m->nc, 1);
+  m->row_gains = baum_i_alloc((size_t)m->nc, sizeof *m->row_gains);
+  if (!m->velocity_rows || !m->row_gains) {
+    return baum_i_fail_memory();
+  }
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    for (int i = 0; i < joint->rows; i++) {
+      bool marked = i >= joint->rows - joint->velocity_rows;
+      m->velocity_rows[joint->row + i] = marked ? 1 : 0;
+      m->row_gains[joint->row + i] = marked ? 0.5 : 1.0;
+    }
+  }
+  return BAUM_OK;
+}
+
 static bool has_spatial_elements(const baum_mechanism *m)
 {
   bool found = false;
@@ -267,6 +298,7 @@ static baum_status build(baum_mechanism *mechanism)
     BAUM_I_TRY(number_family(mechanism, baum_i_families[i]));
   }
   BAUM_I_TRY(make_arrays(mechanism));
+  BAUM_I_TRY(mark_velocity_rows(mechanism));
   place_bodies(mechanism);
   BAUM_I_TRY(lower_elements(mechanism));
   baum_i_find_fixed_bodies(mechanism);

@@ -6,6 +6,12 @@
 #include "mechanism/identify.h"
 #include "mechanism/model.h"
 
+/* Tell whether a row is of velocity level: J v = nu without Phi. */
+static inline bool baum_i_is_velocity_row(const baum_mechanism *mechanism, int row)
+{
+  return mechanism->velocity_rows && mechanism->velocity_rows[row];
+}
+
 /* Add an owner of a mechanism. Each owner must destroy it. */
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
 

@@ -88,10 +88,11 @@ typedef struct baum_i_joint {
   baum_i_span span;
   int row;
   int rows;
-  int jacobian; /* start of its rows x nl values */
-  int square;   /* start of its nl x nl values, for second derivatives */
-  bool fixed;   /* between fixed bodies */
-  bool fixes;   /* a weld that determines the pose of a fixed body */
+  int velocity_rows; /* the last so many rows are of velocity level: J v = nu without Phi */
+  int jacobian;      /* start of its rows x nl values */
+  int square;        /* start of its nl x nl values, for second derivatives */
+  bool fixed;        /* between fixed bodies */
+  bool fixes;        /* a weld that determines the pose of a fixed body */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -365,6 +366,9 @@ struct baum_i_joint_type {
   void (*replace_law)(double *parameters, double t0, const double s[3]);
   int row_count;                /* of every joint; 0: rows() returns it */
   int (*rows)(const void *def); /* rows of a joint, or NULL */
+  /* Return how many of the rows of a joint are of velocity level; they are the last ones. Their Phi
+   * is 0. NULL: none. */
+  int (*velocity_rows)(const void *def);
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
    * BAUM_ERR_ARGUMENT and sets the message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -486,6 +490,9 @@ struct baum_mechanism {
   bool *held;                     /* (nv) */
   double *scale;                  /* (nv) size of a relevant change of each coordinate */
   double *position_scale;         /* (nq) size of a relevant change of each position */
+  int velocity_row_count;         /* rows of velocity level */
+  unsigned char *velocity_rows;   /* (nc) 1: row of velocity level; NULL: there are none */
+  double *row_gains;              /* (nc) 1/2 for rows of velocity level, else 1; NULL: all 1 */
   int fixed_count;                /* fixed bodies without ground */
   int fixed_nv;                   /* number of their velocities */
   double *fixed_q;                /* (nq) their positions */

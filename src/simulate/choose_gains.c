@@ -79,12 +79,17 @@ static baum_status copy_row_gains(baum_simulation *run)
   for (int i = 0; i < nc; i++) {
     BAUM_I_TRY(check_factor(run, i));
   }
-  run->row_gains = baum_i_copy(o->row_gains, (size_t)nc, sizeof *run->row_gains);
-  if (!run->row_gains && nc > 0) {
+  run->row_gains = baum_i_alloc(2 * (size_t)nc, sizeof *run->row_gains);
+  if (!run->row_gains) {
     return baum_i_fail_memory();
   }
+  const double *own = run->workspace->mechanism->row_gains;
+  for (int i = 0; i < nc; i++) {
+    run->row_gains[i] = o->row_gains[i];
+    run->row_gains[nc + i] = o->row_gains[i] * (own ? own[i] : 1.0);
+  }
   o->row_gains = run->row_gains;
-  run->workspace->row_gains = run->row_gains;
+  run->workspace->row_gains = run->row_gains + nc;
   return BAUM_OK;
 }
 
@@ -105,25 +110,29 @@ static baum_status name_row(const baum_simulation *run, int row, baum_status sta
                      baum_i_row_label(run->workspace->mechanism, row).text, baum_message());
 }
 
-/* Check the gains of all rows. Equal factors of successive rows are checked once. */
+/* Check the gains of all rows. Equal factors of successive rows of one kind are checked once. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_gain_context of_row = *context;
   double last = 1.0;
-  for (int i = 0; i < run->workspace->mechanism->nc; i++) {
+  for (int i = 0; i < m->nc; i++) {
     double f = run->row_gains[i];
-    if (f == last) {
+    bool velocity = baum_i_is_velocity_row(m, i);
+    if (f == last && velocity == of_row.no_position_rows) {
       continue;
     }
     last = f;
+    of_row.velocity_rows = of_row.no_position_rows = velocity;
     const baum_gains gains = baum_gains_fixed(f * run->gains.alpha, f * run->gains.beta);
     baum_i_gain_choice own;
-    baum_status status = baum_i_gains_choose(&gains, context, &own);
+    baum_status status = baum_i_gains_choose(&gains, &of_row, &own);
     if (status != BAUM_OK) {
       return name_row(run, i, status);
     }
     keep_worse(run, &own);
     if (own.doubtful) {
-      int joint = baum_i_row_joint(run->workspace->mechanism, i);
+      int joint = baum_i_row_joint(m, i);
       baum_i_run_warn(run, BAUM_WARNING_GAINS, run->trial.t, joint,
                       "with the factor %g of row_gains: %s", f, own.why);
     }
@@ -136,6 +145,7 @@ static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_conte
 baum_status baum_i_run_choose_gains(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
+  const baum_mechanism *m = run->workspace->mechanism;
   baum_i_problem *problem = &run->problem;
   if (o->formulation != BAUM_FORMULATION_BAUMGARTE) {
     return BAUM_OK;
@@ -147,6 +157,8 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
     .step = o->step,
     .rule_default = run->integrator->gains,
     .allow_unstable = o->allow_unstable,
+    .velocity_rows = m->velocity_row_count > 0,
+    .no_position_rows = m->velocity_row_count > 0 && m->velocity_row_count == m->nc,
   };
   int32_t rule =
     o->gains.rule == BAUM_GAINS_DEFAULT ? (int32_t)run->integrator->gains : o->gains.rule;

@@ -25,8 +25,13 @@ static void explain_mechanism(baum_simulation *run)
   say(run,
       "mechanism     bodies %d, joints %d, forces %d; velocities %d, constraint rows %d, degrees "
       "of freedom "
-      "%d\n",
+      "%d",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank);
+  if (m->velocity_row_count > 0) {
+    say(run, " of velocity, %d of position; %d %s of velocity level", m->nv - r->position_rank,
+        m->velocity_row_count, m->velocity_row_count == 1 ? "row" : "rows");
+  }
+  say(run, "\n");
   if (r->count > 0) {
     say(run, "              %d redundant %s omitted from every solution\n", r->count,
         r->count == 1 ? "row" : "rows");
@@ -34,10 +39,27 @@ static void explain_mechanism(baum_simulation *run)
   if (m->nv == rank) {
     say(run,
         "              no degree of freedom is left: the motion follows from the drivers alone%s\n",
-        run->integrator->without_freedom ? ""
-                                         : "; kinematics gives it exactly, without integration");
+        run->integrator->without_freedom || m->velocity_row_count > 0
+          ? ""
+          : "; kinematics gives it exactly, without integration");
   }
   say(run, "scale         %.6g m, and 1 rad\n", m->length);
+}
+
+/* Describe what the formulation does with rows of velocity level. */
+static void explain_velocity_rows(baum_simulation *run)
+{
+  static const char *const TEXTS[] = {
+    [BAUM_FORMULATION_BAUMGARTE] = "J a = gamma - alpha (J v - nu)",
+    [BAUM_FORMULATION_PROJECTION] = "J a = gamma, then only v is projected for them",
+    [BAUM_FORMULATION_GGL] = "J v = nu",
+    [BAUM_FORMULATION_INDEX3] = "J v = nu",
+  };
+  baum_formulation f = run->options.formulation;
+  bool differs = f != BAUM_FORMULATION_UNSTABILIZED && f != BAUM_FORMULATION_INDEX2;
+  if (run->workspace->mechanism->velocity_row_count > 0 && differs) {
+    say(run, "              rows of velocity level: %s\n", TEXTS[f]);
+  }
 }
 
 static void explain_factor(baum_simulation *run, const char *name, double value, double without)
@@ -94,6 +116,7 @@ void baum_i_run_explain(baum_simulation *run)
   if (!run->integrator->without_freedom) {
     say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
         FORMULATIONS[run->options.formulation]);
+    explain_velocity_rows(run);
   }
   explain_integrator(run);
   if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {

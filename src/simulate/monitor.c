@@ -122,7 +122,7 @@ static void predict(const baum_simulation *run, baum_counters *c)
   double alpha = run->problem.alpha;
   double beta = run->problem.beta;
   double h = run->options.step;
-  bool predicted = run->integrator->predicts_violation && !run->row_gains &&
+  bool predicted = run->integrator->predicts_violation && !run->workspace->row_gains &&
                    run->problem.formulation == BAUM_FORMULATION_BAUMGARTE &&
                    run->gains.amplification.stability == BAUM_STABLE &&
                    fmin(alpha, beta) * h >= STEADY_GAIN;
@@ -162,6 +162,33 @@ static void observe_large(baum_simulation *run, double t)
   }
 }
 
+/* Check the largest violation of rows of velocity level, relative to the speed of the motion. As for
+ * positions, this is repeated only after the violation has doubled. */
+static void observe_large_velocities(baum_simulation *run, double t)
+{
+  baum_workspace *w = run->workspace;
+  const baum_mechanism *m = w->mechanism;
+  double largest = run->counters.max_phi_rate;
+  if (m->velocity_row_count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_VIOLATION) ||
+      largest <= 2.0 * run->judged_phi_rate || baum_i_need_jacobian(w) != BAUM_OK) {
+    return;
+  }
+  run->judged_phi_rate = largest;
+  double rate = fmax(run->problem.rate, baum_i_scaled_size(m, run->state.v));
+  int row = -1;
+  (void)baum_i_row_sizes(w, w->phi_rate, &row);
+  for (int i = 0; i < m->nc; i++) {
+    if (m->velocity_rows[i] && w->work_c[i] > LARGE * rate) {
+      baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
+                      "t = %.9g s: %s, of velocity level, is violated by %.3g of the velocities: "
+                      "the motion has drifted far or grows without bound; take other gains, a "
+                      "smaller step, or projection",
+                      t, baum_i_row_label(m, i).text, w->work_c[i] / rate);
+      return;
+    }
+  }
+}
+
 void baum_i_run_excuse_violation(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -185,6 +212,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
     run->largest_gamma = fmax(run->largest_gamma, size);
   }
   observe_large(run, t);
+  observe_large_velocities(run, t);
   observe_singular(run, t);
   observe_redundant(run, t);
 }

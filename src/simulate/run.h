@@ -50,6 +50,7 @@ struct baum_simulation {
   double largest_gamma;       /* over all rows and steps */
   double rows_looked_at;      /* [s] last check of the redundant rows with KLU or QR; see rows.c */
   double judged_phi;          /* max_phi when it was last compared with its limit */
+  double judged_phi_rate;     /* max_phi_rate, likewise, for rows of velocity level */
   int64_t near_singular_seen; /* workspace->near_singular at the last check */
   int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that statuses have announced */
   baum_counters counters;
@@ -60,7 +61,8 @@ struct baum_simulation {
   baum_i_problem problem;
   void *self; /* memory of the integrator; may be NULL for a fixed-step method */
 
-  double *row_gains;       /* (nc) own copy of the option, or NULL */
+  /* (2 nc) own copy of the option, and its products with those of the mechanism; or NULL */
+  double *row_gains;
   baum_i_account *account; /* energy account, see account.h; NULL: none */
   baum_workspace
     *beside[2]; /* account's and companion's workspaces, or NULL; both call user functions */

@@ -13,7 +13,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 12, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 13, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
 /* The first parts of the list, in this order, which are checked. All other parts are only
  * copied. */

@@ -5,6 +5,9 @@
  *   s^2 + 2 alpha s + beta^2 = 0                                                     (17)
  *   mu = h s,  A = |alpha h|,  B = (beta h)^2:  mu^2 + 2 A mu + B = 0,  mu = -A +- sqrt(A^2 - B)
  *
+ * Rows of velocity level: J a = gamma - alpha Phi' gives (Phi')' + alpha Phi' = 0, and the single
+ * mode mu = -A.
+ *
  * One-step methods:     z = R(mu), R: stability polynomial (Hairer, Wanner 1996, section IV.2).
  *                       Explicit Euler has R = 1 + mu, which gives
  *                       z^2 + (2 A - 2) z + (B - 2 A + 1) = 0                        (19)
@@ -302,4 +305,36 @@ void baum_i_amplification(const baum_i_method *method, double alpha_h, double be
   out->spectral_radius = hypot(out->z[0][0], out->z[0][1]);
   out->damping = -excess(w[0]);
   out->stability = classify(excess(w[0]));
+}
+
+/* ---- Rows of velocity level ------------------------------------------------ */
+
+static const baum_i_method *method_of_velocities(const baum_i_method *method)
+{
+  return method->kind == BAUM_I_METHOD_SEMI_IMPLICIT ? &explicit_euler : method;
+}
+
+double baum_i_velocity_limit(const baum_i_method *method)
+{
+  return baum_i_stability_limit(method_of_velocities(method), 1.0); /* mu = -A, twice */
+}
+
+void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
+                                   baum_amplification *out)
+{
+  bool has_region =
+    method->kind != BAUM_I_METHOD_VARIABLE_STEP && method->kind != BAUM_I_METHOD_WITHOUT_GAINS;
+  baum_i_amplification(method, 0.0, 0.0, out);
+  if (!has_region) {
+    return;
+  }
+  number w = increment(method_of_velocities(method), (number){-alpha_h, 0.0});
+  double growth = excess(w);
+  bool finite = growth < HUGE_VAL;
+  out->z[0][0] = finite ? 1.0 + w.re : HUGE_VAL;
+  out->z[0][1] = finite ? w.im : 0.0;
+  out->z[1][0] = out->z[1][1] = (double)NAN;
+  out->spectral_radius = hypot(out->z[0][0], out->z[0][1]);
+  out->damping = -growth;
+  out->stability = classify(growth);
 }

@@ -45,6 +45,12 @@ const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_f
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,
                           baum_amplification *out);
 
+/* The same for rows of velocity level, whose single mode is mu = -alpha h: z[1] is NaN. The second
+ * function returns the alpha h up to which the method is stable for them. */
+void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
+                                   baum_amplification *out);
+double baum_i_velocity_limit(const baum_i_method *method);
+
 /* Returns spectral radius - 1, which is accurate even for small gains. This and all functions below
  * are for fixed-step methods only. */
 double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, double beta2_h2);

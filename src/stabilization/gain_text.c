@@ -71,6 +71,19 @@ baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_
                      sqrt(good[1]) / h);
 }
 
+baum_status baum_i_gain_refuse_velocities(const baum_i_gain_context *context,
+                                          const baum_i_gain_draft *gains,
+                                          const baum_amplification *velocities)
+{
+  double limit = baum_i_velocity_limit(context->method);
+  return baum_i_fail(BAUM_ERR_UNSTABLE,
+                     "gains alpha = %.6g 1/s with %s and h = %.6g s: for rows of velocity level "
+                     "alpha h = %.6g has spectral radius %s > 1, violations of velocities grow; "
+                     "stable with this integrator is alpha h < %.6g, that is alpha < %.4g 1/s",
+                     gains->alpha, context->integrator, context->step, gains->alpha_h,
+                     radius_text(velocities->spectral_radius).text, limit, limit / context->step);
+}
+
 baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, double alpha_h,
                                         double beta2_h2, double radius)
 {
@@ -116,6 +129,18 @@ typedef struct clause {
   bool warns;
 } clause;
 
+/* The clause about rows of velocity level at a fixed step. */
+static clause velocity_clause(const baum_i_gain_draft *gains, const baum_amplification *velocities)
+{
+  bool undamped = gains->alpha_h == 0.0;
+  return (clause){
+    baum_i_text_of("rows of velocity level: alpha h = %.6g, spectral radius %s, %s%s%s",
+                   gains->alpha_h, radius_text(velocities->spectral_radius).text,
+                   class_text[velocities->stability], undamped ? "; " : "",
+                   undamped ? UNDAMPED : ""),
+    velocities->stability != BAUM_STABLE};
+}
+
 static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                 const baum_amplification *amplification)
 {
@@ -139,9 +164,14 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
 
 /* With explicit and Adams methods, the error test ensures that violations decay. BDF may use orders
  * and steps with which they grow (statement.c). */
-static clause variable_step_clause(baum_i_method_family family, const baum_i_gain_draft *gains,
-                                   double max_step)
+static clause variable_step_clause(const baum_i_gain_context *context,
+                                   const baum_i_gain_draft *gains, double max_step)
 {
+  baum_i_method_family family = context->family;
+  if (context->no_position_rows && !isfinite(max_step)) {
+    return gains->alpha > 0.0 ? (clause){{"variable step"}, false}
+                              : (clause){baum_i_text_of("variable step; %s", UNDAMPED), true};
+  }
   if (gains->beta == 0.0 && gains->alpha > 0.0) {
     return (clause){{"variable step; warning: beta = 0 leaves violations of position"}, true};
   }
@@ -164,12 +194,24 @@ static clause variable_step_clause(baum_i_method_family family, const baum_i_gai
 }
 
 void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
-                         const baum_i_gain_draft *gains, baum_i_gain_choice *choice)
+                         const baum_i_gain_draft *gains, const baum_i_two_amplifications *two,
+                         baum_i_gain_choice *choice)
 {
-  const clause about = choice->amplification.stability == BAUM_VARIABLE_STEP
-                         ? variable_step_clause(context->family, gains, choice->max_step)
-                         : fixed_step_clause(context, gains, &choice->amplification);
-  choice->doubtful = about.warns;
-  baum_i_print(choice->why, sizeof choice->why, "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s",
-               rule, gains->alpha, gains->beta, gains->note, about.text.text);
+  clause about[2] = {{.warns = false}, {.warns = false}};
+  int count = 0;
+  if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
+    about[count++] = variable_step_clause(context, gains, choice->max_step);
+  } else {
+    if (!context->no_position_rows) {
+      about[count++] = fixed_step_clause(context, gains, &two->positions);
+    }
+    if (context->velocity_rows) {
+      about[count++] = velocity_clause(gains, &two->velocities);
+    }
+  }
+  choice->doubtful = about[0].warns || about[1].warns;
+  baum_i_print(choice->why, sizeof choice->why,
+               "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s%s%s", rule, gains->alpha,
+               gains->beta, gains->note, about[0].text.text, count > 1 ? "; " : "",
+               about[1].text.text);
 }

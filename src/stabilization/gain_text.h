@@ -16,14 +16,27 @@ typedef struct baum_i_gain_draft {
   char note[BAUM_I_GAIN_NOTE_SIZE];
 } baum_i_gain_draft;
 
+/* Amplification of rows of positions and of rows of velocity level. */
+typedef struct baum_i_two_amplifications {
+  baum_amplification positions;
+  baum_amplification velocities;
+  bool by_velocities; /* the mechanism has rows of velocity level, and they are the worse ones */
+} baum_i_two_amplifications;
+
 /* Sets `why` and `doubtful` of a choice. All its numbers must be set. */
 void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
-                         const baum_i_gain_draft *gains, baum_i_gain_choice *choice);
+                         const baum_i_gain_draft *gains, const baum_i_two_amplifications *two,
+                         baum_i_gain_choice *choice);
 
 /* Fails with BAUM_ERR_UNSTABLE. The message contains the region, the requested point and the
  * nearest good point. */
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
+
+/* The same for rows of velocity level. */
+baum_status baum_i_gain_refuse_velocities(const baum_i_gain_context *context,
+                                          const baum_i_gain_draft *gains,
+                                          const baum_amplification *velocities);
 
 /* Fails with BAUM_ERR_UNSUPPORTED. The message tells why a method has no dead-beat point and which
  * point is its best. */

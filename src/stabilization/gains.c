@@ -17,6 +17,8 @@
  * gains (docs/theory/gain_rules.md). If drivers prescribe all degrees of freedom, the violation is
  * the whole error, and c is as large as possible without additional cost.
  *
+ * Rows of velocity level have one mode, exp(-alpha t), and must be stable for the same alpha.
+ *
  * Variable steps: the step of an explicit method is limited such that (alpha h, beta^2 h^2) is in
  * the region of stability. BDF of order 5 is A(51.84 degrees) stable: it damps violations for any
  * alpha h if alpha / beta is at least cos 51.84 = 0.618. alpha / beta is the cosine of the angle
@@ -284,16 +286,24 @@ static double largest_step(const baum_i_gain_context *context, const baum_i_gain
     return (double)INFINITY;
   }
   double ratio = gains->beta > 0.0 ? gains->alpha / gains->beta : OVERDAMPED;
-  return WITHIN_REGION * baum_i_stability_limit(context->method, ratio) / gains->alpha;
+  double positions =
+    context->no_position_rows ? (double)INFINITY : baum_i_stability_limit(context->method, ratio);
+  double velocities =
+    context->velocity_rows ? baum_i_velocity_limit(context->method) : (double)INFINITY;
+  return WITHIN_REGION * fmin(positions, velocities) / gains->alpha;
 }
 
+/* Finds the amplification of both kinds of rows, and the worse of those that exist. */
 static void amplify(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
-                    baum_amplification *out)
+                    baum_i_two_amplifications *out)
 {
   static const baum_i_method variable_step = {.kind = BAUM_I_METHOD_VARIABLE_STEP};
   const baum_i_method *method = has_step(context) ? context->method : &variable_step;
-  out->struct_size = sizeof *out;
-  baum_i_amplification(method, gains->alpha_h, gains->beta2_h2, out);
+  out->positions.struct_size = out->velocities.struct_size = sizeof out->positions;
+  baum_i_amplification(method, gains->alpha_h, gains->beta2_h2, &out->positions);
+  baum_i_velocity_amplification(method, gains->alpha_h, &out->velocities);
+  bool slower = out->velocities.spectral_radius > out->positions.spectral_radius;
+  out->by_velocities = context->no_position_rows || (context->velocity_rows && slower);
 }
 
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
@@ -307,17 +317,20 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
   baum_i_gain_draft numbers = {.note = ""};
   BAUM_I_TRY(make_draft(rule, gains->value, context, &numbers));
   baum_i_gain_choice choice = {.alpha = numbers.alpha, .beta = numbers.beta};
-  amplify(context, &numbers, &choice.amplification);
+  baum_i_two_amplifications two;
+  amplify(context, &numbers, &two);
+  choice.amplification = two.by_velocities ? two.velocities : two.positions;
   choice.rule = (baum_gain_rule)(rule - rules);
   choice.max_step = largest_step(context, &numbers);
-  double radius = choice.amplification.spectral_radius;
-  if (choice.rule == BAUM_GAINS_DEADBEAT && !(radius <= DEAD)) {
-    return baum_i_gain_refuse_deadbeat(context, numbers.alpha_h, numbers.beta2_h2, radius);
+  if (choice.rule == BAUM_GAINS_DEADBEAT && !(two.positions.spectral_radius <= DEAD)) {
+    return baum_i_gain_refuse_deadbeat(context, numbers.alpha_h, numbers.beta2_h2,
+                                       two.positions.spectral_radius);
   }
   if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
-    return baum_i_gain_refuse(context, &numbers, radius);
+    return two.by_velocities ? baum_i_gain_refuse_velocities(context, &numbers, &two.velocities)
+                             : baum_i_gain_refuse(context, &numbers, two.positions.spectral_radius);
   }
-  baum_i_gain_explain(rule->name, context, &numbers, &choice);
+  baum_i_gain_explain(rule->name, context, &numbers, &two, &choice);
   *out = choice;
   return BAUM_OK;
 }

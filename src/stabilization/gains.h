@@ -16,16 +16,20 @@ typedef struct baum_i_gain_context {
   double rate;                 /* [1/s] >= 0 angular rate of the motion */
   const char *rate_is;         /* what the rate is, for messages */
   bool driven;                 /* drivers prescribe all degrees of freedom */
+  bool velocity_rows;          /* there are rows of velocity level */
+  bool no_position_rows;       /* all rows are of velocity level */
   baum_gain_rule rule_default; /* meaning of BAUM_GAINS_DEFAULT for this integrator */
   bool allow_unstable;
 } baum_i_gain_context;
 
 /* The gains chosen by a rule. */
 typedef struct baum_i_gain_choice {
-  double alpha;                     /* [1/s] */
-  double beta;                      /* [1/s] */
-  baum_gain_rule rule;              /* the rule that was applied */
-  baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
+  double alpha;        /* [1/s] */
+  double beta;         /* [1/s] */
+  baum_gain_rule rule; /* the rule that was applied */
+  /* at (alpha h, beta^2 h^2); of the rows of positions or of velocity level, of those whose
+   * violations decay more slowly */
+  baum_amplification amplification;
   /* [s] largest stable step of an explicit method with variable steps; otherwise infinite */
   double max_step;
   char why[400]; /* message with rule, numbers and stability */

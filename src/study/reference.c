@@ -207,7 +207,7 @@ static const attempt *attempts_for(const baum_mechanism *mechanism, int *count)
 {
   baum_mobility mobility;
   baum_status status = baum_mechanism_mobility(mechanism, &mobility, sizeof mobility);
-  bool is_free = status != BAUM_OK || mobility.degrees_of_freedom > 0;
+  bool is_free = status != BAUM_OK || mobility.position_degrees_of_freedom > 0;
   *count = (int)(is_free ? sizeof ATTEMPTS / sizeof ATTEMPTS[0]
                          : sizeof WITHOUT_FREEDOM / sizeof WITHOUT_FREEDOM[0]);
   return is_free ? ATTEMPTS : WITHOUT_FREEDOM;

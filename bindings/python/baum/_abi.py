@@ -111,6 +111,7 @@ class baum_user_constraint_def(Structure):
         ("nu", baum_q_fn),
         ("gamma", baum_qv_fn),
         ("user", c_void_p),
+        ("velocity_level", c_bool),
     ]
 
 
@@ -199,6 +200,8 @@ class baum_mobility(Structure):
         ("worst_phi", c_double),
         ("worst_joint", baum_joint_id),
         ("text", c_char * 1024),
+        ("velocity_rows", c_int32),
+        ("position_degrees_of_freedom", c_int32),
     ]
 
 
@@ -225,6 +228,8 @@ class baum_report(Structure):
         ("most_joints", c_int32),
         ("most_joined", baum_body_id),
         ("text", c_char * 2048),
+        ("velocity_rows", c_int32),
+        ("position_degrees_of_freedom", c_int32),
     ]
 
 
@@ -1242,6 +1247,10 @@ PROTOTYPES = {
     "baum_stability_at": (c_int, [
         c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
     ]),
+    "baum_stability_velocity_at": (c_int, [
+        c_void_p, c_double, POINTER(baum_amplification), c_size_t,
+    ]),
+    "baum_stability_velocity_limit": (c_int, [c_void_p, c_void_p]),
     "baum_stability_statement": (c_char_p, [c_void_p]),
     "baum_stability_limit": (c_int, [c_void_p, c_double, c_void_p]),
     "baum_stability_intervals": (c_int, [

@@ -23,6 +23,10 @@ class Mobility(NamedTuple):
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: Joint of worst_phi.
     text: These results in words, with the names of elements.
+    velocity_rows: [-] rows of velocity level (non-holonomic constraints).
+    position_degrees_of_freedom: [-] degrees of freedom of position: nv - rank of J without rows
+        of velocity level. degrees_of_freedom counts those of velocity, which are fewer if there
+        are such rows.
     """
 
     degrees_of_freedom: int
@@ -33,6 +37,8 @@ class Mobility(NamedTuple):
     worst_phi: float
     worst_joint: Joint | None
     text: str
+    velocity_rows: int
+    position_degrees_of_freedom: int
 
 
 class Report(NamedTuple):
@@ -58,6 +64,9 @@ class Report(NamedTuple):
     most_joints: [-] largest number of joints of a body that is not fixed.
     most_joined: The body with most joints; none if there are no joints.
     text: These results in words, with the names of elements and the reasons.
+    velocity_rows: [-] rows of velocity level (non-holonomic constraints).
+    position_degrees_of_freedom: [-] nv - rank of J without rows of velocity level; -1: not
+        known.
     """
 
     bodies: int
@@ -80,6 +89,8 @@ class Report(NamedTuple):
     most_joints: int
     most_joined: Body | None
     text: str
+    velocity_rows: int
+    position_degrees_of_freedom: int
 
 
 class Counters(NamedTuple):

@@ -371,12 +371,13 @@ class Adding:
         name: str | None,
         bodies: Bodies,
         rows: int,
-        phi: FunctionOfQ,
+        phi: FunctionOfQ | None = None,
         *,
         jacobian: FunctionOfQ | None = None,
         nu: FunctionOfQ | None = None,
         gamma: FunctionOfQV | None = None,
         user: Any = None,
+        velocity_level: bool = False,
     ) -> Joint:
         """Add constraints Phi(t, q) = 0 over the coordinates q of one body or several bodies.
 
@@ -389,6 +390,20 @@ class Adding:
         jacobian and gamma are given. A call takes one to two microseconds even for a short Python
         function. If that matters, give the derivatives, or compiled functions: addresses, ctypes
         function pointers, or Numba's cfunc.
+
+        velocity_level: the constraints are J v = nu without a Phi (non-holonomic), such as a wheel
+        that does not slip. jacobian is then required, and phi must be None:
+
+        >>> import math, baum
+        >>> m = baum.Mechanism(gravity=(0, 0, 0))
+        >>> skate = m.planar_body("skate", mass=1, inertia=0.1, velocity=(1, 0, 0.5))
+        >>> across = m.constraint(
+        ...     "blade", skate, 1, velocity_level=True,
+        ...     jacobian=lambda t, q: [[-math.sin(q[2]), math.cos(q[2]), 0]],
+        ... )
+        >>> mobility = m.mobility()
+        >>> mobility.degrees_of_freedom, mobility.position_degrees_of_freedom
+        (2, 3)
         """
         return self._add(Joint, "user_constraint", locals())
 

@@ -13,6 +13,9 @@
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
+ * Constraints of velocity level, J(q, t) v = nu(q, t), have no Phi: J is required, nu is zero if it
+ * is not given, and gamma = d/ds (nu - J v)(q + s v, t + s) as above.
+ *
  * At rest the time scale of Phi is unknown. Differences in t then assume a time scale of one
  * second. For a constraint that varies much more slowly, give nu and gamma.
  */
@@ -30,11 +33,12 @@ static const baum_i_def_field fields[] = {
   BAUM_I_ARRAY(baum_user_constraint_def, bodies, BODIES, FINITE, body_count, body_count),
   BAUM_I_FIELD(baum_user_constraint_def, body_count, OWN_COUNT),
   BAUM_I_FIELD(baum_user_constraint_def, row_count, COUNT),
-  BAUM_I_FIELD(baum_user_constraint_def, phi, FUNCTION),
+  BAUM_I_FIELD(baum_user_constraint_def, phi, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_user_constraint_def, jacobian, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_user_constraint_def, nu, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_user_constraint_def, gamma, OPTIONAL_FUNCTION),
   BAUM_I_FIELD(baum_user_constraint_def, user, USER),
+  BAUM_I_FIELD(baum_user_constraint_def, velocity_level, FLAG),
   {0},
 };
 
@@ -44,6 +48,28 @@ static int rows(const void *given)
 {
   const baum_user_constraint_def *def = given;
   return def->row_count;
+}
+
+static int velocity_rows(const void *given)
+{
+  const baum_user_constraint_def *def = given;
+  return def->velocity_level ? def->row_count : 0;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  (void)mechanism;
+  const baum_user_constraint_def *def = given;
+  if (!def->velocity_level) {
+    return baum_i_check_given(label, "phi()", def->phi != NULL);
+  }
+  if (def->phi) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: phi() is given, but with velocity_level = true the constraint is J v = "
+                       "nu, without Phi; give jacobian(), or velocity_level = false",
+                       label);
+  }
+  return baum_i_check_given(label, "jacobian()", def->jacobian != NULL);
 }
 
 /* Return the relative error of those derivatives that are computed by differences
@@ -72,6 +98,10 @@ static baum_i_user_function function(const baum_i_joint *joint, const char *name
 static baum_status phi_at(const void *constraint, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = constraint;
+  if (joint->velocity_rows > 0) {
+    memset(out, 0, (size_t)joint->rows * sizeof *out);
+    return BAUM_OK;
+  }
   baum_i_user_function f = function(joint, "phi", 0);
   return baum_i_call_q(&f, def_of(joint)->phi, at, out);
 }
@@ -147,28 +177,34 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
   if (def_of(joint)->nu) {
     return given_nu_at(joint, at, out);
   }
+  if (joint->velocity_rows > 0) {
+    memset(out, 0, (size_t)joint->rows * sizeof *out);
+    return BAUM_OK;
+  }
   baum_i_field field = field_of(minus_phi_field, joint);
   return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
-/* Find whether Phi changes with t at constant q, from its values a short time before and after. */
+/* Find whether Phi, or nu - J v if there is no Phi, changes with t at constant q, from its values a
+ * short time before and after. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
   double *now = baum_i_take(&here, joint->rows);
   double *then = baum_i_take(&here, joint->rows);
+  baum_i_field_fn *value_at = joint->velocity_rows > 0 ? minus_rate_field : phi_at;
   size_t bytes = (size_t)joint->rows * sizeof *now;
   *moves = false;
-  BAUM_I_TRY(phi_at(joint, &here, now));
+  BAUM_I_TRY(value_at(joint, &here, now));
   for (int side = -1; side <= 1 && !*moves; side += 2) {
     here.t = at->t + side * 0x1p-9;
-    BAUM_I_TRY(phi_at(joint, &here, then));
+    BAUM_I_TRY(value_at(joint, &here, then));
     *moves = memcmp(now, then, bytes) != 0;
   }
   return BAUM_OK;
 }
 
-/* Find the ray along the motion, its rate, and whether Phi may change with t. */
+/* Find the ray along the motion, its rate, and whether the constraint may change with t. */
 static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
                              bool *moves)
 {
@@ -201,7 +237,7 @@ static baum_status gamma_at(const void *constraint, const baum_i_local *at, doub
     memset(out, 0, (size_t)joint->rows * sizeof *out);
     return BAUM_OK;
   }
-  if (def->jacobian && (def->nu || !moves)) {
+  if (def->jacobian && (def->nu || !moves || def->velocity_level)) {
     baum_i_field field = field_of(minus_rate_field, joint);
     return baum_i_difference_first(&field, &ray, at, out);
   }
@@ -381,7 +417,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
 
 static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local *at)
 {
-  if (!def_of(joint)->jacobian) {
+  if (!def_of(joint)->jacobian || joint->velocity_rows > 0) {
     return BAUM_OK;
   }
   baum_i_local here = *at;
@@ -395,7 +431,7 @@ static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local 
 
 static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
 {
-  if (!def_of(joint)->nu) {
+  if (!def_of(joint)->nu || joint->velocity_rows > 0) {
     return BAUM_OK;
   }
   baum_i_local here = *at;
@@ -407,14 +443,15 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Use the second form of gamma if possible; jacobian and nu have already been checked. */
+/* Use the second form of gamma if possible; jacobian and nu have already been checked, or define the
+ * constraint. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);
   if (!def->gamma) {
     return BAUM_OK;
   }
-  bool by_rate = def->jacobian && def->nu;
+  bool by_rate = def->jacobian && (def->nu || def->velocity_level);
   baum_i_local here = *at;
   double *given = baum_i_take(&here, joint->rows);
   BAUM_I_TRY(given_gamma_at(joint, &here, given));
@@ -439,9 +476,10 @@ static baum_status check_derivatives(const void *given, baum_i_point *point)
 }
 
 static const baum_i_joint_type type = {
-  .definition = {BAUM_I_DEFINITION(user_constraint, "user constraint", fields),
+  .definition = {BAUM_I_DEFINITION(user_constraint, "user constraint", fields), .check = check,
                  .check_derivatives = check_derivatives},
   .rows = rows,
+  .velocity_rows = velocity_rows,
   .evaluate = baum_i_evaluate_each,
   .evaluate_one = evaluate,
   .linearize = linearize,
