@@ -144,7 +144,8 @@ static int try_methods(const joint_scene *scene, const outcome *reference)
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
     for (int f = BAUM_FORMULATION_DEFAULT + 1; baum_formulation_name((baum_formulation)f); f++) {
-      if (baum_integrator_offers(mode.integrator, (baum_formulation)f)) {
+      if (baum_integrator_offers(mode.integrator, (baum_formulation)f) &&
+          !(scene->of_velocities && mode.integrator == baum_rattle())) {
         try_method(scene, reference, &(method){mode, (baum_formulation)f});
         tried++;
       }

@@ -206,6 +206,31 @@ static void user_constraint(baum_mechanism *m)
   need(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
+static int across_the_blade(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = -sin(q[2]);
+  out[1] = cos(q[2]);
+  out[2] = -0.15;
+  return 0;
+}
+
+/* A sleigh whose blade is behind its centre of mass slides down a slope and draws a pinned arm. */
+static void velocity_level(baum_mechanism *m)
+{
+  baum_body_id sleigh = body(m, "sleigh", (placed){0.0, 0.0, 0.3, 2.0});
+  baum_body_id arm = body(m, "arm", (placed){-0.5, 0.2, 0.0, FREE});
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.bodies = &sleigh;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.velocity_level = true;
+  def.jacobian = across_the_blade;
+  need(baum_mechanism_add_user_constraint(m, &def, NULL));
+  pin(m, sleigh, arm, -0.2, 0.0);
+}
+
 /* A quick-return mechanism: the pin of a crank slides in the slot of a swinging arm. */
 static void pin_in_slot(baum_mechanism *m)
 {
@@ -358,21 +383,22 @@ static void curve(baum_mechanism *m)
 }
 
 const joint_scene joint_scenes[JOINT_SCENES] = {
-  {"revolute", revolute, 2, true},
-  {"translational", translational, 2, true},
-  {"distance", distance, 2, true},
-  {"fixed", fixed, 1, true},
-  {"driver", driver, 1, false},
-  {"user constraint", user_constraint, 1, true},
-  {"pin in a slot", pin_in_slot, 1, true},
-  {"driver in a slot", driver_in_slot, 1, false},
-  {"rack and pinion", rack_and_pinion, 1, true},
-  {"rolling", rolling, 1, true},
-  {"gear", gear, 2, true},
-  {"coupling", coupling, 1, true},
-  {"coupling by a law", cam, 1, true},
-  {"point on a curve", curve, 2, true},
-  {"spline driver", spline_driver, 1, false},
+  {"revolute", revolute, 2, true, false},
+  {"translational", translational, 2, true, false},
+  {"distance", distance, 2, true, false},
+  {"fixed", fixed, 1, true, false},
+  {"driver", driver, 1, false, false},
+  {"user constraint", user_constraint, 1, true, false},
+  {"pin in a slot", pin_in_slot, 1, true, false},
+  {"driver in a slot", driver_in_slot, 1, false, false},
+  {"rack and pinion", rack_and_pinion, 1, true, false},
+  {"rolling", rolling, 1, true, false},
+  {"gear", gear, 2, true, false},
+  {"coupling", coupling, 1, true, false},
+  {"coupling by a law", cam, 1, true, false},
+  {"point on a curve", curve, 2, true, false},
+  {"spline driver", spline_driver, 1, false, false},
+  {"user constraint of velocity level", velocity_level, 3, true, true},
 };
 
 baum_mechanism *joint_scene_make(const joint_scene *scene)

@@ -10,10 +10,11 @@ typedef struct joint_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism); /* fails the test on failure */
   int degrees_of_freedom;
-  bool conservative; /* energy is constant: no drivers */
+  bool conservative;  /* energy is constant: no drivers */
+  bool of_velocities; /* has rows of velocity level, which rattle refuses */
 } joint_scene;
 
-enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* of nv and nc */
+enum { JOINT_SCENES = 16, JOINT_SCENE_SIZE_MAX = 12 }; /* of nv and nc */
 extern const joint_scene joint_scenes[JOINT_SCENES];
 
 /* Returns the frozen mechanism, which the caller destroys. */
