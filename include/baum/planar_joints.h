@@ -207,6 +207,50 @@ BAUM_API baum_status baum_mechanism_get_planar_curve(const baum_mechanism *mecha
 BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, baum_joint_id id,
                                                      const baum_planar_curve_def *def);
 
+/* ---- knife edge ------------------------------------------------------------------------------ */
+
+/** A point of body_a moves only along a blade that is fixed in body_a, relative to body_b: a skate,
+ *  or a wheel seen from above. One row of velocity level [m/s]: the velocity of the point across
+ *  the blade, positive to the left of `axis`. Such a row does not restrict positions: with it a
+ *  mechanism has more degrees of freedom of position than of velocity (see baum_mobility).
+ *
+ *  body_b is the surface on which the blade slides. Both bodies must have an angle. Reaction: force
+ *  and moment on body_b at the blade's point. */
+typedef struct baum_planar_knife_edge_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Bears the blade. Default: none, must be set. */
+  baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
+  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  /** [-] direction of the blade, not zero; in ground axes if `point` is given, otherwise in the
+   * axes of body_a. Default: (1, 0). */
+  double axis[2];
+} baum_planar_knife_edge_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_planar_knife_edge_def_init(baum_planar_knife_edge_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_planar_knife_edge_def baum_planar_knife_edge_def_default(void)
+{
+  baum_planar_knife_edge_def def;
+  baum_planar_knife_edge_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_planar_knife_edge(baum_mechanism *mechanism,
+                                                          const baum_planar_knife_edge_def *def,
+                                                          baum_joint_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_planar_knife_edge(const baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          baum_planar_knife_edge_def *out,
+                                                          size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_planar_knife_edge(baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          const baum_planar_knife_edge_def *def);
+
 #ifdef __cplusplus
 }
 #endif

@@ -440,6 +440,55 @@ BAUM_API baum_status baum_mechanism_get_spatial_point_on_plane(const baum_mechan
 BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
   baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_plane_def *def);
 
+/* ---- rolling disc ---------------------------------------------------------------------------- */
+
+/** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. Three rows: the
+ *  height of the disc over the plane [m], a row of positions, and two rows of velocity level [m/s]:
+ *  the velocities of the contact point in two directions of the plane. Such rows do not restrict
+ *  positions: with them a mechanism has more degrees of freedom of position than of velocity (see
+ *  baum_mobility).
+ *
+ *  The rim has a circular cross-section with the radius rim_radius: 0 is a thin disc, radius is a
+ *  sphere. Contact is permanent: the normal force may also pull. A disc that is not a sphere must
+ *  not lie flat on the plane. Both bodies must have an orientation. Reaction: force and moment on
+ *  body_b at the contact point. The multipliers are the forces [N] on body_b, with the opposite
+ *  sign, along the normal and the two directions. */
+typedef struct baum_spatial_rolling_disc_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Bears the plane; must differ from body_b. Default: BAUM_GROUND. */
+  baum_body_id body_b; /**< Bears the disc. Default: none, must be set. */
+  double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
+  /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
+  double normal[3];
+  double centre[3];  /**< [m] of the disc, in axes of body_b. Default: (0, 0, 0). */
+  double axis_b[3];  /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
+  double radius;     /**< [m] > 0, largest radius. Default: 0, must be set. */
+  double rim_radius; /**< [m] of the cross-section of the rim, from 0 to radius. Default: 0. */
+} baum_spatial_rolling_disc_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_rolling_disc_def_init(baum_spatial_rolling_disc_def *def,
+                                                 size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_rolling_disc_def baum_spatial_rolling_disc_def_default(void)
+{
+  baum_spatial_rolling_disc_def def;
+  baum_spatial_rolling_disc_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_rolling_disc(
+  baum_mechanism *mechanism, const baum_spatial_rolling_disc_def *def, baum_joint_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_rolling_disc(const baum_mechanism *mechanism,
+                                                             baum_joint_id id,
+                                                             baum_spatial_rolling_disc_def *out,
+                                                             size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_rolling_disc_def *def);
+
 #ifdef __cplusplus
 }
 #endif

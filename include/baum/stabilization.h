@@ -167,8 +167,8 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
-/** Compute the amplification of rows of velocity level, J v = nu. Their equation J a = gamma - alpha
- *  (J v - nu) has a single mode z = R(-alpha h), so z[1] is NaN.
+/** Compute the amplification of rows of velocity level, J v = nu. Their equation J a = gamma -
+ *  alpha (J v - nu) has a single mode z = R(-alpha h), so z[1] is NaN.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] alpha h, finite
  *  @param[out] out          the result

@@ -127,6 +127,15 @@ void baum_i_draw_rack(const baum_i_symbol *s)
                       fabs(radius) / s->drawing->unit, 2, (const double(*)[3])disc);
 }
 
+/* A blade seen from above: long and pointed at both ends. */
+void baum_i_draw_blade(const baum_i_symbol *s)
+{
+  static const double outline[4][2] = {{-3.0, 0.0}, {0.0, -0.6}, {3.0, 0.0}, {0.0, 0.6}};
+  const double *axis = s->place->axis[0];
+  const double left[3] = {-axis[1], axis[0], 0.0};
+  baum_i_symbol_area(s, BAUM_I_JOINT, 0, 4, outline, axis, left);
+}
+
 /* ---- a curve F = 0 ---- */
 
 /* Moves a point onto the curve by Newton's method; false if the curve has no tangent there. */

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Symbols of joints whose bodies meet at a point or in a plane. */
+#include <math.h>
+
 #include <baum/planar_joints.h>
+#include <baum/spatial_joints.h>
 
 #include "draw/symbols.h"
 #include "mechanism/identify.h"
@@ -110,4 +113,22 @@ void baum_i_draw_clamp(const baum_i_symbol *s)
   const double box[2][3] = {{at[0], at[1], at[2]}, {half, half, half}};
   baum_i_draw_foot(s);
   baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_BOX, s->place->body[1], 0.0, 2, box);
+}
+
+/* The largest circle of the disc, and its axis. */
+void baum_i_draw_rolling_disc(const baum_i_symbol *s)
+{
+  const baum_spatial_rolling_disc_def *def = s->element->def;
+  const int body = baum_i_body_index(s->drawing->mechanism, def->body_b);
+  double disc[2][3], axle[2][3];
+  const double half = s->drawing->unit / sqrt(baum_i_dot3(def->axis_b, def->axis_b));
+  for (int i = 0; i < 3; i++) {
+    disc[0][i] = def->centre[i];
+    disc[1][i] = def->axis_b[i];
+    axle[0][i] = def->centre[i] - half * def->axis_b[i];
+    axle[1][i] = def->centre[i] + half * def->axis_b[i];
+  }
+  baum_i_symbol_shape(s, BAUM_I_PITCH, BAUM_I_DISC, body, def->radius / s->drawing->unit, 2,
+                      (const double(*)[3])disc);
+  baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_LINE, body, 0.4, 2, (const double(*)[3])axle);
 }

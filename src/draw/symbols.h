@@ -74,11 +74,13 @@ void baum_i_draw_cross(const baum_i_symbol *s);
 void baum_i_draw_plane(const baum_i_symbol *s);
 void baum_i_draw_plane_point(const baum_i_symbol *s);
 void baum_i_draw_clamp(const baum_i_symbol *s);
+void baum_i_draw_rolling_disc(const baum_i_symbol *s);
 
 void baum_i_draw_guide(const baum_i_symbol *s);
 void baum_i_draw_slot(const baum_i_symbol *s);
 void baum_i_draw_rack(const baum_i_symbol *s);
 void baum_i_draw_curve(const baum_i_symbol *s);
+void baum_i_draw_blade(const baum_i_symbol *s);
 void baum_i_draw_cylinder(const baum_i_symbol *s);
 void baum_i_draw_slide(const baum_i_symbol *s);
 void baum_i_draw_point_on_line(const baum_i_symbol *s);

@@ -20,8 +20,8 @@
  * If row i has gains alpha_i, beta_i of its own, (J w)_q is still computed with w = v' + 2 alpha v,
  * and a second linearization adds 2 (alpha_i - alpha) (J v)_q.
  *
- * A row of velocity level has no Phi: at index 1 there is no beta^2 J, at index 3 it has the entries
- * of index 2, and in GGL 1 on the diagonal of mu.
+ * A row of velocity level has no Phi: at index 1 there is no beta^2 J, at index 3 it has the
+ * entries of index 2, and in GGL 1 on the diagonal of mu.
  *
  * A loop over all blocks, called a walk, emits entries in a fixed order. The first walk finds the
  * pattern and the slot of each entry; later walks add values to these slots. An omitted row has 1
@@ -176,8 +176,8 @@ static void emit_position(const factors *f, int row, int column, int at, double 
 
 typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
 
-/* Emit row r of a joint; its rows begin at `first` + joint->row. A row without equation has 1 on its
- * diagonal. */
+/* Emit row r of a joint; its rows begin at `first` + joint->row. A row without equation has 1 on
+ * its diagonal. */
 static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, bool equation,
                      emit_fn *entry, sink *s)
 {

@@ -276,8 +276,9 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
 /* ---- project.c, assemble.c ---- */
 
 /* Change q, and then v, by the least change in the metric of M, so that they fulfil the constraints
- * at t. Rows of velocity level restrict the directions in which q moves. May also return BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q
- * and v are undefined. */
+ * at t. Rows of velocity level restrict the directions in which q moves. May also return
+ * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q and v are
+ * undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
 /* Change only v, including that of fixed bodies. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,

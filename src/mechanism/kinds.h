@@ -20,6 +20,7 @@
   KIND(joint, planar_rack_and_pinion) \
   KIND(joint, planar_gear)            \
   KIND(joint, planar_curve)           \
+  KIND(joint, planar_knife_edge)      \
   KIND(joint, spatial_spherical)      \
   KIND(joint, spatial_revolute)       \
   KIND(joint, spatial_universal)      \
@@ -30,6 +31,7 @@
   KIND(joint, spatial_distance)       \
   KIND(joint, spatial_point_on_line)  \
   KIND(joint, spatial_point_on_plane) \
+  KIND(joint, spatial_rolling_disc)   \
   KIND(joint, coupling)               \
   KIND(joint, driver)                 \
   KIND(joint, spline_driver)          \

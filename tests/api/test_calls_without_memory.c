@@ -70,76 +70,78 @@ typedef struct scene {
 
 /* ---- calls that return a status: name, arguments ---- */
 
-#define STATUS_CALLS(X)                                                                      \
-  X(baum_fail, (BAUM_OK, "fine"))                                                            \
-  X(baum_mechanism_columns, (s->parts.mechanism, s->parts.crank, &s->n[0], &s->n[1]))        \
-  X(baum_mechanism_rows, (s->parts.mechanism, s->parts.pin, &s->n[0], &s->n[1]))             \
-  X(baum_mechanism_sizes, (s->parts.mechanism, &s->n[0], &s->n[1], &s->n[2]))                \
-  X(baum_mechanism_get_gravity, (s->parts.mechanism, s->x))                                  \
-  X(baum_mechanism_get_outline,                                                              \
-    (s->parts.mechanism, s->parts.crank, 0, &s->outline, sizeof s->outline))                 \
-  X(baum_mechanism_get_characteristic_length, (s->parts.mechanism, s->x))                    \
-  X(baum_mechanism_get_input, (s->parts.mechanism, s->parts.throttle, s->x))                 \
-  X(baum_mechanism_set_gravity, (s->open.mechanism, 0.0, -9.81, 0.0))                        \
-  X(baum_mechanism_set_characteristic_length, (s->open.mechanism, 1.0))                      \
-  X(baum_mechanism_set_input, (s->open.mechanism, s->open.throttle, 1.0))                    \
-  X(baum_workspace_design, (s->w, s->q, NULL))                                               \
-  X(baum_workspace_rate, (s->w, s->q, s->v, s->x))                                           \
-  X(baum_workspace_difference, (s->w, s->q, s->q, s->x))                                     \
-  X(baum_workspace_move, (s->w, s->v, s->x))                                                 \
-  X(baum_workspace_phi, (s->w, 0.0, s->q, s->x))                                             \
-  X(baum_workspace_jacobian, (s->w, 0.0, s->q, s->x))                                        \
-  X(baum_workspace_nu, (s->w, 0.0, s->q, s->x))                                              \
-  X(baum_workspace_mass, (s->w, 0.0, s->q, s->x))                                            \
-  X(baum_workspace_gamma, (s->w, 0.0, s->q, s->v, s->x))                                     \
-  X(baum_workspace_force, (s->w, 0.0, s->q, s->v, s->x))                                     \
-  X(baum_workspace_energy, (s->w, 0.0, s->q, s->v, &s->two[0], &s->two[1]))                  \
-  X(baum_workspace_acceleration, (s->w, 0.0, s->q, s->v, 1.0, 1.0, s->x, s->lambda))         \
-  X(baum_workspace_reaction, (s->w, 0.0, s->q, s->lambda, s->parts.rod, s->x))               \
-  X(baum_workspace_residual, (s->w, &s->dae, 0.0, s->y, s->y, s->x))                         \
-  X(baum_workspace_set_input, (s->w, s->parts.throttle, 0.5))                                \
-  X(baum_simulation_step, (s->run, 3))                                                       \
-  X(baum_simulation_advance_to, (s->run, 0.01))                                              \
-  X(baum_simulation_sample, (s->run, &s->later, 1, &s->channel, 1, s->x, NULL))              \
-  X(baum_simulation_get, (s->run, &s->channel, 1, s->x))                                     \
-  X(baum_simulation_set_input, (s->run, s->parts.throttle, 0.9))                             \
-  X(baum_simulation_set_progress_interval, (s->run, 0.5))                                    \
-  X(baum_simulation_counters, (s->run, &s->counters, sizeof s->counters))                    \
-  X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                \
-  X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \
-  X(baum_simulation_near_singular, (s->run, 0, &s->crossing, sizeof s->crossing))            \
-  X(baum_simulation_warning, (s->run, 0, &s->warning, sizeof s->warning))                    \
-  X(baum_simulation_unique_multipliers, (s->run, s->unique))                                 \
-  X(baum_simulation_save, (s->run, s->bytes, BYTES, &s->size))                               \
-  X(baum_simulation_restore, (s->run, s->bytes, s->size))                                    \
-  X(baum_stability_at, (baum_rk4(), 1.0, 1.0, &s->amplification, sizeof s->amplification))   \
-  X(baum_stability_best, (baum_rk4(), &s->two[0], &s->two[1]))                               \
-  X(baum_stability_best_on_ray, (baum_rk4(), 1.0, s->two))                                   \
-  X(baum_stability_deadbeat, (baum_euler(), &s->two[0], &s->two[1]))                         \
-  X(baum_stability_grid, (baum_rk4(), s->two, s->two, 2, 2, s->x))                           \
-  X(baum_stability_intervals, (baum_rk4(), 1.0, 1, &s->two[0], &s->two[1], s->n))            \
-  X(baum_stability_limit, (baum_rk4(), 1.0, s->two))                                         \
-  X(baum_stability_nearest, (baum_rk4(), 9.0, 9.0, &s->two[0], &s->two[1]))                  \
-  X(baum_stability_outline, (baum_rk4(), 1.0, GRID, s->x, s->x + GRID, s->n))                \
-  X(baum_catalog_entry_at, (0, &s->entry, sizeof s->entry))                                  \
-  X(baum_catalog_find, ("pendulum", &s->entry, sizeof s->entry))                             \
-  X(baum_catalog_parameter_at, ("pendulum", 0, &s->parameter, sizeof s->parameter))          \
-  X(baum_catalog_times, ("pendulum", s->times))                                              \
-  X(baum_catalog_reference, (&s->choice, 0.0, s->catalog_x, s->catalog_x + WIDTH / 2))       \
-  X(baum_catalog_compare, (&s->choice, s->pendulum, s->times, 1, s->catalog_x,               \
-                           s->catalog_x + WIDTH / 2, &s->error, sizeof s->error))            \
-  X(baum_study_set_solution, (s->fresh, baum_catalog_solution, &s->choice, 9.0))             \
-  X(baum_study_entry_at, (s->study, 0, &s->study_entry, sizeof s->study_entry))              \
-  X(baum_study_entry_options, (s->study, 0, &s->options, sizeof s->options))                 \
-  X(baum_study_method_at, (s->study, 0, &s->method, sizeof s->method))                       \
-  X(baum_study_reference_read, (s->study, &s->reference, sizeof s->reference))               \
-  X(baum_study_reference_sample, (s->study, 0, s->x, NULL, NULL, NULL))                      \
-  X(baum_study_settings, (s->study, s->x, s->x, &s->study_options, sizeof s->study_options)) \
-  X(baum_study_front, (s->study, BAUM_STUDY_WORK, GRID, s->n, &s->n[0]))                     \
-  X(baum_study_cost_at, (s->study, 0, 1e-4, BAUM_STUDY_WORK, s->x))                          \
-  X(baum_study_compare, (s->study, 0, 0, 1e-4, BAUM_STUDY_WORK, s->x))                       \
-  X(baum_study_recommend,                                                                    \
-    (s->study, 1e-2, BAUM_STUDY_WORK, &s->options, sizeof s->options, s->text, TEXT))        \
+#define STATUS_CALLS(X)                                                                        \
+  X(baum_fail, (BAUM_OK, "fine"))                                                              \
+  X(baum_mechanism_columns, (s->parts.mechanism, s->parts.crank, &s->n[0], &s->n[1]))          \
+  X(baum_mechanism_rows, (s->parts.mechanism, s->parts.pin, &s->n[0], &s->n[1]))               \
+  X(baum_mechanism_sizes, (s->parts.mechanism, &s->n[0], &s->n[1], &s->n[2]))                  \
+  X(baum_mechanism_get_gravity, (s->parts.mechanism, s->x))                                    \
+  X(baum_mechanism_get_outline,                                                                \
+    (s->parts.mechanism, s->parts.crank, 0, &s->outline, sizeof s->outline))                   \
+  X(baum_mechanism_get_characteristic_length, (s->parts.mechanism, s->x))                      \
+  X(baum_mechanism_get_input, (s->parts.mechanism, s->parts.throttle, s->x))                   \
+  X(baum_mechanism_set_gravity, (s->open.mechanism, 0.0, -9.81, 0.0))                          \
+  X(baum_mechanism_set_characteristic_length, (s->open.mechanism, 1.0))                        \
+  X(baum_mechanism_set_input, (s->open.mechanism, s->open.throttle, 1.0))                      \
+  X(baum_workspace_design, (s->w, s->q, NULL))                                                 \
+  X(baum_workspace_rate, (s->w, s->q, s->v, s->x))                                             \
+  X(baum_workspace_difference, (s->w, s->q, s->q, s->x))                                       \
+  X(baum_workspace_move, (s->w, s->v, s->x))                                                   \
+  X(baum_workspace_phi, (s->w, 0.0, s->q, s->x))                                               \
+  X(baum_workspace_jacobian, (s->w, 0.0, s->q, s->x))                                          \
+  X(baum_workspace_nu, (s->w, 0.0, s->q, s->x))                                                \
+  X(baum_workspace_mass, (s->w, 0.0, s->q, s->x))                                              \
+  X(baum_workspace_gamma, (s->w, 0.0, s->q, s->v, s->x))                                       \
+  X(baum_workspace_force, (s->w, 0.0, s->q, s->v, s->x))                                       \
+  X(baum_workspace_energy, (s->w, 0.0, s->q, s->v, &s->two[0], &s->two[1]))                    \
+  X(baum_workspace_acceleration, (s->w, 0.0, s->q, s->v, 1.0, 1.0, s->x, s->lambda))           \
+  X(baum_workspace_reaction, (s->w, 0.0, s->q, s->lambda, s->parts.rod, s->x))                 \
+  X(baum_workspace_residual, (s->w, &s->dae, 0.0, s->y, s->y, s->x))                           \
+  X(baum_workspace_set_input, (s->w, s->parts.throttle, 0.5))                                  \
+  X(baum_simulation_step, (s->run, 3))                                                         \
+  X(baum_simulation_advance_to, (s->run, 0.01))                                                \
+  X(baum_simulation_sample, (s->run, &s->later, 1, &s->channel, 1, s->x, NULL))                \
+  X(baum_simulation_get, (s->run, &s->channel, 1, s->x))                                       \
+  X(baum_simulation_set_input, (s->run, s->parts.throttle, 0.9))                               \
+  X(baum_simulation_set_progress_interval, (s->run, 0.5))                                      \
+  X(baum_simulation_counters, (s->run, &s->counters, sizeof s->counters))                      \
+  X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                  \
+  X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                            \
+  X(baum_simulation_near_singular, (s->run, 0, &s->crossing, sizeof s->crossing))              \
+  X(baum_simulation_warning, (s->run, 0, &s->warning, sizeof s->warning))                      \
+  X(baum_simulation_unique_multipliers, (s->run, s->unique))                                   \
+  X(baum_simulation_save, (s->run, s->bytes, BYTES, &s->size))                                 \
+  X(baum_simulation_restore, (s->run, s->bytes, s->size))                                      \
+  X(baum_stability_at, (baum_rk4(), 1.0, 1.0, &s->amplification, sizeof s->amplification))     \
+  X(baum_stability_best, (baum_rk4(), &s->two[0], &s->two[1]))                                 \
+  X(baum_stability_best_on_ray, (baum_rk4(), 1.0, s->two))                                     \
+  X(baum_stability_deadbeat, (baum_euler(), &s->two[0], &s->two[1]))                           \
+  X(baum_stability_grid, (baum_rk4(), s->two, s->two, 2, 2, s->x))                             \
+  X(baum_stability_intervals, (baum_rk4(), 1.0, 1, &s->two[0], &s->two[1], s->n))              \
+  X(baum_stability_limit, (baum_rk4(), 1.0, s->two))                                           \
+  X(baum_stability_nearest, (baum_rk4(), 9.0, 9.0, &s->two[0], &s->two[1]))                    \
+  X(baum_stability_outline, (baum_rk4(), 1.0, GRID, s->x, s->x + GRID, s->n))                  \
+  X(baum_stability_velocity_at, (baum_rk4(), 1.0, &s->amplification, sizeof s->amplification)) \
+  X(baum_stability_velocity_limit, (baum_rk4(), s->two))                                       \
+  X(baum_catalog_entry_at, (0, &s->entry, sizeof s->entry))                                    \
+  X(baum_catalog_find, ("pendulum", &s->entry, sizeof s->entry))                               \
+  X(baum_catalog_parameter_at, ("pendulum", 0, &s->parameter, sizeof s->parameter))            \
+  X(baum_catalog_times, ("pendulum", s->times))                                                \
+  X(baum_catalog_reference, (&s->choice, 0.0, s->catalog_x, s->catalog_x + WIDTH / 2))         \
+  X(baum_catalog_compare, (&s->choice, s->pendulum, s->times, 1, s->catalog_x,                 \
+                           s->catalog_x + WIDTH / 2, &s->error, sizeof s->error))              \
+  X(baum_study_set_solution, (s->fresh, baum_catalog_solution, &s->choice, 9.0))               \
+  X(baum_study_entry_at, (s->study, 0, &s->study_entry, sizeof s->study_entry))                \
+  X(baum_study_entry_options, (s->study, 0, &s->options, sizeof s->options))                   \
+  X(baum_study_method_at, (s->study, 0, &s->method, sizeof s->method))                         \
+  X(baum_study_reference_read, (s->study, &s->reference, sizeof s->reference))                 \
+  X(baum_study_reference_sample, (s->study, 0, s->x, NULL, NULL, NULL))                        \
+  X(baum_study_settings, (s->study, s->x, s->x, &s->study_options, sizeof s->study_options))   \
+  X(baum_study_front, (s->study, BAUM_STUDY_WORK, GRID, s->n, &s->n[0]))                       \
+  X(baum_study_cost_at, (s->study, 0, 1e-4, BAUM_STUDY_WORK, s->x))                            \
+  X(baum_study_compare, (s->study, 0, 0, 1e-4, BAUM_STUDY_WORK, s->x))                         \
+  X(baum_study_recommend,                                                                      \
+    (s->study, 1e-2, BAUM_STUDY_WORK, &s->options, sizeof s->options, s->text, TEXT))          \
   X(baum_study_recommend_budget, (s->study, 1e3, &s->options, sizeof s->options, s->text, TEXT))
 
 /* ---- calls that return something else, or nothing ---- */

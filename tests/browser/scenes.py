@@ -146,6 +146,12 @@ def planar_curve(m):
 
 
 @scene(PLANE)
+def planar_knife_edge(m):
+    sleigh = m.planar_body("sleigh", mass=1, inertia=0.1, position=(0, 0))
+    m.knife_edge("blade", sleigh, point=(-0.6, 0.1), axis=(4, 1))
+
+
+@scene(PLANE)
 def coupling(m):
     a, b = arm(m, "a", (0, 0), (0.5, 1)), arm(m, "b", (2, 0), (2.5, 1))
     one = m.revolute("left", m.ground, a, point=(0, 0))

@@ -395,6 +395,17 @@ GOOD(spline_driver)
   return def;
 }
 
+GOOD(planar_knife_edge)
+{
+  baum_planar_knife_edge_def def = baum_planar_knife_edge_def_default();
+  def.name = "blade";
+  def.body_a = parts->sled;
+  def.point_a[0] = -0.05;
+  def.point_a[1] = 0.01;
+  def.axis[1] = 0.2;
+  return def;
+}
+
 /* ---- building ---- */
 
 static baum_status add_block(every_element *parts, const char *name, double x, double y,
@@ -490,8 +501,27 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
 }
 
 /* Indices of kinds that need additional bodies: the first joint of the train, the spline driver,
- * and the first kind in space. */
-enum { EVERY_WITHOUT_TRAIN = 13, EVERY_WITHOUT_WHEEL = 18, EVERY_WITHOUT_SPACE = 19 };
+ * the first kind in space, the knife edge, and the rolling disc. */
+enum {
+  EVERY_WITHOUT_TRAIN = 13,
+  EVERY_WITHOUT_WHEEL = 18,
+  EVERY_WITHOUT_SPACE = 19,
+  EVERY_WITHOUT_SLED = 34,
+  EVERY_WITHOUT_COIN = 35
+};
+
+/* Adds the bodies that a kind needs, unless they exist. */
+static baum_status add_needed_bodies(every_element *parts, int kind)
+{
+  switch (kind) {
+  case EVERY_WITHOUT_TRAIN: return add_train(parts);
+  case EVERY_WITHOUT_WHEEL: return add_wheel(parts);
+  case EVERY_WITHOUT_SPACE: return every_element_add_spatial_bodies(parts);
+  case EVERY_WITHOUT_SLED: return add_block(parts, "sled", 0.9, 0.5, &parts->sled);
+  case EVERY_WITHOUT_COIN: return every_element_add_coin(parts);
+  default: return BAUM_OK;
+  }
+}
 
 /* Adds the first `count` kinds, and the bodies that they need. */
 static baum_status add_kinds(every_element *parts, int count)
@@ -501,15 +531,7 @@ static baum_status add_kinds(every_element *parts, int count)
     status = baum_mechanism_add_input(parts->mechanism, "throttle", 1.0, &parts->throttle);
   }
   for (int k = 0; k < count && status == BAUM_OK; k++) {
-    if (k == EVERY_WITHOUT_TRAIN) {
-      status = add_train(parts);
-    }
-    if (k == EVERY_WITHOUT_WHEEL) {
-      status = add_wheel(parts);
-    }
-    if (k == EVERY_WITHOUT_SPACE) {
-      status = every_element_add_spatial_bodies(parts);
-    }
+    status = add_needed_bodies(parts, k);
     if (status == BAUM_OK) {
       status = add_kind(parts, &element_kinds[k]);
     }

@@ -14,9 +14,11 @@
  * with a cap clamped to it; a ball on a wire of the yoke and on a strut of the cap; coil (spring),
  * push (load), winding (joint spring of the sleeve).
  *
- * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes
- * first; its numbers are 26, 26, 22 and 4. The design configuration fulfils all rows except that of
- * cam.
+ * Last, a sled in the plane on a blade (knife edge), and a coin that rolls.
+ *
+ * It has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The planar
+ * part without the sled comes first; its numbers are 26, 26, 22 and 4. The design configuration
+ * fulfils all rows except that of cam.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -60,6 +62,8 @@ typedef struct every_element {
   baum_body_id top;
   baum_body_id tube;
   baum_body_id cap;
+  baum_body_id sled;
+  baum_body_id coin;
   baum_joint_id pin;
   baum_joint_id rod;
   baum_joint_id guide;
@@ -85,6 +89,8 @@ typedef struct every_element {
   baum_joint_id clamp;
   baum_joint_id wire;
   baum_joint_id strut;
+  baum_joint_id blade;
+  baum_joint_id rolling;
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
@@ -98,7 +104,7 @@ typedef struct every_element {
   baum_body_id drag_bodies[1];
 } every_element;
 
-enum { EVERY_NQ = 71, EVERY_NV = 65, EVERY_NC = 56, EVERY_DEF_SIZE = 256 };
+enum { EVERY_NQ = 81, EVERY_NV = 74, EVERY_NC = 60, EVERY_DEF_SIZE = 256 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -153,7 +159,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 34 };
+enum { ELEMENT_KINDS = 36 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };

@@ -41,9 +41,12 @@ void good_spatial_point_on_plane(const every_element *parts, any_def *to);
 void good_spatial_spring(const every_element *parts, any_def *to);
 void good_spatial_load(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
+void good_planar_knife_edge(const every_element *parts, any_def *to);
+void good_spatial_rolling_disc(const every_element *parts, any_def *to);
 
 /* Adds the spatial bodies that are not the example of their kind. In every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
+baum_status every_element_add_coin(every_element *parts);
 
 /* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */
 #define GOOD(NAME)                                                 \

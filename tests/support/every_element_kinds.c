@@ -117,6 +117,8 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(force, spatial_spring, "spatial spring", coil),
   KIND(force, spatial_load, "spatial load", push),
   KIND(force, joint_spring, "joint spring", winding),
+  KIND(joint, planar_knife_edge, "planar knife edge", blade),
+  KIND(joint, spatial_rolling_disc, "spatial rolling disc", rolling),
 };
 
 /* ---- fields of a definition, read from the library's table ---- */

@@ -198,3 +198,25 @@ GOOD(joint_spring)
   def.free_value = 0.4;
   return def;
 }
+
+baum_status every_element_add_coin(every_element *parts)
+{
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.name = "coin";
+  def.mass = 0.3;
+  set3(def.inertia, 1e-3, 1e-3, 2e-3);
+  set3(def.position, 1.2, -0.4, 0.3);
+  set3(def.angular_velocity, 0.5, 2.0, 3.0);
+  return baum_mechanism_add_spatial_body(parts->mechanism, &def, &parts->coin);
+}
+
+GOOD(spatial_rolling_disc)
+{
+  baum_spatial_rolling_disc_def def = baum_spatial_rolling_disc_def_default();
+  def.name = "rolling";
+  def.body_b = parts->coin;
+  set3(def.point_a, 0.0, -0.5, 0.0);
+  def.radius = 0.1;
+  def.rim_radius = 0.02;
+  return def;
+}

@@ -125,6 +125,38 @@ ADD_POINTS(distance)
 ADD_AXIS(point_on_line)
 ADD_AXIS(point_on_plane)
 
+/* A wheel, of which the disc and the sphere are limits. */
+static void add_rolling(scene *s, int a, int b, double rim_radius)
+{
+  static const double vectors[4][3] = {
+    {0.3, -0.2, 0.5}, {0.3, 1.0, 0.7}, {-0.1, 0.4, 0.25}, {-0.2, 0.5, 0.9}};
+  baum_spatial_rolling_disc_def def = baum_spatial_rolling_disc_def_default();
+  def.body_a = s->bodies[a];
+  def.body_b = s->bodies[b];
+  memcpy(def.point_a, vectors[0], sizeof vectors[0]);
+  memcpy(def.normal, vectors[1], sizeof vectors[0]);
+  memcpy(def.centre, vectors[2], sizeof vectors[0]);
+  memcpy(def.axis_b, vectors[3], sizeof vectors[0]);
+  def.radius = 0.6;
+  def.rim_radius = rim_radius;
+  check(baum_mechanism_add_spatial_rolling_disc(s->mechanism, &def, NULL));
+}
+
+static void add_disc(scene *s, int a, int b)
+{
+  add_rolling(s, a, b, 0.0);
+}
+
+static void add_wheel(scene *s, int a, int b)
+{
+  add_rolling(s, a, b, 0.2);
+}
+
+static void add_sphere(scene *s, int a, int b)
+{
+  add_rolling(s, a, b, 0.6);
+}
+
 static void add_spring(scene *s, int a, int b)
 {
   baum_spatial_spring_def def = baum_spatial_spring_def_default();
@@ -176,6 +208,9 @@ static const element elements[] = {
   {"distance", add_distance, true, true, false},
   {"point on line", add_point_on_line, false, true, false},
   {"point on plane", add_point_on_plane, false, true, false},
+  {"rolling disc", add_disc, false, false, false},
+  {"rolling wheel", add_wheel, false, false, false},
+  {"rolling sphere", add_sphere, false, false, false},
   {"spring", add_spring, true, true, true},
   {"load", add_load, true, true, true},
 };

@@ -739,6 +739,18 @@ class baum_planar_curve_def(Structure):
     ]
 
 
+class baum_planar_knife_edge_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("axis", c_double * 2),
+    ]
+
+
 baum_study_progress_fn = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32, c_void_p)
 
 
@@ -1075,6 +1087,21 @@ class baum_spatial_point_on_plane_def(Structure):
         ("point_a", c_double * 3),
         ("point_b", c_double * 3),
         ("axis", c_double * 3),
+    ]
+
+
+class baum_spatial_rolling_disc_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point_a", c_double * 3),
+        ("normal", c_double * 3),
+        ("centre", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("radius", c_double),
+        ("rim_radius", c_double),
     ]
 
 
@@ -1529,6 +1556,16 @@ PROTOTYPES = {
     "baum_mechanism_set_planar_curve": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_planar_curve_def),
     ]),
+    "baum_planar_knife_edge_def_init": (None, [POINTER(baum_planar_knife_edge_def), c_size_t]),
+    "baum_mechanism_add_planar_knife_edge": (c_int, [
+        c_void_p, POINTER(baum_planar_knife_edge_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_knife_edge": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_knife_edge_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_knife_edge": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_knife_edge_def),
+    ]),
     "baum_study_create": (c_int, [c_void_p, c_double, c_double, POINTER(c_void_p)]),
     "baum_study_destroy": (None, [c_void_p]),
     "baum_study_options_init": (None, [POINTER(baum_study_options), c_size_t]),
@@ -1715,6 +1752,18 @@ PROTOTYPES = {
     "baum_mechanism_set_spatial_point_on_plane": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def),
     ]),
+    "baum_spatial_rolling_disc_def_init": (None, [
+        POINTER(baum_spatial_rolling_disc_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_rolling_disc": (c_int, [
+        c_void_p, POINTER(baum_spatial_rolling_disc_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_rolling_disc": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_rolling_disc": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def),
+    ]),
     "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
     "baum_mechanism_add_spline_driver": (c_int, [
         c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
@@ -1773,6 +1822,7 @@ DEFAULTS = {
     baum_planar_rack_and_pinion_def: "baum_planar_rack_and_pinion_def_init",
     baum_planar_gear_def: "baum_planar_gear_def_init",
     baum_planar_curve_def: "baum_planar_curve_def_init",
+    baum_planar_knife_edge_def: "baum_planar_knife_edge_def_init",
     baum_study_options: "baum_study_options_init",
     baum_study_grid: "baum_study_grid_init",
     baum_spatial_body_def: "baum_spatial_body_def_init",
@@ -1789,6 +1839,7 @@ DEFAULTS = {
     baum_spatial_distance_def: "baum_spatial_distance_def_init",
     baum_spatial_point_on_line_def: "baum_spatial_point_on_line_def_init",
     baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
+    baum_spatial_rolling_disc_def: "baum_spatial_rolling_disc_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
 }
 
@@ -1832,6 +1883,7 @@ STRUCTS = [
     baum_planar_rack_and_pinion_def,
     baum_planar_gear_def,
     baum_planar_curve_def,
+    baum_planar_knife_edge_def,
     baum_study_options,
     baum_study_grid,
     baum_study_entry,
@@ -1851,6 +1903,7 @@ STRUCTS = [
     baum_spatial_distance_def,
     baum_spatial_point_on_line_def,
     baum_spatial_point_on_plane_def,
+    baum_spatial_rolling_disc_def,
     baum_spline_driver_def,
     baum_catalog_entry,
     baum_catalog_parameter,

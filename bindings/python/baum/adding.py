@@ -302,6 +302,25 @@ class Adding:
         """
         return self._add(Joint, "planar_curve", locals())
 
+    def knife_edge(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        *,
+        axis: ArrayLike = (1.0, 0.0),
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        body_b: BodyLike | None = None,
+    ) -> Joint:
+        """Let a point of body_a move only along a blade that is fixed in body_a, such as a skate or
+        a wheel seen from above. One row of velocity level [m/s]: the velocity across the blade.
+
+        axis: direction of the blade, in ground axes if point is given, otherwise in the axes of
+        body_a. point: of the blade, in ground axes in the design configuration [m]; or point_a: in
+        the axes of body_a [m]. body_b: the surface on which the blade slides, by default ground.
+        """
+        return self._add(Joint, "planar_knife_edge", locals())
+
     def coupling(
         self,
         name: str | None,

@@ -276,6 +276,29 @@ class AddingInSpace:
         """
         return self._add(Joint, "spatial_point_on_plane", locals())
 
+    def rolling_disc(
+        self,
+        name: str | None,
+        body_b: BodyLike,
+        radius: Scalar,
+        *,
+        rim_radius: Scalar = 0.0,
+        centre: ArrayLike = (0.0, 0.0, 0.0),
+        axis_b: ArrayLike = (0.0, 0.0, 1.0),
+        body_a: BodyLike | None = None,
+        point_a: ArrayLike = (0.0, 0.0, 0.0),
+        normal: ArrayLike = (0.0, 1.0, 0.0),
+    ) -> Joint:
+        """Let a disc, wheel or sphere of body_b roll without slipping on a plane of body_a. Three
+        rows: the height over the plane [m], and two of velocity level [m/s].
+
+        radius: [m] > 0. rim_radius: of the cross-section of the rim [m]; 0 is a thin disc, radius a
+        sphere. centre, axis_b: of the disc, in the axes of body_b [m], [-]. body_a: by default
+        ground. point_a, normal: of the plane, in the axes of body_a [m], [-]; the normal points to
+        the disc.
+        """
+        return self._add(Joint, "spatial_rolling_disc", locals())
+
     # ---- forces ----------------------------------------------------------------------------------
 
     def spatial_spring(

@@ -79,6 +79,7 @@ KINDS = {
         Kind("planar_rack_and_pinion", "joint", units=("m",)),
         Kind("planar_gear", "joint", units=("m",)),
         Kind("planar_curve", "joint", units=("m",)),
+        Kind("planar_knife_edge", "joint", units=("m",)),
         Kind("spatial_spherical", "joint", units=("m",) * 3),
         Kind("spatial_revolute", "joint", units=("m",) * 3 + ("-",) * 2, coordinates=_ANGLE),
         Kind(
@@ -104,6 +105,7 @@ KINDS = {
         Kind("spatial_distance", "joint", units=("m",)),
         Kind("spatial_point_on_line", "joint", units=("m", "m"), coordinates=_DISPLACEMENT),
         Kind("spatial_point_on_plane", "joint", units=("m",)),
+        Kind("spatial_rolling_disc", "joint", units=("m",) * 3),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
         Kind("spline_driver", "joint"),

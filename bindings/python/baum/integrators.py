@@ -97,25 +97,30 @@ class Amplification(NamedTuple):
     damping: float
 
 
-def stability(integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar) -> Amplification:
-    """Amplification with the gains alpha h [-] and (beta h)^2 [-]."""
+def stability(
+    integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar | None = None
+) -> Amplification:
+    """Amplification with the gains alpha h [-] and (beta h)^2 [-]. Without beta2_h2: that of rows
+    of velocity level, which have only one mode; the second root is NaN."""
     out = _abi.baum_amplification()
-    _calls.make(
-        lib.baum_stability_at,
-        lookup(integrator).address,
-        number(alpha_h, "alpha_h"),
-        number(beta2_h2, "beta2_h2"),
-        ctypes.byref(out),
-        ctypes.sizeof(out),
-    )
+    gains = [number(alpha_h, "alpha_h")]
+    call = lib.baum_stability_velocity_at
+    if beta2_h2 is not None:
+        gains.append(number(beta2_h2, "beta2_h2"))
+        call = lib.baum_stability_at
+    _calls.make(call, lookup(integrator).address, *gains, ctypes.byref(out), ctypes.sizeof(out))
     first, second = (complex(*root) for root in out.z)
     stability = STABILITIES[out.stability]
     return Amplification(stability, out.spectral_radius, (first, second), out.damping)
 
 
-def stability_limit(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
+def stability_limit(
+    integrator: str | Integrator, damping_ratio: Scalar = 1.0, *, velocity_level: bool = False
+) -> float:
     """Largest alpha h [-] up to which alpha = damping_ratio x beta is stable; 0 if small gains are
-    unstable."""
+    unstable. velocity_level: that of rows of velocity level, which have no beta."""
+    if velocity_level:
+        return _numbers(lib.baum_stability_velocity_limit, 1, integrator)[0]
     ratio = number(damping_ratio, "damping_ratio")
     return _numbers(lib.baum_stability_limit, 1, integrator, ratio)[0]
 

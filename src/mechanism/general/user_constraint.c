@@ -443,8 +443,8 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Use the second form of gamma if possible; jacobian and nu have already been checked, or define the
- * constraint. */
+/* Use the second form of gamma if possible; jacobian and nu have already been checked, or define
+ * the constraint. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

@@ -10,21 +10,23 @@
 
 /* ---- an axis in definitions ---- */
 
-void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2])
+void baum_i_axis_turn(const double axis[2], double c, double s, double along[2])
 {
-  const baum_i_planar_axis_head *def = joint->element.def;
-  const double *axis = def->axis;
-  baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   /* Divided by the largest number first, so that squares neither overflow nor vanish. */
   double largest = fmax(fabs(axis[0]), fabs(axis[1]));
   double x = axis[0] / largest;
   double y = axis[1] / largest;
   double length = hypot(x, y);
-  x /= length;
-  y /= length;
+  along[0] = (c * x + s * y) / length;
+  along[1] = (c * y - s * x) / length;
+}
+
+void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2])
+{
+  const baum_i_planar_axis_head *def = joint->element.def;
+  const baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   bool on_ground = !isnan(def->head.point[0]);
-  along[0] = on_ground ? a.c * x + a.s * y : x;
-  along[1] = on_ground ? -a.s * x + a.c * y : y;
+  baum_i_axis_turn(def->axis, on_ground ? a.c : 1.0, on_ground ? a.s : 0.0, along);
 }
 
 /* ---- the row ---- */

@@ -40,6 +40,9 @@ typedef struct baum_i_planar_axis_head {
  * both point and axis of the definition are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
+/* Set `along` to the unit vector of an axis, turned back by the angle of cosine c and sine s. */
+void baum_i_axis_turn(const double axis[2], double c, double s, double along[2]);
+
 /* ---- the row; inline, so that the compiler evaluates common terms once ---- */
 
 /* Common terms of the equations above. */
