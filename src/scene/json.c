@@ -208,6 +208,9 @@ static baum_status parse_value(parser *p, const char *key, int32_t *index);
 
 static baum_status parse_key(parser *p, int32_t owner, const char **key)
 {
+  if (p->json->nodes[owner].count >= BAUM_I_JSON_KEYS) {
+    return fail(p, "an object has too many keys");
+  }
   BAUM_I_TRY(parse_text(p, key));
   if (baum_i_json_find(p->json, &p->json->nodes[owner], *key)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: the key \"%.80s\" appears twice", p->label,

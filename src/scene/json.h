@@ -9,7 +9,7 @@
 
 #include <baum/status.h>
 
-enum { BAUM_I_JSON_DEPTH = 32 };
+enum { BAUM_I_JSON_DEPTH = 32, BAUM_I_JSON_KEYS = 64 };
 
 typedef enum baum_i_json_kind {
   BAUM_I_JSON_NULL,

@@ -354,7 +354,6 @@ CALL(baum_mechanism_parse)
 #define call_baum_mechanism_read    call_baum_mechanism_parse
 #define call_baum_mechanism_print   call_baum_mechanism_parse
 #define call_baum_mechanism_compare call_baum_mechanism_parse
-
 static baum_page page_of(const scene *s, const baum_channel *channel)
 {
   static const double time = 0.0;

@@ -433,11 +433,17 @@ static void wrong_texts_are_refused(void **state)
                 WRONG[k][1]);
     assert_null(m);
   }
+  char keys[1000] = "{";
+  for (int k = 0; k < 65; k++) {
+    (void)snprintf(keys + strlen(keys), sizeof keys - strlen(keys), "\"k%d\": 0, ", k);
+  }
   char deep[100];
   memset(deep, '[', sizeof deep);
   baum_mechanism *m = NULL;
   ASSERT_SAYS(baum_mechanism_parse(deep, sizeof deep, NULL, 0, &m), BAUM_ERR_ARGUMENT,
               "nested too deeply");
+  ASSERT_SAYS(baum_mechanism_parse(keys, strlen(keys), NULL, 0, &m), BAUM_ERR_ARGUMENT,
+              "too many keys");
 }
 
 static void every_part_of_a_scene_is_refused(void **state)
