@@ -136,6 +136,11 @@ class SceneTest(FileTest):
             self.assertEqual(back, m)
             self.assertEqual(back.frozen, m.frozen)
 
+    def test_handles_are_pickled_with_their_mechanism(self):
+        m, bob = pickle.loads(pickle.dumps((m := pendulum(), m["bob"])))
+        self.assertIs(bob.mechanism, m)
+        self.assertEqual(bob, m["bob"])
+
     def test_addresses_are_not_pickled(self):
         m = baum.Mechanism()
         m.planar_particle("a", position=(1, 0))

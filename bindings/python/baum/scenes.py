@@ -269,6 +269,6 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
-    """Create a mechanism from a file that Mechanism.save() or baum_mechanism_write() has written.
+    """Create a mechanism from a file that Mechanism.save() has written, or a program in C.
     Otherwise like baum.parse()."""
     return parse(Path(path).read_text(encoding="utf-8"), functions)
