@@ -196,6 +196,8 @@ void baum_i_run_excuse_violation(baum_simulation *run)
   if (baum_i_violation(run->workspace, state->t, state->q, state->v) == BAUM_OK) {
     observe_row(run, run->workspace->phi, &c->max_phi, &c->max_phi_joint);
     run->judged_phi = c->max_phi;
+    (void)baum_i_largest(run->workspace->phi_rate, run->workspace->mechanism->nc,
+                         &run->judged_phi_rate);
   }
 }
 

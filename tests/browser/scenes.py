@@ -305,6 +305,12 @@ def spatial_point_on_plane(m):
 
 
 @scene(SPACE)
+def spatial_rolling_disc(m):
+    disc = m.spatial_body("disc", mass=1, inertia=(0.1, 0.1, 0.2), position=(0, 0.5, 0))
+    m.rolling_disc("contact", disc, 0.5)
+
+
+@scene(SPACE)
 def spatial_drivers(m):
     a, b = arm(m, "a", (0, 0, 0), (1, 0, 0)), arm(m, "b", (0, 2, 0), (0, 2, 1))
     hinge = m.spatial_revolute("hinge", m.ground, a, point=(0, 0, 0), axis=(0, 0, 1))

@@ -56,6 +56,47 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(phi(m, (2.5, 5)), [1.0])
         self.assertIn([2.0, 5.0], seen)
 
+    def test_a_knife_edge_restricts_velocities_only(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        sleigh = m.planar_body("sleigh", mass=2, inertia=0.15, velocity=(0.5, 0.39), angular_velocity=1.3)
+        m.knife_edge("blade", sleigh, point_a=(-0.3, 0))
+        mobility = m.freeze().mobility()
+        self.assertEqual((mobility.degrees_of_freedom, mobility.position_degrees_of_freedom), (2, 3))
+        self.assertEqual(m.report().velocity_rows, 1)
+        np.testing.assert_allclose(phi(m, (4, 3, 2)), [0])
+        run = baum.Simulation(m, "rk8", rtol=1e-10)
+        run.advance_to(4)
+        u0, w0, k2 = 0.5, 1.3, 0.15 / 2 + 0.09  # m u' = m 0.3 w^2
+        u = math.sqrt(u0**2 + k2 * w0**2)
+        k = 0.3 * u / k2
+        np.testing.assert_allclose(run.v[2], math.sqrt(u * k / 0.3) / math.cosh(4 * k + math.atanh(u0 / u)), rtol=1e-8)
+        with self.assertRaisesRegex(baum.Error, "rows of velocity level"):
+            baum.Simulation(m, "rattle", step=1e-3)
+
+    def test_a_constraint_on_velocities_needs_its_jacobian(self):
+        m = baum.Mechanism()
+        ball = m.planar_particle("ball", velocity=(1, None))
+        with self.assertRaisesRegex(ValueError, r"jacobian\(\) is NULL|jacobian is None"):
+            m.constraint("track", ball, 1, velocity_level=True)
+        m.constraint("track", ball, 1, velocity_level=True, jacobian=lambda t, q: [[-0.5, 1]])
+        run = baum.Simulation(m.freeze(), "rk4", step=1e-2)
+        np.testing.assert_allclose(run.v, (1, 0.5))
+
+    def test_a_disc_rolls(self):
+        m = baum.Mechanism()
+        wheel = m.spatial_body("wheel", position=(0, 0.5, 0), velocity=(2, 0, 0))
+        m.rolling_disc("contact", wheel, 0.5, rim_radius=0.1)
+        self.assertEqual(m.freeze().mobility().position_degrees_of_freedom, 5)
+        run = baum.Simulation(m, "rk4", step=1e-2)
+        np.testing.assert_allclose(run.v[3:], (0, 0, -4), atol=1e-14)
+        run.advance_to(1)
+        np.testing.assert_allclose(run.q[:3], (2, 0.5, 0), atol=1e-12)
+
+    def test_stability_of_rows_of_velocity_level(self):
+        self.assertEqual(baum.stability_limit("euler", velocity_level=True), 2)
+        self.assertAlmostEqual(baum.stability("rk2", 1.0).spectral_radius, 0.5, 14)
+        self.assertEqual(baum.stability("semi_implicit_euler", 1.5).roots[0], -0.5)
+
     def test_a_curve_returns_six_numbers(self):
         m = baum.Mechanism()
         m.planar_particle("ball")
