@@ -76,7 +76,7 @@ class Rows(unittest.TestCase):
     def test_a_constraint_on_velocities_needs_its_jacobian(self):
         m = baum.Mechanism()
         ball = m.planar_particle("ball", velocity=(1, None))
-        with self.assertRaisesRegex(ValueError, r"jacobian\(\) is NULL|jacobian is None"):
+        with self.assertRaisesRegex(baum.Error, r"jacobian\(\) is None, must be given"):
             m.constraint("track", ball, 1, velocity_level=True)
         m.constraint("track", ball, 1, velocity_level=True, jacobian=lambda t, q: [[-0.5, 1]])
         run = baum.Simulation(m.freeze(), "rk4", step=1e-2)

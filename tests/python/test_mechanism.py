@@ -341,6 +341,7 @@ class MovedCopies(unittest.TestCase):
         m.coupling("cam", pin, slide, ratio=2)
         m.spring("spring", a, c, point_a=(0.1, 0), point_b=(0, 0.3), stiffness=1)
         m.torsion_spring("torsion", a, c, stiffness=1)
+        m.knife_edge("blade", a, point=(0.7, -0.2), axis=(1, 3), body_b=c)
         return m
 
     def test_joints_and_forces_stay_as_they_were(self):

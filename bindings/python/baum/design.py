@@ -70,7 +70,9 @@ def _placed(values: Values, a: Frame, b: Frame) -> Values:
         return {}
     point = values["point"]
     fields = {"point": NOT_GIVEN}
-    fields.update(point_a=_pair(a.local(point)), point_b=_pair(b.local(point)))
+    fields["point_a"] = _pair(a.local(point))
+    if "point_b" in values:
+        fields["point_b"] = _pair(b.local(point))
     if "axis" in values:
         fields["axis"] = _pair(complex(*values["axis"]) / a.turned)
     return fields
