@@ -10,8 +10,7 @@ MOST = 30  # rows
 
 
 def table(caption: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """An HTML table of at most MOST rows. Texts are escaped; numbers are printed with four
-    digits."""
+    """Make an HTML table of at most MOST rows. Texts are escaped, and numbers have four digits."""
     rows = list(rows)
     lines = [_row("th", header), *(_row("td", row) for row in rows[:MOST])]
     if len(rows) > MOST:

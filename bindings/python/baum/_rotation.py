@@ -15,7 +15,7 @@ ROUNDING = 1e-6  # allowed deviation of a rotation matrix, for numbers that were
 
 
 def _matrix(value: Any, label: str) -> Array:
-    """Return a 3 x 3 array of finite numbers; refuse other values."""
+    """Convert a value to a 3 x 3 array of numbers."""
     return vector(np.ravel(np.asarray(value)), 9, label).reshape(3, 3)
 
 

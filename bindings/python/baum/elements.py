@@ -148,10 +148,10 @@ class Body(Element):
         """The outlines of the body, as a list. Outlines replace the shape that drawings show. The
         list is empty if the library chooses the shape.
 
-        You can set this property for every body, and also for ground. Its value is a shape
-        (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2) of a polygon, an
-        SVG path as a string (with y upward), a list of these, or None. The mechanism may be frozen
-        or not. Do not set it while another thread draws.
+        You can set this property for every body except user coordinates, and also for ground. Its
+        value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
+        of a polygon, an SVG path as a string (with y upward), a list of these, or None. The
+        mechanism may be frozen or not. Do not set it while another thread draws.
         """
         return outlines.read(self)
 

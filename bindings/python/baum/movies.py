@@ -58,7 +58,7 @@ def _positive(value: Scalar, label: str) -> float:
 
 
 def _times(t: Array, step: float) -> Array:
-    """The times of the frames."""
+    """Return the times of the frames."""
     low, high = min(t[0], t[-1]), max(t[0], t[-1])
     count = int((high - low) / step * (1 + 1e-9)) + 1
     if count > MOST:
@@ -68,7 +68,8 @@ def _times(t: Array, step: float) -> Array:
 
 
 def _writer(suffix: str, rate: Any) -> Any:
-    """A writer of Matplotlib, whose type hints want an int for the rate."""
+    """Make a writer of Matplotlib. Its type hints demand an int for the frame rate, although it
+    accepts floats."""
     pictures.import_matplotlib("Run.movie()")
     from matplotlib import animation
 
