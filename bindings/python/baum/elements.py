@@ -7,6 +7,7 @@ If a mechanism is a copy of another one, the handles of an element in both are e
 from __future__ import annotations
 
 import ctypes
+import operator
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from . import _abi, outlines
@@ -72,6 +73,10 @@ class Element:
 
     def __hash__(self) -> int:
         return hash(self._identity())
+
+    def __reduce__(self) -> Any:
+        # Ids are valid in one process only.
+        return operator.getitem, (self.mechanism, self.name)
 
     @property
     def definition(self) -> dict[str, Any]:
