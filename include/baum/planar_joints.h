@@ -122,8 +122,8 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  is BAUM_GROUND. All bodies must have an angle.
  *
  *  The reaction of a gear pair is the generalized force -J^T lambda that belongs to the velocities
- *  of body_a, body_b and the carrier; ground is omitted. Its forces are zero and only its torques
- *  are not, because the row contains only angles. */
+ *  of body_a, body_b and the carrier; ground is omitted. It contains only torques: its force
+ *  components are zero, because the row contains only angles. */
 typedef struct baum_planar_gear_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

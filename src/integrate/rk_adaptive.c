@@ -15,13 +15,14 @@
  * methods. Extra rates of the interpolant are evaluated only if a time inside the step is
  * requested, and never affect the motion.
  *
- * Projection: the end of a step is projected before its rate is evaluated, so that the interpolant
- * ends and the next step begins at the projected state. If the error estimate needs that rate, the
- * estimate is computed after the projection, so the rate is evaluated only once. This is accurate
- * enough, because the projection changes the state by no more than the estimate.
+ * Projection: the end of a step is projected before the rate there is evaluated. The interpolant
+ * thus ends at the projected state, and the next step begins there. If the error estimate needs the
+ * rate at the end, the estimate is computed after the projection, so that the rate is evaluated
+ * only once. This is accurate enough, because the projection does not change the state by more than
+ * the estimate.
  *
- * The end of a step is t + h after rounding, and h is then set to the difference of the rounded
- * times, so that time and motion agree. */
+ * The time t + h at the end of a step is rounded. h is then set to the difference of the rounded
+ * times, so that it is exactly the length of the step. */
 #include "integrate/rk_adaptive.h"
 
 #include <float.h>
@@ -45,7 +46,8 @@ enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
 
-/* h is 0 if no step has begun. */
+/* Fail with the message of an evaluation. h is the length of the step, or 0 if no step has
+ * begun. */
 static baum_status fail_with_evaluation(const baum_i_rk_adaptive *run, double h)
 {
   return baum_i_fail_in_step(run->failure, run->message.text, run->pair->name, run->t, h);
@@ -133,8 +135,8 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* Choose the first step: its local error equals the tolerance if the error constant is one. Step
- * control then corrects the length. */
+/* Choose the length of the first step. If the error constant of the method were one, its local
+ * error would equal the tolerance. The step control corrects this length later. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -257,8 +259,9 @@ static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *probl
   return BAUM_OK;
 }
 
-/* Accept a step. If it was shortened to `length` because of a singular configuration ahead, the
- * wanted length is kept, because the next step needs it to pass the configuration. */
+/* Accept a step of the given length. If the step was shortened because of a singular configuration
+ * ahead, the step control keeps the longer length, because the next step needs it to pass the
+ * configuration. */
 static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
@@ -280,7 +283,7 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
-    length = 0.5 * left; /* two equal steps, to avoid a tiny last one */
+    length = 0.5 * left; /* take two equal steps, so that the last step is not tiny */
   }
   run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
   length = fmin(length, left);
@@ -314,9 +317,9 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
       }
     }
     if (forced || status != BAUM_OK) {
-      run->crossing.least = 0.0; /* the cause may be another: permit short steps */
+      run->crossing.least = 0.0; /* the failure may have another cause, so permit short steps */
     }
-    /* The error determines the next length only if it is the reason of the refusal. */
+    /* The next length depends on the error only if the step was refused because of its error. */
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
