@@ -50,8 +50,9 @@ static const double STAGNATION = 0.5;
 /* Limit on the estimate of |D|. It is below 1 because the estimate is not exact and refers to the
  * end of the step only. */
 static const double TURNING = 0.7;
-/* Allowed violations, expressed as displacements. ROUNDING is the smallest limit; NOISE is a limit
- * relative to the largest coordinate, or to 1 if that is larger. */
+/* Allowed violations, expressed as displacements. Newton's method ends when the violation is at
+ * most ROUNDING. If its corrections have stopped decreasing, a violation of at most NOISE is
+ * accepted, too; NOISE is relative to the largest coordinate, or to 1 if that is larger. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
 /* Allowed violation of omitted rows. A row with a larger violation does not depend on the other
@@ -156,7 +157,7 @@ static double violation(const baum_i_continuation *path, bool kept, int *row)
   return worst;
 }
 
-/* Evaluate the position stage and its violation. */
+/* Evaluate the constraints at the configuration *to, and find their largest violation. */
 static baum_status evaluate_violation(const baum_i_continuation *path,
                                       const baum_i_configuration *to, double *worst)
 {
@@ -168,7 +169,7 @@ static baum_status evaluate_violation(const baum_i_continuation *path,
   return BAUM_OK;
 }
 
-/* Find the correction dq, in path->image. */
+/* Compute Newton's correction dq and write it to path->image. */
 static baum_status correct(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;

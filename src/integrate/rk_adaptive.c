@@ -36,8 +36,8 @@ static const double SHARE_OF_ERROR3 = 0.01;
  * problem->distrusts_projection. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is larger. At this length the times of the
- * stages still differ. */
+/* Shortest step, relative to the time or to 1/rate of the motion, whichever is larger. In a step of
+ * this length, the times of the stages still differ from each other. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so

@@ -6,7 +6,7 @@ from __future__ import annotations
 import html
 from typing import Any, Iterable, Sequence
 
-MOST = 30  # rows
+MOST = 30  # largest number of rows
 
 
 def table(caption: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

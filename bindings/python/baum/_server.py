@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from ._motion import TraceLike
     from .mechanism import Mechanism
 
-SHARE = 0.02  # of its time that a thread may spend on making frames
-TIMEOUT = 10.0  # [s] of a page that does not read
+SHARE = 0.02  # largest part of its time that a thread spends on making frames
+TIMEOUT = 10.0  # [s] after which a page that does not read is given up
 SCRIPT = Path(__file__).with_name("live.js")
 
 
@@ -33,7 +33,7 @@ class Server(http.server.ThreadingHTTPServer):
     can collect the simulation while the server is running."""
 
     daemon_threads = True
-    timeout = 0.1  # [s] until it looks whether it shall end
+    timeout = 0.1  # [s] interval at which the server checks whether it must end
 
     def __init__(
         self,
@@ -45,7 +45,7 @@ class Server(http.server.ThreadingHTTPServer):
     ) -> None:
         self.live = live
         self._shown = mechanism, title, traces
-        self.page()  # wrong traces are refused now
+        self.page()  # raises an exception if the traces are wrong
         super().__init__(("127.0.0.1", 0), _Handler)
         self.token = secrets.token_urlsafe(18)
         self.hosts = [f"{name}:{self.server_port}" for name in ("127.0.0.1", "localhost")]
@@ -70,7 +70,7 @@ class Server(http.server.ThreadingHTTPServer):
             self.live.servers.remove(self)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        pass  # a page that has gone away in the middle of an answer
+        pass  # the page was closed in the middle of an answer
 
     def page(self) -> str:
         """Return the page. It shows the newest frame until it receives other frames."""

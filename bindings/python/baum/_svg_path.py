@@ -82,10 +82,10 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
         return complex(z.real * rx, z.imag * ry) * turn
 
     half = to_circle((b - a) / 2)
-    grown = max(abs(half), 1.0)  # an ellipse that is too small is enlarged
+    grown = max(abs(half), 1.0)  # if the ellipse is too small to reach b, it is enlarged
     rx, ry, half = rx * grown, ry * grown, half / grown
     side = math.sqrt(max(1 - abs(half) ** 2, 0.0)) * (1 if large == sweep else -1)
-    # Relative to a, in coordinates where the ellipse is a unit circle.
+    # Coordinates relative to a, scaled and rotated such that the ellipse is a unit circle.
     centre = half - side * 1j * half / abs(half)
     if not cmath.isfinite(centre):
         raise OverflowError
@@ -120,7 +120,9 @@ class _Pen:
         if command == "Z":
             self._here, self._closed = self._start, True
             return
-        if command == "M" or self._closed:  # begins a subpath; without M, where the last one began
+        if (
+            command == "M" or self._closed
+        ):  # begin a subpath; without M, it begins where the last one began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self._before = self.count
@@ -159,7 +161,9 @@ def polygons(text: str) -> list[Array]:
         word = reader.take(_COMMAND)
         if word is None and command in ("", "Z", "z"):
             raise reader.error("a command is wanted, such as M or L")
-        if word is None:  # repeats the last command; points after that of an M begin lines
+        if (
+            word is None
+        ):  # numbers without a command repeat the last command; after M they are ends of lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")

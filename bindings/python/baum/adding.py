@@ -39,9 +39,10 @@ class Adding:
     """The methods of a Mechanism that add an element.
 
     Each method returns a handle of the new element. Bodies, joints and inputs are given as handles
-    or by their names. All methods have the argument `name`, which labels the element in messages
-    and finds it again; None chooses a name with a number, for example "body1". If another argument
-    is None, it has the default that the docstring of the method states.
+    or by their names. All methods have the argument `name`. Messages contain this name, and
+    m["crank"] returns the handle of the element named "crank". If the name is None, the element
+    gets a name with a number, for example "body1". If another argument is None, it has the default
+    that the docstring of the method states.
 
     Errors: TypeError for a value of a wrong type; ValueError for a wrong size and for a name that
         is already taken; KeyError for a name that does not exist; baum.Error for a value that the

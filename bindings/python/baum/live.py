@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 Watcher = Union[Callable[[float], object], None]
 
 FRAME = 1 / 60  # [s] least time between two frames
-AWAY = 2.0  # [s] without a page until a run that a page has paused goes on
+AWAY = 2.0  # [s] a paused run continues if no page is connected for this time
 
 
 class Frame(NamedTuple):

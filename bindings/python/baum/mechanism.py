@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .integrators import Integrator
     from .typing import SimulationOptions
 
-LISTED = 30  # names in a message
+LISTED = 30  # largest number of names in a message
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]

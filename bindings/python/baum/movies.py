@@ -18,8 +18,8 @@ from .typing import Array, Progress, Scalar
 if TYPE_CHECKING:
     from .run import Run
 
-MOST = 100_000  # frames
-MOST_PIXELS = 8192  # in width and height
+MOST = 100_000  # largest number of frames
+MOST_PIXELS = 8192  # largest width and height
 TICK = 100  # [Hz] delays between the frames of a GIF are multiples of 1/TICK
 
 
@@ -74,7 +74,7 @@ def _writer(suffix: str, rate: Any) -> Any:
     from matplotlib import animation
 
     if suffix == ".gif":
-        return animation.PillowWriter(fps=rate * (1 - 1e-9))  # it rounds the delay down
+        return animation.PillowWriter(fps=rate * (1 - 1e-9))  # Pillow rounds the delay down
     if not animation.FFMpegWriter.isAvailable():
         raise RuntimeError(
             "Run.movie() of .mp4 needs the program ffmpeg, which was not found: install it, name "

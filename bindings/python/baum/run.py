@@ -249,7 +249,7 @@ class Run:
             found = self._of_body(key)
             if found is not None:
                 return self._units_of(found[0])[found[1]]
-            assert self.mechanism is not None  # a run without one knows its units
+            assert self.mechanism is not None  # a run without a mechanism knows its units
             self._units[key] = units.of_channel(self.mechanism, self._channels[key])
         return self._units[key]
 
