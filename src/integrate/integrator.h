@@ -91,8 +91,8 @@ struct baum_integrator {
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Fixed step, methods with a history: accept the last step. Steps that are not accepted are
-   * trials. NULL for one-step methods. */
+  /* For methods with a fixed step that use past steps: accept the last step. A step that is not
+   * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL for methods with fixed steps only. */
@@ -103,8 +103,8 @@ struct baum_integrator {
   /* Interpolate positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods without
-   * history; not called if baum_i_integrator_remembers() is false. */
+  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods that do not
+   * use past steps; not called if baum_i_integrator_remembers() is false. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
   /* Make the next step restart from its given state and with new pivots, so that nothing depends on
    * earlier steps. Neither evaluates nor allocates. Required if `restart` is given. */
@@ -128,8 +128,8 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
 /* Tell whether steps are fixed. If not, they are variable, or the method is kinematics. */
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
-/* Tell whether a step h from t is a step of the fixed grid, up to the rounding of times. The
- * history of multistep methods is only valid for such steps. */
+/* Tell whether a step h from t is a step of the fixed grid, up to the rounding of times. Multistep
+ * methods can keep their past steps only after such a step. */
 bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
 
 /* Set the tolerances of all coordinates for variable-step methods; integrator.c gives the
@@ -145,7 +145,7 @@ double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row)
 /* Return the fraction, <= 1, of rtol and atol that the error test of a method uses. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
-/* Tell whether a run has a history, so that it needs restarts. */
+/* Tell whether a run uses past steps, so that it must be restarted after jumps. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
 /* Fail with the message of an evaluation that failed, and add the step of length h from t to it. h

@@ -25,7 +25,8 @@
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
-/* Values for which the next step length is chosen. They are below the limits of refusal. */
+/* The next step length is chosen such that turning and contraction will have these values, which
+ * are below the limits at which a step is refused. */
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
@@ -42,8 +43,8 @@ static const double LONGEST = 1e6;
 /* A configuration is treated as singular if |J^-1| is above this number. When a run stops at a fold
  * because no shorter step is possible, |J^-1| is about 1e5. */
 static const double SINGULAR_GAIN = 1e3;
-/* The configuration is a fold if the share of drivers (`pull` of continuation.h) is above this.
- * Where branches cross, the share is about 1 / gain. */
+/* The configuration is treated as a fold if the share of drivers (`pull` of continuation.h) is
+ * above this number. Where branches cross, the share is only about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
 enum { STORED = 4, MOST_PIECES = 10000 /* of short steps inside a step */ };

@@ -180,8 +180,8 @@ static void give_stop(baum_i_sundials *run)
   if (problem->stops || run->stops) {
     double stop =
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
-    (void)run->method->package->set_stop(
-      run->memory, stop); /* this call fails only if the stop time is in the past */
+    /* The call fails only if the stop time is in the past. */
+    (void)run->method->package->set_stop(run->memory, stop);
     run->stops = problem->stops;
   }
 }

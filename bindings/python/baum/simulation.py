@@ -59,7 +59,7 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
 BRANCHES = {value: name for name, value in names(_abi.baum_branch, "BAUM_BRANCH_").items()}
-AT_ONCE = 0.01  # [s] a call whose steps take less time does not need a second thread
+AT_ONCE = 0.01  # [s] a call that takes less time than this needs no second thread
 
 
 def _word(words: Mapping[str, int], label: str) -> Callable[[Any], int]:
