@@ -11,9 +11,9 @@
  *                 ... = h sum d_i K_i
  *
  * Whatever F_4 and the later terms are, the interpolant has the states and rates of both ends of
- * the step. Norm and tolerances are the same as for CVODE, so that rtol means the same for all
- * methods. Extra rates of the interpolant are evaluated only if a time inside the step is
- * requested, and never affect the motion.
+ * the step. The norm of the error and the tolerances are the same as those of CVODE, so that all
+ * methods are about equally accurate at the same rtol. Extra rates of the interpolant are evaluated
+ * only if a time inside the step is requested, and never affect the motion.
  *
  * Projection: the end of a step is projected before the rate there is evaluated. The interpolant
  * thus ends at the projected state, and the next step begins there. If the error estimate needs the
