@@ -12,8 +12,8 @@
 /* Writes the whole file or nothing, see baum_study_write(). */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
 
-/* Appends the whole file to a zeroed buffer, which stays empty on failure. `call` is the name of the
- * public function, with which messages about wrong arguments begin. It returns BAUM_OK,
+/* Appends the whole file to a zeroed buffer, which stays empty on failure. `call` is the name of
+ * the public function, with which messages about wrong arguments begin. Returns BAUM_OK,
  * BAUM_ERR_ARGUMENT, BAUM_ERR_FILE or BAUM_ERR_MEMORY. */
 baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *out);
 
