@@ -174,7 +174,8 @@ static inline void baum_i_to_ground(const baum_i_spatial_frame *frame, const dou
  * design configuration. */
 void baum_i_draw_turn(const baum_i_drawing *drawing, int from, int to, const double x[3],
                       double out[3]);
-/* Do the same for a point. */
+/* Transform a point from the axes of the body `from` to the axes of the body `to`, in the design
+ * configuration. */
 void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const double point[3],
                       double out[3]);
 

@@ -2,7 +2,9 @@
 /* Computes accelerations and multipliers from
  *
  *   [ M  J^T ] [ a      ]   [ g                                   ]
- *   This is equation (7) of Flores et al. 2008. With alpha = beta = 0 it is equation (5).
+ *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]
+ *
+ * This is equation (7) of Flores et al. 2008. With alpha = beta = 0 it is equation (5).
  *
  * The projections of positions and velocities solve systems with the same matrix, but with other
  * right sides.

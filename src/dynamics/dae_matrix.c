@@ -9,9 +9,9 @@
  *   lambda index 1: (J w)_q - gamma_q - 2 alpha nu_q     (c + 2 alpha) J         0
  *                   + beta^2 J,  w = v' + 2 alpha v      - gamma_v
  *          index 2: (J v)_q - nu_q                       J                       0
- *          The form GGL has the rows of index 2. With u = v - W^-1 J^T mu its other rows are
+ *          index 3: J                                    0                       0
  *
- * GGL has the rows of index 2, and with u = v - W^-1 J^T mu
+ * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, these rows differ or are added:
  *
  *          q                                             v                       lambda  mu
  *   q      c I - N^+ (N u)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T

@@ -7,9 +7,10 @@
  *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu
  *   index 3:  Phi
  *
- * The form GGL (C. Appl. Math. 12 (1985) 77-90) has index 2, and with y = (q, v, lambda, mu) it is
+ * The form GGL (C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90) has index
+ * 2. With y = (q, v, lambda, mu) its residual consists of these rows:
  *
- *   This form has index 2. With y = (q, v, lambda, mu) its residual consists of the rows
+ *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g
  *   Phi'
  *   Phi

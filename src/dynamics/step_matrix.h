@@ -9,8 +9,9 @@
  *
  *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q
  *
- * If the product scale by_a is about 1, no entry grows without bound as the step becomes shorter
- * (C. The multiplier lambda_i of an omitted row i stays 0.
+ * If the product scale by_a is about 1, no entry grows as the step becomes shorter
+ * (C. Bottasso, O. Bauchau, A. Cardona, 2007; M. Arnold, O. Bruels, 2007). The multiplier lambda_i
+ * of an omitted row i stays 0.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H

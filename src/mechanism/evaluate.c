@@ -153,7 +153,8 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
  * difference of two values.
  */
 
-/* If `whole_power` is set, include only types whose power() is that of the whole force. */
+/* Some types compute their power from the whole force, including the part that has a potential. If
+ * `whole_power` is set, include only these types. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

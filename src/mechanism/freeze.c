@@ -171,9 +171,8 @@ static double design_size(const baum_mechanism *mechanism)
   if (isfinite(diagonal) && diagonal > 0.0) {
     return diagonal;
   }
-  double offset =
-    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* if all points coincide: their distance from the
-                                                 * origin */
+  /* All points coincide. Take their distance from the origin. */
+  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]);
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 

@@ -430,7 +430,8 @@ struct baum_i_joint_type {
   double (*noise)(const void *def);
 };
 
-/* Evaluates one joint after the other. This is the `evaluate` of types that have evaluate_one(). */
+/* Evaluates one joint after the other. The function `evaluate` of all types that have a function
+ * evaluate_one(). */
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 

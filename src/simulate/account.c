@@ -21,11 +21,11 @@
  *
  * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
  * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
- * v. Their error over a step is of order 5. For fixed steps of methods above order 4, no such
- * interpolant is accurate enough. Each state is then the end of a shorter step from the same start.
- * Shorter steps are also taken within variable steps after which the projection is large, for
- * example after a start off the constraints. The reason is that the interpolant of a Runge-Kutta
- * pair ends at the projected state and not at the state before the projection.
+ * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
+ * the end of a shorter step from the same start. The same is done within variable steps after which
+ * the projection is large, for example after a start off the constraints. The reason is that the
+ * interpolant of a Runge-Kutta pair ends at the projected state and not at the state before the
+ * projection.
  *
  * IDA first moves the given initial state onto the constraints of its formulation. The account
  * treats this move as a projection.

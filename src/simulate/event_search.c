@@ -228,8 +228,8 @@ static int first_found(const baum_simulation *run)
   return first;
 }
 
-/* Some events may happen at times that count as equal to that of event `first`. Return the last of
- * these times. */
+/* Some events may happen at times that count as equal to the time of event `first`. Return the last
+ * of these times. */
 static double end_of_group(const baum_simulation *run, int first)
 {
   const baum_i_events *events = run->events;

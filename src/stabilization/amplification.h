@@ -59,8 +59,8 @@ bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, do
 
 /* ---- Along a ray alpha = damping_ratio * beta; damping_ratio is > 0 and finite ---- */
 
-/* Returns alpha h at the point where the ray becomes unstable. This is 0 if no point of the ray is
- * stable, and infinity if all points are. */
+/* Returns alpha h at the point where the ray becomes unstable. The result is 0 if no point of the
+ * ray is stable, and infinity if all points are stable. */
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
 /* Finds all stable intervals of alpha h, in ascending order. Only the first `capacity` intervals

@@ -15,7 +15,7 @@
 static const double BDF_DAMPING_RATIO = 0.618;
 /* A spectral radius of 0.95; messages about refused gains propose points with 0.9. */
 static const double EDGE_GROWTH = -0.05;
-static const double EDGE_SHARE = 0.25; /* fraction of the damping p of (6) */
+static const double EDGE_SHARE = 0.25; /* fraction of p, the damping that equation (6) promises */
 
 /* ---- numbers ---- */
 
@@ -28,8 +28,8 @@ static baum_i_text radius_text(double radius)
                : baum_i_text_of("%.6g", radius);
 }
 
-/* Returns alpha h up to which the ray from 0 through a point is stable. Returns NaN if the point
- * does not define a ray of its own. */
+/* The point of the gains lies on a ray that starts at 0. Returns the largest alpha h up to which
+ * this ray is stable. Returns NaN if the point does not define a ray of its own. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);

@@ -109,8 +109,8 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- interpolated settings ---- */
 
-/* A setting between two entries of a method. It is the setting of one entry if `coarse` equals
- * `fine`. */
+/* A setting between two entries of a method. If `coarse` equals `fine`, it is the setting of this
+ * entry. */
 typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
@@ -261,7 +261,7 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
 }
 
 /* Finds the coarsest setting of a method for which two errors are not larger than the given one:
- * its own error, and that of the next finer entry.
+ * the error of the setting itself, and the error of the next finer entry.
  */
 static bool find_setting(const baum_i_entry *const *entries, int count, double error,
                          bool with_margin, setting *out)

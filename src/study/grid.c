@@ -157,8 +157,8 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
   return baum_integrator_has_fixed_step(o->integrator) ? add_ladder(g, *o, true) : BAUM_OK;
 }
 
-/* Adds settings with three kinds of gains: those of the integrator's default rule, those of the
- * rule "auto", and constant ones. */
+/* Adds settings with three kinds of gains: the gains of the integrator's default rule, the gains of
+ * the rule "auto", and constant gains. */
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
   BAUM_I_TRY(add_settings(g, &o));

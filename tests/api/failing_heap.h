@@ -42,8 +42,8 @@ static inline long count_allocations(scenario *run, void *context)
 }
 
 /* Lets single allocations fail, one in each run of the scenario. To save time, only the allocations
- * 0, stride, 2 stride and so on are tested. Only every allocation number n * stride is tested. The
- * scenario has to return BAUM_OK or BAUM_ERR_MEMORY, and it must not lose memory. */
+ * with the numbers 0, stride, 2 stride and so on are tested. The scenario has to return BAUM_OK or
+ * BAUM_ERR_MEMORY, and it must not lose memory. */
 static inline void fail_allocations(scenario *run, void *context, long stride)
 {
   long allocations = count_allocations(run, context);

@@ -486,8 +486,8 @@ static const double *factors_of_rows(void)
   return factors;
 }
 
-/* If rows have gains of their own, only a copy of the factors is added. This code is the same for
- * all integrators, so that testing one of them is sufficient. */
+/* If rows have gains of their own, the only additional allocation is a copy of the factors. This
+ * code is the same for all integrators, so that testing one of them is sufficient. */
 static void runs_with_gains_of_rows_survive_every_failing_allocation(void **state)
 {
   (void)state;
@@ -542,8 +542,9 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
     s.options.start = solver == BAUM_SOLVER_AUTO ? BAUM_START_ASSEMBLE : BAUM_START_AS_GIVEN;
     if (solver == BAUM_SOLVER_AUTO) {
       fail_every_allocation(simulate, &s);
-    } else { /* Thousands of allocations at few places; only those of the solver differ from
-              * BAUM_SOLVER_AUTO. */
+    } else {
+      /* There are thousands of allocations at few places. Only the allocations of the solver differ
+       * from BAUM_SOLVER_AUTO, so it is enough to test one in fifty. */
       fail_allocations(simulate, &s, 50);
     }
   }

@@ -103,7 +103,7 @@ static void cancel_everywhere(const baum_mechanism *m, const baum_simulation_opt
   while (cancel_at(m, o, steps + 1, &want)) {
     assert_in_range(++steps, 1, MOST_STEPS);
   }
-  /* The longest steps are those of rk8, which are a sixteenth of the period. */
+  /* rk8 takes the longest steps, which are a sixteenth of the period. */
   assert_true(steps >= 5);
 }
 

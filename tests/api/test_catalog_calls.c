@@ -57,8 +57,8 @@ static void every_entry_says_what_it_is(void **state)
   }
 }
 
-/* Describes a mechanism by six weighted sums. Those of q, v, M, J and nu are taken at the start.
- * That of g is taken near the start, where no spring has its free length. */
+/* Describes a mechanism by six weighted sums. The sums of q, v, M, J and nu are computed at the
+ * start. The sum of g is computed near the start, where no spring has its free length. */
 static void describe(const baum_catalog_choice *choice, double out[6])
 {
   baum_mechanism *m = build(choice);

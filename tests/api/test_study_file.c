@@ -261,9 +261,9 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The first line of the file is that of this study. The other lines come from the study of a
- * heavier pendulum. Their digests do not match the first line. Their entries must therefore be run
- * again. */
+/* The file begins with the first line that belongs to this study. The other lines come from the
+ * study of a heavier pendulum. Their digests do not match the first line. Their entries must
+ * therefore be run again. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;

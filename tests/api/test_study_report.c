@@ -135,9 +135,9 @@ static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
   char *page = print(scene.study, BAUM_REPORT_PAGE);
   assert_int_equal(count(page, "\"DATA\""), 0);
   assert_int_equal(count(page, "\"levels\": "), 1); /* only rk2 has gains */
-  /* One for each entry, and one for each of 4 methods. */
+  /* There is one object for each entry, and one for each of the 4 methods. */
   assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4);
-  /* Once in http-equiv, and twice in the namespace of SVG. */
+  /* "http" occurs once in http-equiv, and twice in the name of the namespace of SVG. */
   assert_int_equal(count(page, "http"), 3);
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);

@@ -212,8 +212,8 @@ def count(browser, selector):
 
 
 def check_maps(browser, study, checks):
-    """Check that the maps show the gains of every run. Those of refused runs must be shown if they
-    can be computed."""
+    """Check that the maps show the gains of every run. The gains of refused runs must be
+    shown, too, if they can be computed."""
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")

@@ -49,9 +49,9 @@ compile() {
   done
 }
 
-# compare TARGET prints the largest differences from Linux x86-64. Those of CVODE and IDA are listed
-# separately. On a processor with wide vectors, the last digits differ there, unless the library
-# does not detect the vectors.
+# compare TARGET prints the largest differences from the results on Linux x86-64. The differences in
+# runs with CVODE and IDA are listed separately. In these runs the last digits differ on a processor
+# with wide vectors, unless the library does not detect the vectors.
 compare() {
   case $1 in
     *aarch64 | wasm*)

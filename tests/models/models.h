@@ -72,7 +72,8 @@ typedef struct model_slider_crank {
   bool rough;
   bool centric;       /* whether there is no eccentricity */
   bool doubled_guide; /* whether a second guide on the same line adds two redundant rows */
-  /* Whether the velocities of all bodies are given; otherwise only that of the crank is. */
+  /* Whether the velocities of all bodies are given; otherwise only the velocity of the crank is
+   * given. */
   bool moving;
   double angle;    /* [rad] of the crank at the start */
   double rod;      /* [m] length of the rod, or 0 for that of the paper */

@@ -109,9 +109,9 @@ static double allowed(const method *with)
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
     return 3e-3; /* IDA controls only the error of y, which is less accurate at index 3. */
   }
-  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than those of
-   * Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use derivatives from
-   * before a knot of a spline driver after this knot. */
+  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
+   * constants of Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use
+   * derivatives from before a knot of a spline driver after this knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }

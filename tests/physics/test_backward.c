@@ -17,8 +17,9 @@
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
-/* The largest violation of the backward run may be at most this many times that of the forward run.
- * Both come from local errors, which depend a little on the direction and on the steps chosen. */
+/* The largest violation of the backward run may be at most this many times the largest violation of
+ * the forward run. Both come from local errors, which depend a little on the direction and on the
+ * steps chosen. */
 static const double MOST_VIOLATION = 4.0;
 /* The error back at the start may be at most this many times the error at the far end. A ratio of 4
  * is expected: 1 from the position error at the far end, 2 from the velocity error there, which

@@ -70,8 +70,8 @@ static double largest_difference(const end *one, const end *other)
   return largest;
 }
 
-/* Sums over all initial configurations of a mechanism. There is one tally for each formulation and
- * each rtol = 10^-k. */
+/* Sums over all initial configurations of a mechanism. For each formulation and each rtol = 10^-k
+ * there is one struct of such sums. */
 typedef struct tally {
   int runs;
   int64_t steps;

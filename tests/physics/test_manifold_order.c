@@ -25,7 +25,7 @@ static const double END = 0.5;
  * test_order.c. The runs take only half a second, so that error terms of the next order are larger.
  * Such terms may also increase the slope. */
 static const double TOO_FLAT = 0.25;
-/* For orders 5 and 8; a wrong term would give slopes of at most 2. */
+/* The limit for the orders 5 and 8. A wrong term would give slopes of at most 2. */
 static const double TOO_FLAT_HIGH = 0.6;
 static const double TOO_STEEP = 0.8;
 

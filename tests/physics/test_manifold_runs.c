@@ -222,7 +222,7 @@ static double estimate_of(const baum_mechanism *mechanism)
 }
 
 /* Error estimates are displacements, which are angles in rad here. They are not differences of q.
- * They must therefore be the same as those of the twin. */
+ * They must therefore be the same as the velocities of the twin. */
 static void errors_are_displacements(void **state)
 {
   (void)state;

@@ -264,7 +264,7 @@ static void the_energy_account_closes(void **state)
 }
 
 /* At every angle, the angular acceleration of the cranks is -weight cos(angle) / inertia. If two
- * cranks are in line with the coupler, the rows without those of the third crank are singular. */
+ * cranks are in line with the coupler, the rows of these two cranks alone are singular. */
 static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
 {
   (void)state;

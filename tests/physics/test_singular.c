@@ -180,7 +180,7 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
-  /* [rad] from the closed-form solution of A Coruna A02. */
+  /* [rad] angle of the closed-form solution of A Coruna A02. */
   static const double ANGLE = -30.343944970943127;
   model_n_four_bar data = model_n_four_bar_a02(1);
   model m;

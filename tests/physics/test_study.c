@@ -166,8 +166,8 @@ static int circle_solution(double t, double *q, double *v, double *lambda, void 
   return 0;
 }
 
-/* The given solution is that of a particle on a circle without gravity. It moves at a constant 1
- * rad/s. */
+/* The given solution is the motion of a particle on a circle without gravity. It moves at a
+ * constant 1 rad/s. */
 static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
 {
   (void)state;
@@ -197,7 +197,7 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   baum_study_entry entry = study_entry(study, 5);
   /* The accuracy that was stated for the solution. */
   assert_true(entry.at_floor && entry.error == 1e-12);
-  /* Because the solution gives no multipliers. */
+  /* The error of the multipliers is unknown, because the solution gives no multipliers. */
   assert_true(isnan(entry.error_lambda));
   baum_study_destroy(study);
   model_destroy(&m);

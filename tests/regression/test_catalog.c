@@ -131,7 +131,8 @@ static void look_at_constraints(const known *k)
     off_rate = fmax(off_rate, worst_of(rate, k->nc));
   }
   printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
-  /* This covers the rounding of coordinates up to 30, and of sums of a few sines and cosines. */
+  /* The limit allows for rounding of coordinates up to 30, and of sums of a few sines and
+   * cosines. */
   assert_true(off <= 1e-14);
   assert_true(off_rate <= 1e-14 * fmax(1.0, fast));
   free(phi);
@@ -173,7 +174,7 @@ static baum_catalog_error run(const known *k, double rtol)
   printf("%-24s rtol %.0e: start %.0e %.0e, q %.1e at %g s, v %.1e at %g s, floors %.0e %.0e\n",
          k->entry.name, rtol, start.q, start.v, error.q, error.q_time, error.v, error.v_time,
          error.q_floor, error.v_floor);
-  /* This covers the rounding of the design configuration and of its assembly. */
+  /* The limit allows for rounding of the design configuration and of its assembly. */
   assert_true(start.q <= 1e-15 && start.v <= 1e-15);
   baum_simulation_destroy(simulation);
   free(rows);

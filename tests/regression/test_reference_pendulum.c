@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares two pendulums with tests/data. Each is made with a distance joint, and with one user
  * function. The first is A01 of IFToMM and A Coruna up to 10 s, whose closed form with elliptic
- * functions has 20 digits. The second is that of SUNDIALS' cvPendulum_dns up to 30 s, whose period
+ * functions has 20 digits. The second pendulum is SUNDIALS' cvPendulum_dns up to 30 s. Its period
  * is exactly 2 s. */
 #include <setjmp.h>
 #include <stdarg.h>

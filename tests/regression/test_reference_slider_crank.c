@@ -187,10 +187,10 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
 
     assert_true(v[2] == SPEED);
     assert_true(q[2] == 0.0);
-    /* Because the design configuration was only approximate. */
+    /* Assembly moved the bodies, because the design configuration was only approximate. */
     assert_true(counters.start_change > 0.01);
     for (int i = 0; i < 9; i++) {
-      /* This covers the rounding of a few operations on lengths below 1 m and speeds below 150
+      /* The limit allows for rounding in a few operations on lengths below 1 m and speeds below 150
        * rad/s. */
       ASSERT_NEAR(q[i], want_q[i], 0.0, 1e-14);
       ASSERT_NEAR(v[i], want_v[i], 0.0, 1e-14 * SPEED);

@@ -42,7 +42,7 @@ typedef struct hand {
   int rows;
   double mass[Q];
   double gravity;
-  double crank; /* length of the crank; that of the rod follows */
+  double crank; /* length of the crank; the length of the rod is the next member */
   double rod;
 } hand;
 

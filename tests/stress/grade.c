@@ -9,9 +9,9 @@
  *
  *   CONSTANT x rtol x steps x growth
  *
- * The oracle computes the growth from neighbouring motions. CONSTANT allows for two ratios: that of
- * the largest error to the mean, and that of an error to its estimate. With a fixed step h and a
- * span T, the promise is the error of a method of order p:
+ * The oracle computes the growth from neighbouring motions. CONSTANT allows for two ratios: the
+ * ratio of the largest error to the mean error, and the ratio of an error to its estimate. With a
+ * fixed step h and a span T, the promise is the error of a method of order p:
  *
  *   CONSTANT x rate T x (rate h)^p x growth
  *

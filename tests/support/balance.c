@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The force of a row on a body is -lambda times the columns of this body in the row. The forces and
- * moments on all bodies of a joint therefore add up to zero if the following sums over these bodies
- * are zero for every row:
+/* Tests whether the forces that a joint exerts on its bodies are in balance. The force of one row
+ * of J on a body is -lambda times the entries of this row in the columns of the body. The forces
+ * and moments on all bodies of a joint therefore add up to zero if the following sums over these
+ * bodies are zero for every row:
  *
  *   force x: J [1 0 0 ...],   force y: J [0 1 0 ...],   moment about the origin: J [-y x 1 ...]
  *

@@ -16,7 +16,7 @@
  *
  * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes
  * first. It has 26 positions, 26 velocities, 22 rows and 4 degrees of freedom. The design
- * configuration satisfies all rows except that of `cam`.
+ * configuration satisfies all rows except the row of `cam`.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H

@@ -25,7 +25,8 @@
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *left_out, double *a, double *lambda);
 
-/* Does the same for long chains. It reads the blocks of the workspace instead of dense matrices. */
+/* Computes the same accelerations and multipliers for long chains. It reads the blocks of the
+ * workspace instead of dense matrices. */
 bool quad_acceleration_of_blocks(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *a, double *lambda);
 

@@ -159,7 +159,7 @@ static bool is_planar(const oracle_body *b)
     check(baum_mechanism_add_spatial_##NAME(r->mechanism, &def, &joint->id)); \
   }
 
-/* Adds a planar joint. Its x axis is that of the oracle's joint. */
+/* Adds a planar joint. Its x axis is the x axis of the oracle's joint. */
 static void add_planar(random_spatial *r, const baum_spatial_revolute_def *given,
                        oracle_joint *joint)
 {

@@ -17,7 +17,7 @@ typedef struct saddle {
   double *f;
   double *r;
   double *a;          /* for the solution */
-  double *lambda;     /* likewise, for the multipliers */
+  double *lambda;     /* for the multipliers of the solution */
   int mass_count;     /* length of mass */
   int jacobian_count; /* length of jacobian */
   baum_i_mass_block *mass_blocks;

@@ -103,7 +103,7 @@ static void parallelogram(singular_scene *scene, model_parallelogram which, doub
   know(scene, &s, 1.0 + off, 2.0);
 }
 
-/* The angle of the crank is th, and the angle of the rod is -th. The data are those of
+/* The angle of the crank is th, and the angle of the rod is -th. The data are taken from
  * tests/models/slider_crank.c. */
 static void slider_crank(singular_scene *scene, double off)
 {

@@ -32,8 +32,8 @@ typedef struct scene {
   oracle_answer want;
 } scene;
 
-/* Relative errors. They are the errors of the library, or those of the oracle that come from
- * rounding of the positions. */
+/* Relative errors. They are either the errors of the library, or errors of the oracle that are
+ * caused by rounding of the positions. */
 typedef struct errors {
   double acceleration;
   double reaction;

@@ -160,8 +160,8 @@ static void assert_solution(const equations *x, const double *want, double toler
 }
 
 /* Tests the solver twice: without iterative refinement, as in most evaluations, and with two steps
- * of refinement. The condition number of the Schur complement J M^-1 J^T is the square of that of
- * its factors. The latter is up to 1e5 here. */
+ * of refinement. The condition number of the Schur complement J M^-1 J^T is the square of the
+ * condition number of its factors. The latter is up to 1e5 here. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();

@@ -47,8 +47,8 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* The change must be -J^T Phi. Here J = (0.6, 0.8) is that of the configuration `from`, and
- * Phi = (|q|^2 - 1) / 2 = 0.15 is that of q. */
+/* The change must be -J^T Phi. Here J = (0.6, 0.8) belongs to the configuration `from`, and
+ * Phi = (|q|^2 - 1) / 2 = 0.15 belongs to q. */
 static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
 {
   (void)state;

@@ -43,9 +43,9 @@ typedef struct point {
 } point;
 
 /* Sets the scales of the columns. With these scales, the results of the tests do not depend on
- * units. Coordinates have their own scales. The scale of a velocity is that of its coordinate, per
- * second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates, divided by the
- * displacement of its row. The scale of a mu is the same times one second. */
+ * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
+ * divided by one second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates,
+ * divided by the displacement of its row. The scale of a mu is the same times one second. */
 static void take_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;

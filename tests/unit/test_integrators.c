@@ -75,8 +75,8 @@ static double allowed(const integrator_setup *setup)
   /* The allowed error for each order. The first entry is for variable steps. From order 5 on, the
    * errors are rounding errors of 2000 steps and of the reference. */
   static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
-  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than those of
-   * Runge-Kutta methods, which are about 1/k!. */
+  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
+   * constants of Runge-Kutta methods, which are about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
            ? 3e-2

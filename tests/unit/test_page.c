@@ -169,11 +169,11 @@ static void a_sample_shows_paths_and_reactions_in_the_view_of_the_motion(void **
     assert_non_null(strstr(text[k], ">500 N</text>")); /* the largest force is 730 N */
     assert_int_equal(count_of(text[k], "<title>path of "), 1);
     assert_int_equal(count_of(text[k], "<title>reaction of "), 1);
-    /* Size and view are equal. */
+    /* The first line gives the size and the view, which must be equal in all pictures. */
     assert_int_equal(strncmp(text[k], text[0], strcspn(text[0], "\n")), 0);
-    /* Of the force and its scale. */
+    /* The force and its scale have this colour. */
     assert_int_equal(count_of(text[k], "#be123c"), k == 1 ? 2 : 1);
-    /* Of the arc and its tip. */
+    /* The arc and its tip have this colour. */
     assert_int_equal(count_of(text[k], "#8b5cf6"), k == 2 ? 2 : 0);
     const char *path = strstr(strstr(text[k], "<title>path of "), "<path d=\"M");
     int lines = 0;

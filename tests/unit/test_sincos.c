@@ -25,7 +25,7 @@
 
 enum { BODIES = 7 }; /* not a multiple of the vector length */
 
-/* One unit in the last place of the exact value. */
+/* Errors are given in units in the last place of the exact value. This is the limit. */
 static const double ONE_ULP = 1.0;
 
 /* Skips the test if long double is not longer than double. This is the case on some machines, and

@@ -275,7 +275,7 @@ static void the_result_does_not_depend_on_earlier_values(void **state)
   baum_i_sparse_qr_destroy(kept);
 }
 
-/* The matrix is that of a chain of 20000 links. Both ends of the chain are held, and every column
+/* The matrix belongs to a chain of 20000 links. Both ends of the chain are held, and every column
  * occurs twice. An algorithm whose time or memory grows as the square of the size could not solve
  * this. */
 static void a_long_chain_is_linear(void **state)

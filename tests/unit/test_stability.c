@@ -254,7 +254,7 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
      * radius. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
     /* At a sharp tip of the region of RK3, the point that the search finds may be 1 % farther away
-     * than that of the grid. */
+     * than the point of the grid. */
     assert_true(hypot(got.A - w.A, got.B - w.B) <= 1.01 * grid_distance(m, w));
   }
 }

@@ -59,7 +59,7 @@ static void lines_that_no_study_writes_are_refused(void **state)
   (void)state;
   const baum_i_field fields[] = {
     {"steps", "", "", BAUM_I_COUNT, true, true, offsetof(baum_study_entry, steps)},
-    /* Not saved in files. */
+    /* The state of an entry is not saved in files. */
     {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)},
     {"repeats", "", "", BAUM_I_INDEX, true, true, offsetof(baum_study_entry, repeats)},
     {"cpu", "", "", BAUM_I_NUMBER, true, true, offsetof(baum_study_entry, cpu)},

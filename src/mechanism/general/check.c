@@ -138,7 +138,7 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* Tell whether the function has no kink. This is so if the difference between the derivatives on
+/* Tell whether the function has no kink. It is considered to have none if the difference between the derivatives on
  * both sides decreases with the step, or if this difference is too small to explain the deviation
  * of the given value. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
@@ -348,7 +348,7 @@ static void set_configuration(place *p, int k)
     if (k > 0) {
       p->v[i] = mechanism->scale[i] * spread(3 * i + 8 * k + 1);
     } else {
-      /* 0 if not given (NaN). */
+      /* A velocity that is not given is NaN. It is set to 0. */
       p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0;
     }
   }

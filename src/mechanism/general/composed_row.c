@@ -11,7 +11,8 @@
  *   gamma_v = G_i (gamma_i)_v - 2 G_ij r_j g_i
  *   gamma_q = G_i (gamma_i)_q + (G_ij gamma_j - G_ijk r_j r_k) g_i - 2 G_ij r_j (r_i)_q
  *
- * The matrices (g_i^T)_q need not be symmetric. For coordinates in space they are not.
+ * The matrices (g_i^T)_q need not be symmetric. For coordinates in space they are not
+ * symmetric.
  */
 #include "mechanism/general/composed_row.h"
 

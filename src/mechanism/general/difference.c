@@ -270,8 +270,8 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 /* ---- the search for a step ---- */
 
 /* Store the entries of the derivative that have improved. best (size) is the smallest difference of
- * the two orders so far, relative to the variation of F. It is negative if it is small enough.
- * Returns true if a smaller step would not help. */
+ * the two orders so far, relative to the variation of F. The result is negative if the difference
+ * is small enough. Returns true if a smaller step would not help. */
 static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
                           int size)
 {

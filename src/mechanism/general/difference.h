@@ -2,8 +2,8 @@
 /* Derivatives by central differences. They are used where the user gives no function for a
  * derivative, and to check the derivatives that user functions return.
  *
- * Every derivative is computed as that of a function f(s) of one variable at s = 0. Here f is the
- * function F along a straight line in (t, q, v). The line is called a ray:
+ * Every derivative is computed as the derivative of a function f(s) of one variable at s = 0. Here
+ * f is the function F along a straight line in (t, q, v). The line is called a ray:
  *
  *   f(s) = F(t + s dt, q + s dq, v + s dv)
  *

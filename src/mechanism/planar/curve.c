@@ -55,7 +55,7 @@ static baum_status curve_at(const baum_i_joint *joint, const baum_i_local *at, d
 
 /* ---- the row ---- */
 
-/* One joint at a point. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_planar_pair pair;
   baum_i_inner x[2];

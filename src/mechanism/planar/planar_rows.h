@@ -20,7 +20,7 @@ enum {
   BAUM_I_PLANAR_NUMBERS = 4, /* s_a and s_b, the first parameters of a joint */
 };
 
-/* One joint at a point. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct baum_i_planar_pair {
   const double *s_a;
   const double *s_b;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Spring and damper in parallel between two points in the plane. Let d be the vector from the point
  * on body_a to the point on body_b, and l = |d|. The spring has the stiffness k, the damping c and
- * the free length l_0. F = l^2 / 2 and G are those of separation.h.
+ * the free length l_0. F = l^2 / 2 and G are defined in separation.h.
  *
  *   T   = k (l - l_0) + c l'                       tension
  *   h   = l_q = G^T d / l                          (6 columns)

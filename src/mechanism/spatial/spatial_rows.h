@@ -97,7 +97,8 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
 void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
-/* The `linearize` of a joint. Its rows are the products `rows`, each multiplied by `factor`. */
+/* The function `linearize` of a joint whose rows are products. Each row is one of the products in
+ * `rows`, multiplied by `factor`. */
 void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
                                    const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
                                    double factor, const double *w, const double *lambda,

@@ -35,7 +35,7 @@ static baum_status car_axis(model *out)
   return model_car_axis(true, out);
 }
 
-/* The sample times are those of tests/data without the time of the start. */
+/* The sample times are taken from tests/data, without the time of the start. */
 static const struct {
   const char *name;
   baum_status (*build)(model *out);
