@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Formats texts into structs and buffers of fixed size. Numbers have a decimal point in every locale. */
+/* Formats texts. Numbers have a decimal point in every locale. */
 #ifndef BAUM_I_BASE_TEXT_H
 #define BAUM_I_BASE_TEXT_H
 

@@ -243,8 +243,8 @@ static void overflow_is_reported(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Each channel has 10000 columns. The call is refused only because of the number of columns. Nothing
- * is evaluated or written. */
+/* Each channel has 10000 columns. The call is refused only because of the number of columns.
+ * Nothing is evaluated or written. */
 static void more_columns_than_can_be_counted_are_refused(void **state)
 {
   (void)state;

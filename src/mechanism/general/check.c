@@ -138,9 +138,9 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* Tell whether the function has no kink. It is considered to have none if the difference between the derivatives on
- * both sides decreases with the step, or if this difference is too small to explain the deviation
- * of the given value. */
+/* Tell whether the function has no kink. It is considered to have none if the difference between
+ * the derivatives on both sides decreases with the step, or if this difference is too small to
+ * explain the deviation of the given value. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
   double far = kink(c, at, &t->now, t->step[i], i);

@@ -90,7 +90,8 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
  * exactly one way: either `point`, or `point_a` and `point_b`. */
 baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
                                            const char *label);
-/* This function is for elements that have a length. They cannot use `point`, because their length would be zero. */
+/* This function is for elements that have a length. They cannot use `point`, because their length
+ * would be zero. */
 baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
 /* Check, in addition, that both bodies have an angle (turning), or that body_a has an angle
