@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The data of Andrews' squeezing mechanism in SI units, and a function that computes its angles.
- * The values are those of the Bari test set (andrews.f). */
+ * The values are taken from the Bari test set (andrews.f). */
 #ifndef BAUM_I_CATALOG_ANDREWS_H
 #define BAUM_I_CATALOG_ANDREWS_H
 

@@ -179,8 +179,8 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels);
  * reference must be known. Returns BAUM_ERR_MEMORY, or the status of a failed evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
-/* Compares `values`, the samples of a run, with the samples of a known motion. The weights are
- * those of the reference. */
+/* Compares `values`, the samples of a run, with the samples of a known motion. The weights of the
+ * reference are used. */
 baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
                                         const double *values);
 

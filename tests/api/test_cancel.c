@@ -24,7 +24,7 @@ static const double END = 0.3; /* [s] */
  * zero. */
 typedef struct cancelling {
   int left;
-  bool by_flag; /* by the flag of the run; otherwise by the return value */
+  bool by_flag; /* whether to cancel by the flag of the run, or else by the return value */
   baum_simulation *run;
 } cancelling;
 

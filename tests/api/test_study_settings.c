@@ -104,8 +104,8 @@ static void gains_of_rows_belong_to_the_method(void **state)
 
 /* ---- definition of error ---- */
 
-/* Finds the errors of two entries, whose steps are h and h / 2. The error is that of the channel.
- * If `channel` is NULL, it is the default error of a study. */
+/* Finds the errors of two entries, whose steps are h and h / 2. The study measures the error of
+ * `channel`. If `channel` is NULL, it measures its default error. */
 static void errors_of(const model *m, const baum_channel *channel, double unit, double errors[2])
 {
   baum_study *study = make(m);

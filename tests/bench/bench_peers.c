@@ -5,16 +5,16 @@
  *
  * A study runs rk8, dp5 and rk4 with every formulation, and with many steps and tolerances. For
  * each error, the table shows the entry with the smallest CPU time. It is measured from the
- * creation of a run to its end. Errors are those of all positions, at 50 samples.
+ * creation of a run to its end. The errors include all positions, at 50 samples.
  * bench_work_precision compares only one angle of the N-four-bar, at ten times, and has more
  * settings. Its cheapest runs therefore cost less. Runs of baum locate and report each flat
  * configuration that they pass through. For N = 1 and an error of 1e-4, this takes a fifth of their
  * time. The other programs do not do this.
  *
- * The times of other programs were measured for this table on a similar machine, and are those of
- * whole runs. The table shows the cheapest of these: Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0
- * with RK4, DOP853 and CVODE with compiled right-hand sides, and a hand-written RK4. There is no
- * command that repeats these measurements. Only ratios of 2 or more are significant.
+ * The times of other programs were measured for this table on a similar machine. They are the times
+ * of whole runs. The table shows the cheapest of these: Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio
+ * 4.1.0 with RK4, DOP853 and CVODE with compiled right-hand sides, and a hand-written RK4. There is
+ * no command that repeats these measurements. Only ratios of 2 or more are significant.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: wheels.sh PROJECT
-# Must be run as root. Builds the Python packages for all systems and runs them. On Linux, they run
-# in a bare Debian that has only Python, and those for aarch64 run in an emulator. Those for Windows
-# run in Wine, and those for WebAssembly in Node. Those for macOS are only built.
+# Must be run as root. Builds the Python packages for all systems and runs them. The packages for
+# Linux run in a bare Debian that has only Python; for aarch64 this Debian runs in an emulator. The
+# packages for Windows run in Wine, and the packages for WebAssembly run in Node. The packages for
+# macOS are built, but not run.
 # BAUM_TARGETS names some of the targets of build_wheels.py. The target linux-x86_64 is always
 # built.
 set -eu

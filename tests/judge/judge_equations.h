@@ -50,7 +50,7 @@ void judge_null_vector(const judge_factors *f, int k, double *out);
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/** Replaces q and v by the nearest ones on the constraints. The metric is that of
+/** Replaces q and v by the nearest ones on the constraints. The metric is the same as in
  * judge_nearest(). */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 

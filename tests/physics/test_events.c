@@ -78,7 +78,7 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
 }
 
 /* Returns the largest allowed error of an event at about the time t. Events are located on the
- * computed motion. The error is therefore that of the motion, expressed as a time. */
+ * computed motion. The error is therefore the error of the motion, expressed as a time. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {

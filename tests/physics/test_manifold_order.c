@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator if positions are on a manifold. The step is halved
  * repeatedly, for a slider-crank of turned bodies and for a heavy top, and the errors are compared.
- * The gains are those of the rule `auto`. They are the same for all these steps. */
+ * The gains are chosen by the rule `auto`. They are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator with every formulation. The step is halved
  * repeatedly for a pendulum, a free slider-crank and a four-bar, and the errors relative to
- * references are compared. The gains are those of the rule `auto`. They are the same for all these
+ * references are compared. The gains are chosen by the rule `auto`. They are the same for all these
  * steps. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -134,7 +134,7 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   }
 }
 
-/* The spectral radii published for the points (1, 1) and (1, 2). The second point is that of the
+/* The spectral radii published for the points (1, 1) and (1, 2). The second point belongs to the
  * Taylor gains. */
 static void radii_are_those_of_the_table(void **state)
 {

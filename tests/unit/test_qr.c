@@ -100,9 +100,9 @@ static void multipliers_that_are_not_unique_are_of_least_norm(void **state)
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor_and_solve(kkt, &system), BAUM_OK);
   /* The multipliers have the least norm if they are orthogonal to every w with J^T w = 0. Here
-   * these are the vectors (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1). The norm is that of the scaled
-   * multipliers. The scale of the rows is 1. Only the last row may have another scale e, because it
-   * is a difference of rows. */
+   * these are the vectors (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1). The norm is computed from the
+   * scaled multipliers. The scale of the rows is 1. Only the last row may have another scale e,
+   * because it is a difference of rows. */
   const double *lambda = system.lambda;
   double largest = 0.0;
   for (int j = 0; j < NV; j++) {

@@ -10,9 +10,9 @@
 #include "base/message.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Two axes are considered opposite if 1 plus the cosine of the angle between them is below this,
- * and parallel if the sine of this angle is. In these cases the x axis is not determined, and
- * neither is the zero of the joint's angle. */
+/* Two axes are considered opposite if 1 plus the cosine of the angle between them is below
+ * OPPOSITE. They are considered parallel if the sine of this angle is below OPPOSITE. In these
+ * cases, the direction of the x axis and the zero of the joint's angle are not determined. */
 static const double OPPOSITE = 1e-6;
 
 /* ---- checks ---- */
