@@ -70,7 +70,7 @@ void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *sh
   const double along[3] = {near_end[0] - far_end[0], near_end[1] - far_end[1],
                            near_end[2] - far_end[2]};
   set_axes(along, shape->radius, xy);
-  /* Of the far end, the silhouette contains the half that is away from the near end. */
+  /* The silhouette contains only that half of the far end circle that is away from the near end. */
   const bool upper = xy[1][0] * along[0] + xy[1][1] * along[1] < 0.0;
   const double first = upper ? 0.0 : 0.5 * BAUM_I_REVOLUTION;
   set_arc(far_end, (const double(*)[3])xy, first, HALF + 1, side);

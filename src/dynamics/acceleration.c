@@ -162,8 +162,8 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* Without blocks, a whole solution is computed, because a solution costs little more than the
- * factors alone, which contain the pivots. */
+/* The pivots are part of the factors. Without blocks, a whole solution is computed, because this
+ * costs little more than computing the factors alone. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

@@ -170,8 +170,8 @@ baum_i_layout baum_i_study_layout(const baum_study *study);
 
 void baum_i_study_clear_samples(baum_i_samples *samples);
 
-/* Lists the channels of a sample. The first ones, at most BAUM_I_CHANNELS, are those that every
- * study has. The user's channels follow. Returns their number.
+/* Lists the channels of a sample. The first channels, which are at most BAUM_I_CHANNELS, belong to
+ * every study. The channels that the user has added follow. Returns their number.
  */
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests whether projection is as accurate as Baumgarte's gains. For every integrator that offers
- * both, the table shows three errors at the same step or tolerance. The first time is measured with
- * PROJECTION. The second is measured with BAUMGARTE and the gains of `auto`. The third is measured
- * with BAUMGARTE and the best constant gains alpha = beta of a sweep, which has four constants a
- * decade over twelve decades. A run of the sweep may take at most a quarter more evaluations than
- * the others.
+ * both, the table shows three errors at the same step or tolerance. The first error is measured
+ * with PROJECTION. The second is measured with BAUMGARTE and the gains of `auto`. The third is
+ * measured with BAUMGARTE and the best constant gains alpha = beta of a sweep, which has four
+ * constants a decade over twelve decades. A run of the sweep may take at most a quarter more
+ * evaluations than the others.
  *
  * usage: bench_projection
  *

@@ -14,9 +14,9 @@
  * larger error and no warning is called poor. If its error is above WRONG, it is called silently
  * wrong. A fixed-step run is called poor instead of silently wrong if its error is halved by a
  * quarter of its step. Errors that arise during the motion may grow more than perturbations of the
- * start. If a run is called silently wrong, this should be checked first. The program prints runs
- * that are silently wrong, runs that fail although the reference succeeds, and warnings that are
- * not justified.
+ * start. If a run is called silently wrong, one should therefore first check whether such errors
+ * have grown. The program prints runs that are silently wrong, runs that fail although the
+ * reference succeeds, and warnings that are not justified.
  */
 #include <math.h>
 #include <setjmp.h>

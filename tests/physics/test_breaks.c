@@ -2,7 +2,7 @@
 /* Tests break times that a mechanism declares. A torque acts on a body on a pin, without gravity.
  * It jumps at three times. Between the jumps the exact motion is a polynomial of degree 2. If no
  * step crosses a jump, methods of order 2 and higher reproduce this motion to rounding.
- * Generalized-alpha is an exception. */
+ * Generalized-alpha is an exception, see allowed(). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -118,8 +118,8 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Returns the largest allowed error. For variable steps, it is ten times rtol, for angular
- * velocities of up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
+/* Returns the largest allowed error. For variable steps, it is ten times rtol. The angular
+ * velocities are up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
  * generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the first step
  * after a break has a lower order. For all other methods, it is the rounding error of about 200
  * steps. */

@@ -193,8 +193,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
 }
 
 /* Returns the largest allowed error. In a moving mechanism, Phi' may be violated without a message
- * by up to OPEN of start.c. Accelerations depend on the square of velocities, so that their error
- * may be more than twice as large. */
+ * by up to OPEN of start.c. Accelerations depend on the square of velocities. The error of
+ * accelerations may therefore be more than twice this violation. */
 static double allowed(double rate)
 {
   /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by this angle, a changes

@@ -22,7 +22,7 @@ VOID = {"meta", "input", "br", "img", "link"}
 
 
 def make_study():
-    """A study with entries that are done and one that is refused. One of those that are done has a
+    """A study with entries that are done and one that is refused. One of the first has a
     warning that names a joint."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))

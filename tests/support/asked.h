@@ -2,9 +2,9 @@
 /* A mechanism with every kind of user function. All functions of one kind can be made to fail, to
  * return NaN, or to call the library.
  *
- * The mechanism contains masses (user coordinates), a bead on a hoop (user constraint), two arms
- * (coupling, torsion spring, user force), a driven crank, and a pea on a curve with a spring. Its
- * only input is the stiffness of the masses.
+ * The mechanism contains masses with user coordinates, a bead that a user constraint keeps on a
+ * hoop, and two arms with a coupling, a torsion spring and a user force. It also contains a driven
+ * crank, and a pea on a curve with a spring. Its only input is the stiffness of the masses.
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H

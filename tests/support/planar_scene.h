@@ -23,7 +23,7 @@ planar_scene planar_scene_make(void);
  * for all other bodies it is not. */
 void planar_scene_arm(const planar_scene *scene, baum_body_id body, double arm[2]);
 
-/* Adds the element that is tested between two bodies. */
+/* Adds an element between the bodies a and b. This element is the one that is tested. */
 typedef void planar_add_fn(planar_scene *scene, baum_body_id a, baum_body_id b);
 typedef void planar_check_fn(test_point *p);
 

@@ -11,7 +11,8 @@
 #include "assert_near.h"
 #include "models.h"
 
-/* 5 steps with 3 evaluations each, minus 1 that was already known. */
+/* A pilot makes 5 steps with 3 evaluations each. One of these evaluations has already been made
+ * before. */
 enum { PILOT_EVALUATIONS = 14 };
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
@@ -124,7 +125,8 @@ static void auto_does_not_depend_on_units(void **state)
   model milli;
   assert_int_equal(model_four_bar(&si), BAUM_OK);
   assert_int_equal(model_four_bar_in(&MODEL_MILLI, &milli), BAUM_OK);
-  /* Both results differ by the rounding of the data in other units, which five steps amplify. */
+  /* The data in other units are rounded differently. Five steps amplify these rounding errors, so
+   * the results are not exactly equal. */
   ASSERT_NEAR(auto_alpha(milli.mechanism, baum_rk8()) * MODEL_MILLI.time,
               auto_alpha(si.mechanism, baum_rk8()), 1e-9, 0.0);
   model_destroy(&si);

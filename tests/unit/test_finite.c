@@ -14,8 +14,8 @@
 
 #include "message.h"
 
-/* Makes a rigid body "big", which the rod "rod" connects to the origin, and a wheel that has no
- * joint. */
+/* A mechanism and its workspace. The mechanism has a rigid body "big", which the rod "rod" connects
+ * to the origin, and a wheel that has no joint. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_workspace *workspace;
