@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stability for a fixed damping ratio zeta = alpha / beta, as a function of b = |beta h|. In the
- * plane (A, B) = (|alpha h|, (beta h)^2) these are the points A = zeta b, B = b^2, called a ray.
+/* Finds where a method is stable if the damping ratio zeta = alpha / beta is fixed. Stability is
+ * then a function of b = |beta h|. In the plane (A, B) = (|alpha h|, (beta h)^2), this function is
+ * taken along the points A = zeta b, B = b^2, which are called a ray.
  *
- * mu is proportional to b. Changes between stable and unstable are searched on a geometric scale
- * and then located by bisection. The smallest limits occur on weakly damped rays with methods that
- * are unstable on the imaginary axis: b = 2 zeta for explicit Euler. No explicit method is stable
- * for |mu| above about twice the degree. */
+ * Along a ray, mu is proportional to b. The search steps through b in equal ratios until the
+ * stability changes, and locates the change by bisection. The smallest limits occur on weakly
+ * damped rays of methods that are unstable on the imaginary axis. For explicit Euler, the limit is
+ * b = 2 zeta. No explicit method is stable if |mu| exceeds about twice its degree. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-static const double SCAN_RATIO = 1.01; /* ratio of successive b */
-static const double SCAN_END = 1e3;    /* |mu| above which no explicit method is stable */
-static const double OVERDAMPED = 1e9;  /* zeta above which limits do not change */
-static const double LEAST = 1e-18;     /* a ray that is stable only for smaller b is unstable */
-static const double EQUAL = 1e-13;     /* radii that differ by less are equal */
+static const double SCAN_RATIO = 1.01; /* ratio of each b to the one before */
+static const double SCAN_END = 1e3;    /* no explicit method is stable for larger |mu| */
+static const double OVERDAMPED = 1e9;  /* the limits do not change for larger zeta */
+/* A ray that is stable only for smaller b is considered unstable. */
+static const double LEAST = 1e-18;
+static const double EQUAL = 1e-13; /* radii that differ by less are considered equal */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
 static bool is_stable(const baum_i_method *method, double damping_ratio, double b)
@@ -23,8 +25,8 @@ static bool is_stable(const baum_i_method *method, double damping_ratio, double 
   return baum_i_amplification_within(method, damping_ratio * b, b * b, 0.0);
 }
 
-/* Returns the b between from and to at which the stability changes. It has the stability of
- * `from`. */
+/* Returns the b between `from` and `to` at which the stability changes. The method has the same
+ * stability at this b as at `from`. */
 static double bisect(const baum_i_method *method, double damping_ratio, double from, double to)
 {
   bool stable = !is_stable(method, damping_ratio, to);
@@ -41,20 +43,20 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* b at which the search begins; if stable, all smaller b are stable */
+  double begin; /* b at which the search begins; if it is stable, all smaller b are stable */
   double end;
 } ray;
 
 static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
-  double steepest = fmax(1.0, 2.0 * damping_ratio); /* largest |mu| / b */
+  double steepest = fmax(1.0, 2.0 * damping_ratio); /* the largest |mu| / b on the ray */
   double begin = fmax(1e-3 * fmin(damping_ratio, 1.0 / steepest), LEAST);
   return (ray){damping_ratio, begin, SCAN_END / steepest};
 }
 
-/* Returns the next b at which the stability changes, or infinity. `stable` is the stability at
- * b. */
+/* Returns the next b at which the stability changes, or infinity if there is none. `stable` tells
+ * whether the method is stable at the given b. */
 static double next_change(const baum_i_method *method, const ray *r, double b, bool stable)
 {
   while (b < r->end) {
@@ -105,7 +107,8 @@ typedef struct lowest {
   double b;
 } lowest;
 
-/* Updates the best point. A cheap test rejects most points before their radius is computed. */
+/* Stores a point if it is better than the best one so far. A test that costs little rejects most
+ * points before their radius is computed. */
 static void try_point(const baum_i_method *method, double damping_ratio, double b, lowest *best)
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run, a sampling or a study may be cancelled at any step, where it stops. If it is continued,
- * its result is the same to the last bit as without the cancellation. */
+/* A run, a sampling or a study may be cancelled at any step. It must stop at this step. If it is
+ * then continued, its result must be the same, to the last bit, as without cancelling. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,10 +20,11 @@
 enum { NQ_MOST = 24, MOST_STEPS = 400, SAMPLES = 7 };
 static const double END = 0.3; /* [s] */
 
-/* Cancels a run at the call of the progress function in which `left` reaches zero. */
+/* Cancels a run in a call of the progress function. This is the call in which `left` reaches
+ * zero. */
 typedef struct cancelling {
   int left;
-  bool by_flag; /* else by return value */
+  bool by_flag; /* whether to cancel by the flag of the run, or else by the return value */
   baum_simulation *run;
 } cancelling;
 
@@ -72,7 +73,7 @@ static state state_of(const baum_mechanism *m, const baum_simulation *run)
 
 /* ---- advancing ---- */
 
-/* Cancels at the k-th step and continues; returns false if the run has fewer steps. */
+/* Cancels a run at step k and continues it. Returns false if the run has fewer steps. */
 static bool cancel_at(const baum_mechanism *m, const baum_simulation_options *o, int k,
                       const state *want)
 {
@@ -102,7 +103,8 @@ static void cancel_everywhere(const baum_mechanism *m, const baum_simulation_opt
   while (cancel_at(m, o, steps + 1, &want)) {
     assert_in_range(++steps, 1, MOST_STEPS);
   }
-  assert_true(steps >= 5); /* the longest steps, of rk8, are a sixteenth of the period */
+  /* rk8 takes the longest steps, which are a sixteenth of the period. */
+  assert_true(steps >= 5);
 }
 
 static void a_cancelled_run_of_rattle_in_space_continues(void **unused)
@@ -148,9 +150,9 @@ static void cancelled_kinematics_continue_as_if_not_cancelled(void **unused)
   baum_mechanism_destroy(four_bar);
 }
 
-/* ---- by a user function ---- */
+/* ---- cancelling by a user function ---- */
 
-/* The number of calls of the law, and the call in which it cancels. */
+/* How often the law has been called, and in which call it cancels. */
 typedef struct caller {
   int calls;
   int last;
@@ -169,7 +171,8 @@ static int turn_and_cancel(double t, double s[3], void *user)
   return 0;
 }
 
-/* The law cancels in its last call, at the end of the run, where no step is left to cancel. */
+/* The law cancels in its last call, which is at the end of the run. No step that could be cancelled
+ * follows. */
 static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unused)
 {
   (void)unused;
@@ -195,7 +198,8 @@ static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unu
 
 /* ---- sampling ---- */
 
-/* Samples positions and energies; when cancelled, it continues with the remaining samples. */
+/* Samples positions and energies. If the sampling is cancelled, it continues with the remaining
+ * samples. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_ENERGY)};
@@ -264,7 +268,7 @@ static baum_study *study_of(const baum_mechanism *m, int *left)
   return study;
 }
 
-/* All three samples are inside a step that has been taken. */
+/* All three samples are inside a step that has already been taken. */
 static void samples_that_need_no_step_are_cancelled(void **unused)
 {
   (void)unused;
@@ -308,7 +312,7 @@ static void a_study_goes_on_to_the_same_entries(void **unused)
     assert_same_entries(got, want);
     baum_study_destroy(got);
   }
-  assert_true(k > 2 * 4); /* each of the four entries is measured, then timed */
+  assert_true(k > 2 * 4); /* there are four entries, and each of them is measured and then timed */
   baum_study_destroy(want);
   model_destroy(&pendulum);
 }

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cost of user functions in Python, for the pendulum of the README: the number of calls in a
-step of rk4, and the overhead of a call, which is its time without that of the function itself.
+"""Measures the cost of user functions in Python, for the pendulum of the README. It prints the
+number of calls in a step of rk4, and the overhead of a call. The overhead is the time of a call
+without the time of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
-`quick` and `full` also measure a study of the pendulum over 2 s with these grids.
+With `quick` or `full`, the program also measures a study of the pendulum over 2 s with this grid.
 
-The overhead is the difference from a run whose functions compute the same values in C, which needs a
-C compiler. All times are CPU times, the smallest of several runs.
+To find the overhead, the program makes a second run. Its functions compute the same values in C,
+which requires a C compiler. All times are CPU times. Each is the smallest of several runs.
 """
 import ctypes
 import sys
@@ -49,7 +50,7 @@ def pendulum(functions):
 
 
 def seconds_of(functions):
-    """Least CPU time of the steps."""
+    """Return the smallest CPU time that the steps take."""
     times = []
     for _ in range(REPEATS):
         s = pendulum(functions).simulation("rk4", step=1e-3)
@@ -60,7 +61,7 @@ def seconds_of(functions):
 
 
 def calls_of(functions):
-    """Calls of each function in a step."""
+    """Return how often each function is called in a step."""
     calls = dict.fromkeys(functions, 0)
 
     def counted(name):
@@ -78,7 +79,7 @@ def calls_of(functions):
 
 
 def own_seconds(name):
-    """The time that the function itself takes."""
+    """Return the time that the function itself takes."""
     q = np.array([0.6, 0.8])
     arguments = (0.0, q, q) if name == "gamma" else (0.0, q)
     timer = timeit.Timer(partial(PYTHON[name], *arguments), timer=time.process_time)

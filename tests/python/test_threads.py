@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Threads, cancelling, progress and Ctrl-C."""
+"""Tests threads, cancelling, progress and Ctrl-C."""
 
 import contextvars
 import os
@@ -18,7 +18,7 @@ from baum import _calls
 from mechanisms import circle, pendulum, rod_pendulum, slider_crank
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LONG = 1e9  # [s], a run that nobody waits for
+LONG = 1e9  # [s] duration of a run that is never completed
 
 
 def long_run():
@@ -29,7 +29,7 @@ class Pool(unittest.TestCase):
     VARIANTS = 1000
 
     def timed(self, title, make):
-        """The result of make() and the cost of a variant."""
+        """Return the result of make(), and what each variant costs."""
         begun = time.perf_counter()
         made = make()
         each = (time.perf_counter() - begun) / self.VARIANTS
@@ -187,7 +187,8 @@ class Tasks(unittest.TestCase):
         self.assertEqual(made, [1])
 
 
-# A shell starts background programs with SIGINT ignored, so the program sets a handler.
+# A shell starts background programs so that they ignore SIGINT. The program therefore sets a
+# handler.
 INTERRUPTED = """
 import signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -208,7 +209,7 @@ except KeyboardInterrupt:
 @unittest.skipUnless(hasattr(signal, "SIGINT") and os.name == "posix", "no signals")
 class Interrupted(unittest.TestCase):
     def interrupt(self, setup, call, after="s.time > 0", times=1):
-        """The output of a program that receives SIGINT as soon as it has printed that it is
+        """Return the output of a program. It receives SIGINT as soon as it has printed that it is
         ready."""
         program = INTERRUPTED.format(here=HERE, setup=setup, call=call, after=after)
         child = subprocess.Popen(
