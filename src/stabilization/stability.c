@@ -5,7 +5,15 @@
  * mu is proportional to b. Changes between stable and unstable are searched on a geometric scale
  * and then located by bisection. The smallest limits occur on weakly damped rays with methods that
  * are unstable on the imaginary axis: b = 2 zeta for explicit Euler. No explicit method is stable
- * for |mu| above about twice the degree. */
+ * for |mu| above about twice the degree.
+ *
+ * One-step methods are stable where |mu| is small, and the search skips this part. With
+ * R = 1 + mu + sum c_k mu^k and Q = sum |c_k| |mu|^k over k >= 2,
+ *
+ *   |R|^2 <= 1 + 2 Re mu + 2 Q + (|mu| + Q)^2 <= 1   if   2 Q + (|mu| + Q)^2 <= -2 Re mu.
+ *
+ * -Re mu / |mu| is at least min(zeta, 1), and Q / |mu| grows with |mu|, so that if the condition
+ * holds for one |mu|, it holds for all smaller ones. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
@@ -45,12 +53,33 @@ typedef struct ray {
   double end;
 } ray;
 
+/* Tells whether the bound above proves that a one-step method is stable for all mu of this size or
+ * smaller. */
+static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
+{
+  double rest = 0.0; /* Q / |mu| */
+  for (int k = method->degree; k > 1; k--) {
+    rest = (rest + fabs(method->coefficients[k])) * size;
+  }
+  return 2.0 * rest + size * (1.0 + rest) * (1.0 + rest) <= 2.0 * fmin(damping_ratio, 1.0);
+}
+
 static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
   double steepest = fmax(1.0, 2.0 * damping_ratio); /* largest |mu| / b */
   double begin = fmax(1e-3 * fmin(damping_ratio, 1.0 / steepest), LEAST);
   return (ray){damping_ratio, begin, SCAN_END / steepest};
+}
+
+/* Skips the part of a ray that is surely stable. */
+static void begin_later(const baum_i_method *method, ray *r)
+{
+  double steepest = SCAN_END / r->end;
+  bool one_step = method->kind == BAUM_I_METHOD_ONE_STEP;
+  while (one_step && is_surely_stable(method, r->damping_ratio, 2.0 * r->begin * steepest)) {
+    r->begin *= 2.0;
+  }
 }
 
 /* Returns the next b at which the stability changes, or infinity. `stable` is the stability at
@@ -70,6 +99,7 @@ static double next_change(const baum_i_method *method, const ray *r, double b, b
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   if (!is_stable(method, r.damping_ratio, r.begin)) {
     return 0.0;
   }
@@ -80,6 +110,7 @@ int baum_i_stability_intervals(const baum_i_method *method, double damping_ratio
                                double *from, double *to)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   int count = 0;
   double b = r.begin;
   double low = 0.0;
