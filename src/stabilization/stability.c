@@ -8,12 +8,13 @@
  * for |mu| above about twice the degree.
  *
  * One-step methods are stable where |mu| is small, and the search skips this part. With
- * R = 1 + mu + sum c_k mu^k and Q = sum |c_k| |mu|^k over k >= 2,
+ * R = 1 + c_1 mu + ..., c_1 > 0, and Q = sum |c_k| |mu|^k over k >= 2,
  *
- *   |R|^2 <= 1 + 2 Re mu + 2 Q + (|mu| + Q)^2 <= 1   if   2 Q + (|mu| + Q)^2 <= -2 Re mu.
+ *   |R|^2 <= 1 + 2 c_1 Re mu + 2 Q + (c_1 |mu| + Q)^2
+ *         <= 1   if   2 Q + (c_1 |mu| + Q)^2 <= -2 c_1 Re mu.
  *
- * -Re mu / |mu| is at least min(zeta, 1), and Q / |mu| grows with |mu|, so that if the condition
- * holds for one |mu|, it holds for all smaller ones. */
+ * -Re mu / |mu| is at least min(zeta, 1), and Q / |mu| grows with |mu|, so if the condition holds
+ * for one |mu|, it holds for all smaller ones. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
@@ -57,11 +58,13 @@ typedef struct ray {
  * smaller. */
 static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
 {
-  double rest = 0.0; /* Q / |mu| */
+  double first = method->coefficients[1]; /* c_1 */
+  double rest = 0.0;                      /* Q / |mu| */
   for (int k = method->degree; k > 1; k--) {
     rest = (rest + fabs(method->coefficients[k])) * size;
   }
-  return 2.0 * rest + size * (1.0 + rest) * (1.0 + rest) <= 2.0 * fmin(damping_ratio, 1.0);
+  double growth = 2.0 * rest + size * (first + rest) * (first + rest);
+  return growth <= 2.0 * first * fmin(damping_ratio, 1.0);
 }
 
 static ray make_ray(double damping_ratio)
