@@ -267,8 +267,8 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  that targets do not alter its steps.
  *  @param simulation  the run
  *  @param t           [s] finite
- *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps is reached, or 10000 variable steps
+ *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_STOP_TIME,
+ *           BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps is reached, or 10000 variable steps
  *           in a row were shorter than 1e-9 / r on average, where r [1/s] is the rate of the
  *           motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
  *           BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break),
@@ -294,6 +294,14 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
+
+/** Limit the wall time of calls that advance the run. A call that takes longer stops after its
+ *  present step, but not before its first, with BAUM_STOP_TIME, and the next call continues. The
+ *  motion and the monitors do not depend on such stops.
+ *  @param simulation  the run
+ *  @param limit       [s] of wall time, > 0; INFINITY, as at the start of a run: none
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
 
 /** Replace time and state; multistep methods restart. If the state violates the constraints no more
  *  than the run already does, it is taken as it is; otherwise the option `start` decides what

@@ -26,6 +26,7 @@ class Status(enum.IntEnum):
     OK = 0
     STOP_CANCELLED = 1
     STOP_EVENT = 2
+    STOP_TIME = 3
     WARNED = 10
     ERR_ARGUMENT = -1
     ERR_STATE = -2
