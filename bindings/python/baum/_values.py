@@ -74,4 +74,6 @@ def address(array: Any) -> Any:
 
 def numbers(place: int | None, size: int) -> Array | None:
     """A copy of the numbers at an address; None for NULL."""
-    return None if place is None else np.array((ctypes.c_double * size).from_address(place))
+    if place is None:
+        return None
+    return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()

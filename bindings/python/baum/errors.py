@@ -48,12 +48,12 @@ class Status(enum.IntEnum):
         return self.name
 
 
+STATUSES = {status.value: status for status in Status}
+
+
 def as_status(value: int) -> Status:
     """The Status of a number, or the number itself if this package does not know it."""
-    try:
-        return Status(value)
-    except ValueError:
-        return value  # type: ignore[return-value]
+    return STATUSES.get(value, value)  # type: ignore[arg-type]
 
 
 class Error(Exception):

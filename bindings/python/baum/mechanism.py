@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .typing import SimulationOptions
 
 LISTED = 30  # names in a message
+MANY = 1000  # elements of a mechanism whose runs may take longer than a few ms to start
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
@@ -123,6 +124,7 @@ class Mechanism(Adding, AddingInSpace):
         """Take over a mechanism of the library and the elements of another Mechanism."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
+        self._sizes: Sizes | None = None  # once they are known, after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
@@ -376,11 +378,18 @@ class Mechanism(Adding, AddingInSpace):
                     yield joint
 
     @property
+    def starts_quickly(self) -> bool:
+        """Whether runs of this mechanism start within a few ms, without calling Python."""
+        return len(self._entries) < MANY and not self.has_python
+
+    @property
     def sizes(self) -> Sizes:
         """Numbers nq, nv and nc of a frozen mechanism."""
-        counts = [ctypes.c_int32() for _ in range(3)]
-        _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
-        return Sizes(*(count.value for count in counts))
+        if self._sizes is None:
+            counts = [ctypes.c_int32() for _ in range(3)]
+            _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
+            self._sizes = Sizes(*(count.value for count in counts))
+        return self._sizes
 
     def rows(self, joint: JointLike) -> slice:
         """Rows of a joint in Phi and lambda of a frozen mechanism."""
