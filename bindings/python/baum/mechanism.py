@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .typing import SimulationOptions
 
 LISTED = 30  # names in a message
-MANY = 1000  # elements of a mechanism whose runs may take longer than a few ms to start
+MANY = 1000  # elements of a mechanism whose evaluation may take longer than a few ms
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
@@ -378,8 +378,9 @@ class Mechanism(Adding, AddingInSpace):
                     yield joint
 
     @property
-    def starts_quickly(self) -> bool:
-        """Whether runs of this mechanism start within a few ms, without calling Python."""
+    def is_quick(self) -> bool:
+        """Whether calls that only evaluate this mechanism, such as the start of a run, take at most
+        a few ms and call no Python function."""
         return len(self._entries) < MANY and not self.has_python
 
     @property
@@ -439,7 +440,10 @@ class Mechanism(Adding, AddingInSpace):
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:
-        _calls.interruptible(_calls.make, function, self.handle, *arguments)
+        if self.is_quick:
+            _calls.make(function, self.handle, *arguments)
+        else:
+            _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
     def channel(self, value: ChannelLike) -> Channel:
         """The channel for a channel or its name, such as "energy" or "B.phi". Raises KeyError if

@@ -288,7 +288,7 @@ class Simulation(_calls.Closing):
             struct.row_gain_count = len(factors)
         out = ctypes.c_void_p()
         arguments = mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
-        if mechanism.starts_quickly:
+        if mechanism.is_quick:
             _calls.make(lib.baum_simulation_create, *arguments)
         else:
             _calls.interruptible(_calls.make, lib.baum_simulation_create, *arguments)
