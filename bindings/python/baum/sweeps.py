@@ -33,7 +33,7 @@ Reduce = Callable[[Run], Any]
 
 
 class _Task(NamedTuple):
-    """What all runs of a sweep have in common. It is pickled for other processes."""
+    """The data that all runs of a sweep share. They are pickled for other processes."""
 
     mechanism: Mechanism
     names: tuple[str, ...]
@@ -45,7 +45,7 @@ class _Task(NamedTuple):
 
 
 class _Result(NamedTuple):
-    """The result of one run: arrays by name, NaN after a failure."""
+    """The result of one run: arrays by name, which contain NaN after a failure."""
 
     values: dict[str, Array]
     status: int
@@ -57,7 +57,7 @@ class _Result(NamedTuple):
 
 
 def _changes(names: Sequence[str], row: Sequence[Any]) -> dict[str, dict[str, Any]]:
-    """The changes of definitions for a row of parameters: element -> field -> value."""
+    """Return the changes of definitions for a row of parameters, as element -> field -> value."""
     changes: dict[str, dict[str, Any]] = {}
     for name, value in zip(names, row):
         element, _, field = name.rpartition(".")
@@ -85,7 +85,8 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
 
 
 def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
-    """Run a part of a sweep. A function of the module, so that processes can import it."""
+    """Run a part of a sweep. This is a function of the module, so that other processes can import
+    it."""
     return [_one(task, row) for row in rows]
 
 
@@ -117,7 +118,8 @@ def _rows(columns: dict[str, Array], samples: Any, count: int | None) -> list[tu
 
 
 def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[tuple[Any, ...]]:
-    """Rows of a sampler, such as scipy.stats.qmc.Sobol, between the bounds of each parameter."""
+    """Draw rows from a sampler, such as scipy.stats.qmc.Sobol, between the bounds of each
+    parameter."""
     if count is None:
         raise ValueError("count is missing: how many samples are drawn")
     for name, values in columns.items():
@@ -131,7 +133,8 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
 
 
 def _calls(executor: Any, task: _Task, parts: Sequence[Any]) -> Iterator[tuple[int, Any]]:
-    """Run the parts on an executor. Yields the number and the results of each part that is done."""
+    """Run the parts of a sweep on an executor. Yield the number and the results of each part that
+    is done."""
     if hasattr(executor, "submit"):
         futures = {executor.submit(_many, task, part): k for k, part in enumerate(parts)}
         waiting = list(futures)
@@ -148,7 +151,8 @@ def _calls(executor: Any, task: _Task, parts: Sequence[Any]) -> Iterator[tuple[i
 
 
 def _completed(futures: Sequence[Any]) -> Iterable[Any]:
-    """The futures in the order of completion, or, for futures of other packages, as given."""
+    """Yield futures in the order in which they complete. Futures of other packages are yielded in
+    the given order."""
     if all(isinstance(future, concurrent.futures.Future) for future in futures):
         return concurrent.futures.as_completed(futures)
     return futures
@@ -164,10 +168,13 @@ def _workers(executor: Any) -> int:
 class Sweep:
     """The results of a sweep of n runs.
 
-    parameters: the values (n) or (n x size) by name. status (n): the Status of each run.
-    messages: of runs that failed, by number. warnings: the names of the warnings of each run.
-    sweep["rod.pose"] are the samples (n x samples x columns) of a channel, or sweep["value"] what
-    `reduce` returned (n x ...). Failed runs are NaN.
+    parameters: the values of each parameter (n) or (n x size), by name.
+    status: the Status of each run (n).
+    messages: the messages of runs that failed, by the number of the run.
+    warnings: the names of the warnings of each run.
+
+    sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If `reduce` was
+    given, sweep["value"] contains its results (n x ...). The values of failed runs are NaN.
     """
 
     def __init__(self, names: Sequence[str], rows: Sequence[Any], results: Sequence[Any]) -> None:
@@ -196,7 +203,8 @@ class Sweep:
         return found
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Parameters and results that are one number per run. Raises ImportError without pandas."""
+        """Return a table of the parameters, and of the results that are one number for each run.
+        Raises ImportError without pandas."""
         try:
             import pandas
         except ImportError as error:
@@ -233,28 +241,28 @@ def sweep(
 ) -> Sweep:
     """Run a mechanism once for each sample of its parameters.
 
-    mechanism: frozen or not. parameters: values by "element.field", such as
-    {"rod.mass": [0.1, 0.2]}; values of a vector field have shape (n x size). times, method,
-    record, options: as in Mechanism.simulate(). reduce: a function that takes a Run and returns a
-    number, an array or a dict of them, which is kept in place of the samples.
+    mechanism: frozen or not.
+    parameters: values by "element.field", such as {"rod.mass": [0.1, 0.2]}. Values of a vector
+        field have the shape (n x size).
+    times, method, record, options: as in Mechanism.simulate().
+    reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
+        keeps this result instead of the samples.
+    samples: "rows" uses the first value of every parameter for the first run, the second value for
+        the second run, and so on. "grid" uses all combinations of values. A sampler with a method
+        random(count), such as scipy.stats.qmc.Sobol, draws `count` samples; the values of a
+        parameter are then its lower and its upper bound.
+    executor: an object with a method submit() or map(), such as an executor of concurrent.futures,
+        of Dask or of mpi4py. By default the sweep uses threads, which is sufficient unless the
+        mechanism has Python functions. Results do not depend on the executor. If it uses other
+        processes, these must be able to import `reduce` and the functions of the mechanism.
+    progress: True shows a bar. A function receives the number of finished runs and the number of
+        all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
+        the status STOP_CANCELLED.
+    file: a file that keeps finished runs, so that a sweep that was interrupted continues when it is
+        called again. The file of another sweep is refused with ValueError. The file is a pickle;
+        open only files that you trust.
 
-    samples: "rows" takes the first value of every parameter, then the second, and so on. "grid"
-    takes all combinations. A sampler with random(count), such as scipy.stats.qmc.Sobol, draws
-    `count` samples; then the values of a parameter are its lower and upper bound.
-
-    executor: anything with submit() or map(): executors of concurrent.futures, of Dask, of mpi4py.
-    Default: threads, which suffices unless the mechanism has Python functions. Results do not
-    depend on the executor. In other processes the functions of the mechanism and `reduce` must be
-    importable.
-
-    progress: a function of the number of finished runs and of all runs; a true result cancels the
-    sweep, and the remaining runs have the status STOP_CANCELLED. True shows a bar.
-
-    file: where finished runs are kept, so that a sweep that was interrupted continues when it is
-    called again. A file of another sweep is refused with ValueError. The file is a pickle: open
-    only files that you trust.
-
-    A run that fails does not stop the others. Raises TypeError, ValueError and KeyError for
+    A run that fails does not stop the other runs. Raises TypeError, ValueError or KeyError for
     parameters that do not exist.
     """
     columns = _columns(parameters)
@@ -283,7 +291,7 @@ def _fill(
     progress: Any,
     kept: _File | None,
 ) -> None:
-    """Run all rows that have no result, and put their results in place."""
+    """Run all rows that have no result yet, and store their results."""
     missing = [k for k, result in enumerate(results) if result is None]
     size = max(1, len(missing) // (CHUNKS * _workers(executor)))
     parts = [missing[k : k + size] for k in range(0, len(missing), size)]

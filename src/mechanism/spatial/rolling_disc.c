@@ -63,7 +63,9 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_a, label, "body_a"));
   BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_b, label, "body_b"));
   if (def->body_a.index1 == def->body_b.index1) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are the same body", label);
+    const baum_i_body *both = mechanism->bodies[baum_i_body_index(mechanism, def->body_a)];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
+                       baum_i_label(&both->element).text);
   }
   if (def->rim_radius > def->radius) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
