@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length that are built in parts, and numbers as text. */
+/* Texts of any length that are built in parts, and the conversion of numbers to text. */
 #include "base/buffer.h"
 
 #include <locale.h>
@@ -112,7 +112,7 @@ int baum_i_length(const char *text)
   return count;
 }
 
-/* Returns the escape sequence of a character, or NULL if the character needs none. */
+/* Returns the escape sequence of a character, or NULL if the character needs no escape sequence. */
 static const char *escape(char c, baum_i_quoting quoting)
 {
   if (quoting == BAUM_I_PLAIN) {
@@ -127,7 +127,7 @@ static const char *escape(char c, baum_i_quoting quoting)
   switch (c) {
   case '"': return "\\\"";
   case '\\': return "\\\\";
-  case '<': return "\\u003c"; /* so that a text cannot end the script element that contains it */
+  case '<': return "\\u003c"; /* otherwise a text could end the script element that contains it */
   default: return NULL;
   }
 }

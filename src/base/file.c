@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Files as a whole. A file is written completely or not at all: the new file is written in the same
- * folder, and then replaces the old file. */
+/* Reads whole files, and writes a file completely or not at all. The functions that write make a
+ * new file in the same folder first, and then replace the old file by the new one.
+ */
 #include "base/file.h"
 
 #include <errno.h>
@@ -18,7 +19,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Writes bytes and closes the file in every case. Returns errno of the first failure, or 0. */
+/* Writes bytes and closes the file, even if writing fails. Returns errno of the first failure, or 0
+ * if there was none. */
 static int write_bytes(FILE *file, const char *bytes, size_t size)
 {
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
@@ -58,8 +60,8 @@ static FILE *create_part(const char *path, unsigned permissions, char *part, siz
   return file;
 }
 
-/* Writes the new file and replaces the old one. `old` are the permissions of the old file, or NULL
- * if there is none. `part` is memory for the name of the new file. */
+/* Writes the new file and replaces the old one. `old` points to the permissions of the old file, or
+ * is NULL if there is no old file. `part` is memory for the name of the new file. */
 static baum_status replace_file(const char *path, const unsigned *old, const char *bytes,
                                 size_t size, char *part, size_t capacity)
 {

@@ -21,7 +21,7 @@ const char *scene_name(scene_kind kind)
   return names[kind];
 }
 
-/* A chain whose links have irregular angles to both sides. */
+/* Builds a chain whose links have irregular angles to both sides. */
 static baum_status build_chain(int links, model *out)
 {
   double *angle = calloc(2 * (size_t)links, sizeof *angle);
