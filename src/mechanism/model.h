@@ -451,6 +451,7 @@ struct baum_mechanism {
   atomic_int references;
   uint32_t tag; /* shared by copies */
   bool frozen;
+  bool wide; /* evaluated with wide vectors (base/hot.h) */
   double gravity[3];
   double given_length; /* NaN: not set */
 
