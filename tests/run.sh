@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh tests/run.sh [STAGE...]
+#        sh tests/run.sh --list     print the names of all stages
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
@@ -106,10 +107,8 @@ stage_python() {
   fi
   need_venv
   [ -d "$prefix" ] || install_release
-  # The package is built from a copy, because building writes into the source.
-  rm -rf build/python-source
-  cp -R bindings/python build/python-source
-  quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps build/python-source
+  quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps --config-settings=wheel.cmake=false \
+    ./bindings/python
   library=$(find "$prefix" -name libbaum.so)
   python=$PWD/$venv/bin/python
   tests=$PWD/tests/python
@@ -260,6 +259,10 @@ stage_analyzer() {
   build release analyzer -DBAUM_WERROR=ON -DBAUM_TESTS=OFF -DCMAKE_C_FLAGS=-fanalyzer
 }
 
+if [ "$*" = --list ]; then
+  echo "$usual $named"
+  exit 0
+fi
 for stage in "$@"; do
   case " $usual $named " in
     *" $stage "*) ;;

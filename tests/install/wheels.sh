@@ -3,12 +3,13 @@
 # usage: wheels.sh PROJECT
 # As root: builds the packages for all systems and runs them: on Linux in bare Debians that have Python and nothing
 # else, for aarch64 in an emulator, for Windows in Wine, WebAssembly in Node. What is for macOS is only built.
-# BAUM_TARGETS names some of the targets of build_wheels.py; linux-x86_64 is always among them.
+# The source archive is compiled with the libraries of this system. BAUM_TARGETS names some of the targets of
+# build_wheels.py; linux-x86_64 is always among them.
 set -eu
 cd "$1"
 project=$PWD
 work=$project/build/wheels
-targets=${BAUM_TARGETS:-linux-x86_64 linux-aarch64 windows-x86_64 wasm32-wasi macos-arm64 macos-x86_64}
+targets=${BAUM_TARGETS:-linux-x86_64 linux-aarch64 windows-x86_64 wasm32-wasi macos-arm64 macos-x86_64 sdist}
 . tests/install/root.sh
 
 fail() {
@@ -197,6 +198,23 @@ END
     "$work/venv/bin/python" -m unittest discover -s tests/python -p test_abi.py
 }
 
+# pip compiles the source archive for the SuiteSparse and SUNDIALS of this system.
+test_sdist() {
+  fresh=$work/sdist-venv
+  python3 -m venv --clear "$fresh"
+  "$fresh/bin/pip" install --quiet "$(package "[0-9].tar.gz")"
+  readme_program >"$work/program.py"
+  (cd "$work" && "$fresh/bin/python" program.py)
+  "$fresh/bin/python" - "$fresh" <<'END'
+import importlib.metadata, sys
+import baum
+files = [str(file) for file in importlib.metadata.files("baum")]
+assert baum._lib.path.startswith(sys.argv[1]), baum._lib.path
+assert any(file.endswith("licenses/LICENSE") for file in files), files
+print("compiled", baum._lib.path)
+END
+}
+
 test_wasm() {
   unpack wasm32-wasi "$(package wasm32)"
   compile wasm32-wasi .wasm -L"$test/lib" -lbaum_catalog -lbaum
@@ -212,6 +230,7 @@ for target in $targets; do
     linux-aarch64) test_aarch64 ;;
     windows-x86_64) test_windows ;;
     wasm32-wasi) test_wasm ;;
+    sdist) test_sdist ;;
     macos-*) unpack "$target" "$(package "macosx*_${target#*-}")" ;;
   esac
 done
