@@ -60,15 +60,24 @@ last_tag() {
     awk -v tag="$tag" '$0 == tag { print last; exit } { last = $0 }'
 }
 
-# What breaks compiled programs needs another soname and another minor or major version.
+# The part of a version that changes if programs break: the major version, before 1.0 also the minor version.
+breaking_part() {
+  case $1 in
+    v0.*) echo "${1%.*}" ;;
+    *) echo "${1%%.*}" ;;
+  esac
+}
+
+# What breaks compiled programs needs another soname and another major version, before 1.0 minor version.
 soname_counts_breaks() {
   last=$(last_tag)
   [ -n "$last" ] || return 0
   mkdir -p "$out"
   git show "$last:bindings/python/baum/_abi.py" >"$out/last_abi.py"
   python3 bindings/python/tools/compare_abi.py "$out/last_abi.py" bindings/python/baum/_abi.py && return
-  echo "since $last: BAUM_SOVERSION of CMakeLists.txt and the minor or major version must be raised"
-  [ "$(soname <CMakeLists.txt)" -gt "$(git show "$last:CMakeLists.txt" | soname)" ] && [ "${last%.*}" != "${tag%.*}" ]
+  echo "since $last: raise BAUM_SOVERSION in CMakeLists.txt and the major version, before 1.0 the minor version"
+  [ "$(soname <CMakeLists.txt)" -gt "$(git show "$last:CMakeLists.txt" | soname)" ] &&
+    [ "$(breaking_part "$last")" != "$(breaking_part "$tag")" ]
 }
 
 check "the working tree is clean" tree_is_clean

@@ -76,13 +76,13 @@ refused "versions that differ" "one place"
 
 # A value of an enum that changes breaks compiled programs.
 sed -i 's/X(BAUM_WARNED, 10,/X(BAUM_WARNED, 11,/' include/baum/status.h
-for version in "7 1 2 3" "7 1 2 4" "7 2 0 3"; do
+for version in "7 1 2 3" "7 2 0 4" "8 0 0 3"; do
   # shellcheck disable=SC2086
   set_version $version
   commit "a break in $version"
   refused "a break in $version" "soname"
 done
-set_version 7 2 0 4
+set_version 8 0 0 4
 commit "a break with a new soname"
-accepted "a break with a new soname and minor version"
+accepted "a break with a new soname and major version"
 echo "releases are accepted and refused as they should be"
