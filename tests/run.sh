@@ -5,7 +5,7 @@
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels   if named
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels   if named
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 # BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -246,6 +246,12 @@ stage_packages() {
   mkdir build/packages
   cp build/debian/*.deb build/packages
   fresh_run bookworm "sh tests/install/packages.sh packages"
+}
+
+# The commands for installing in README.md and docs/install.md, word by word, on bare Debians.
+stage_readme() {
+  fresh_run bookworm "sh tests/install/readme.sh"
+  fresh_run trixie "sh tests/install/readme.sh"
 }
 
 # Builds the Python packages of all systems and runs them where that is possible on Linux.
