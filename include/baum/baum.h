@@ -13,6 +13,7 @@
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
 #include <baum/report.h>
+#include <baum/scene.h>
 #include <baum/simulation.h>
 #include <baum/spatial.h>
 #include <baum/spatial_joints.h>

@@ -19,6 +19,7 @@ typedef struct baum_i_buffer {
 
 void baum_i_buffer_clear(baum_i_buffer *buffer);
 void baum_i_put(baum_i_buffer *buffer, const char *text);
+void baum_i_put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count);
 void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2, 3);
 /* Appends a text, left-aligned in a column of `width` characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
@@ -44,6 +45,9 @@ baum_i_number baum_i_exact(double x, const char *otherwise);
 /* Reads a number that baum_i_exact() has written, up to a blank. Returns the end of the number, or
  * NULL if there is none. */
 const char *baum_i_read_number(const char *text, double *out);
+
+/* Tells whether a text is UTF-8. */
+bool baum_i_is_utf8(const char *text);
 
 /* Returns the number of characters of a UTF-8 text. */
 int baum_i_length(const char *text);

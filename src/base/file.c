@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a file completely or not at all: writes a new file in the same folder and then replaces
- * the old file by it.
- */
+/* Files as a whole. A file is written completely or not at all: the new file is written in the same
+ * folder, and then replaces the old file. */
 #include "base/file.h"
 
 #include <errno.h>
@@ -98,6 +97,34 @@ baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
   baum_status status =
     replace_file(path, kind == BAUM_I_PATH_FREE ? NULL : &permissions, bytes, size, part, capacity);
   baum_i_free(part);
+  return status;
+}
+
+/* ---- reading ---- */
+
+baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *out)
+{
+  if (!path || !path[0]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: path is NULL or empty", call);
+  }
+  FILE *file = baum_i_file_open(path, "rb");
+  if (!file) {
+    return fail(path, "read", errno);
+  }
+  char bytes[4096];
+  size_t count = 0;
+  errno = 0;
+  do {
+    count = fread(bytes, 1, sizeof bytes, file);
+    baum_i_put_bytes(out, bytes, count);
+  } while (count > 0 && !out->failed);
+  baum_status status = ferror(file)  ? fail(path, "read", errno)
+                       : out->failed ? baum_i_fail_memory()
+                                     : BAUM_OK;
+  (void)fclose(file);
+  if (status != BAUM_OK) {
+    baum_i_buffer_clear(out);
+  }
   return status;
 }
 

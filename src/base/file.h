@@ -12,6 +12,10 @@
 /* Writes the whole file or nothing, see baum_study_write(). */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
 
+/* Append the whole file to a zeroed buffer, which stays empty on failure. `call` begins messages of
+ * wrong arguments. BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE or BAUM_ERR_MEMORY. */
+baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *out);
+
 /* Give a whole text to a caller, in memory or as a file; `call` begins the messages. In memory, the
  * text is zero-terminated and cut after capacity - 1 bytes. *size, unless NULL, is set to the whole
  * length. */

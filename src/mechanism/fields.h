@@ -31,7 +31,8 @@ typedef enum baum_i_rule {
 } baum_i_rule;
 
 /* Fields whose kind contains OWN are checked, copied and released by functions of the
- * definition. */
+ * definition. Scenes rely on the order of the groups: numbers and counts, flags, references,
+ * functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
   BAUM_I_FIELD_ARRAY,   /* array of `counter` doubles or NULL, used only at the start of a run */

@@ -107,4 +107,13 @@ static void end_scene(scene *s)
   model_destroy(&s->pendulum);
 }
 
+/* A scene, because the scene of the parts would need hooks for all functions. */
+static const char SCENE_TEXT[] =
+  "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
+  "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "
+  "\"name\": \"b\"}], \"joints\": [{\"kind\": \"planar_revolute\", \"name\": \"A\", "
+  "\"body_a\": \"ground\", \"body_b\": \"b\", \"point\": [0, 0]}, {\"kind\": \"spline_driver\", "
+  "\"joint\": \"A\", "
+  "\"times\": [0, 1, 2], \"values\": [0, 1, 3]}]}";
+
 #endif

@@ -334,6 +334,26 @@ CALL(baum_mechanism_write_svg)
   return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
 }
 
+/* All calls for scenes, one after the other. */
+CALL(baum_mechanism_parse)
+{
+  (void)s;
+  baum_mechanism *m[2] = {NULL, NULL};
+  bool equal = false;
+  baum_status status = baum_mechanism_parse(SCENE_TEXT, sizeof SCENE_TEXT - 1, NULL, 0, &m[0]);
+  status = status ? status : baum_mechanism_write(m[0], NULL, 0, FILE_NAME);
+  status = status ? status : baum_mechanism_read(FILE_NAME, NULL, 0, &m[1]);
+  status = status ? status : baum_mechanism_print(m[1], NULL, 0, NULL, 0, NULL);
+  status = status ? status : baum_mechanism_compare(m[0], m[1], &equal);
+  baum_mechanism_destroy(m[0]);
+  baum_mechanism_destroy(m[1]);
+  return status;
+}
+
+#define call_baum_mechanism_write   call_baum_mechanism_parse
+#define call_baum_mechanism_read    call_baum_mechanism_parse
+#define call_baum_mechanism_print   call_baum_mechanism_parse
+#define call_baum_mechanism_compare call_baum_mechanism_parse
 static baum_page page_of(const scene *s, const baum_channel *channel)
 {
   static const double time = 0.0;
@@ -423,6 +443,11 @@ static const call CALLS[] = {
   ROW(baum_mechanism_svg, FROZEN),
   ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
+  ROW(baum_mechanism_parse, OPEN),
+  ROW(baum_mechanism_write, OPEN),
+  ROW(baum_mechanism_read, OPEN),
+  ROW(baum_mechanism_print, OPEN),
+  ROW(baum_mechanism_compare, OPEN),
   ROW(baum_page_print, FROZEN),
   ROW(baum_page_svg, FROZEN),
   ROW(baum_page_write, FROZEN),

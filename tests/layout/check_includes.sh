@@ -31,6 +31,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     below["simulate"] = "integrate " below["integrate"]
     below["draw"] = "simulate " below["simulate"]
     below["study"] = "draw " below["draw"]
+    below["scene"] = "mechanism base"
     below["catalog"] = "" # public headers alone, as a user has them
     n = split("assert complex ctype errno fenv float inttypes limits locale math setjmp signal " \
               "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string " \

@@ -64,6 +64,7 @@ from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
+from .scenes import load, parse
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
 from .workspace import Workspace
@@ -157,7 +158,9 @@ __all__ = [
     "integrators",
     "lambda_",
     "library",
+    "load",
     "library_version",
+    "parse",
     "phi",
     "phi_rate",
     "q",

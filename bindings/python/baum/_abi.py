@@ -883,6 +883,17 @@ class baum_report_form(enum.IntEnum):
     BAUM_REPORT_PAGE = 3
 
 
+baum_hook_fn = CFUNCTYPE(None)
+
+
+class baum_hook(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("function", baum_hook_fn),
+        ("user", c_void_p),
+    ]
+
+
 class baum_spatial_body_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1562,6 +1573,15 @@ PROTOTYPES = {
     ]),
     "baum_study_write": (c_int, [c_void_p, c_int, c_char_p, c_char_p]),
     "baum_study_print": (c_int, [c_void_p, c_int, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)]),
+    "baum_mechanism_print": (c_int, [
+        c_void_p, POINTER(baum_hook), c_int32, c_char_p, c_size_t, POINTER(c_size_t),
+    ]),
+    "baum_mechanism_write": (c_int, [c_void_p, POINTER(baum_hook), c_int32, c_char_p]),
+    "baum_mechanism_parse": (c_int, [
+        c_char_p, c_size_t, POINTER(baum_hook), c_int32, POINTER(c_void_p),
+    ]),
+    "baum_mechanism_read": (c_int, [c_char_p, POINTER(baum_hook), c_int32, POINTER(c_void_p)]),
+    "baum_mechanism_compare": (c_int, [c_void_p, c_void_p, POINTER(c_bool)]),
     "baum_spatial_body_def_init": (None, [POINTER(baum_spatial_body_def), c_size_t]),
     "baum_mechanism_add_spatial_body": (c_int, [
         c_void_p, POINTER(baum_spatial_body_def), POINTER(baum_body_id),
@@ -1828,6 +1848,7 @@ STRUCTS = [
     baum_study_entry,
     baum_study_reference,
     baum_study_method,
+    baum_hook,
     baum_spatial_body_def,
     baum_spatial_particle_def,
     baum_spatial_spring_def,

@@ -275,7 +275,7 @@ class Definition:
         label = f"{self._label}: {name}"
         kind, shape = self._types[name], shapes[name]
         wrapped = callbacks.wrap(kind, name, function, label, shape, nq, nv, inputs)
-        self.keep.append((wrapped, function))
+        self.keep.append((wrapped, function, inputs))
         self.has_python |= callbacks.address_of(function) is None
         setattr(self.struct, name, wrapped)
 

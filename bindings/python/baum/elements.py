@@ -5,6 +5,7 @@ copy of the mechanism."""
 from __future__ import annotations
 
 import ctypes
+import operator
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from . import _abi, outlines
@@ -69,6 +70,10 @@ class Element:
 
     def __hash__(self) -> int:
         return hash(self._identity())
+
+    def __reduce__(self) -> Any:
+        # Ids are valid in one process only.
+        return operator.getitem, (self.mechanism, self.name)
 
     @property
     def definition(self) -> dict[str, Any]:

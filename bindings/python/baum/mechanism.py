@@ -23,6 +23,7 @@ from .definitions import KINDS, Definition, sizes
 from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
+from .scenes import Scenes
 from .simulation import Simulation, takes_options
 from .typing import Array, ArrayLike, Axis, BodyLike, ChannelLike, InputLike, JointLike, Scalar
 
@@ -91,7 +92,7 @@ def _channels(element: Any) -> list[str]:
     return [name for name, p in properties if p.fget.__annotations__.get("return") == "Channel"]
 
 
-class Mechanism(Adding, AddingInSpace):
+class Mechanism(Adding, AddingInSpace, Scenes):
     """Bodies, joints, forces and inputs. Elements are added; freeze() then makes the mechanism
     constant, so that it can be simulated and shared between threads.
 
@@ -225,6 +226,18 @@ class Mechanism(Adding, AddingInSpace):
             ctypes.sizeof(struct),
         )
         return struct
+
+    def kept_objects(self) -> Iterator[tuple[int, tuple[Any, tuple[int, ...]]]]:
+        """The functions and `user` objects of definitions by address, with the numbers of the
+        inputs that they receive."""
+        for kept in self._keep:
+            wrapped, value, inputs = kept if isinstance(kept, tuple) else (kept, kept, ())
+            try:
+                address = ctypes.cast(wrapped, ctypes.c_void_p).value
+            except ctypes.ArgumentError:
+                continue  # an array
+            if address:
+                yield address, (value, inputs)
 
     def change(self, element: Element, fields: Mapping[str, Any]) -> None:
         """Replace some fields of a definition, before freezing. None changes nothing."""

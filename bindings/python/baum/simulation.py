@@ -292,6 +292,9 @@ class Simulation(_calls.Closing):
         self._sizes = mechanism.sizes
         self._warn()
 
+    def __reduce__(self) -> Any:
+        return self._owner.__reduce__()  # refuses
+
     def __repr__(self) -> str:
         return (
             "<simulation, closed>" if self._owner.closed else f"<simulation at t = {self.time:g} s>"
