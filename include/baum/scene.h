@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Scenes: mechanisms as text, to save, send and compare them.
+ *  Scenes: mechanisms in the form of a text, which can be saved, sent and compared.
  *
  *  A scene is a JSON text (RFC 8259). It contains everything that was given to build the mechanism:
  *  gravity, characteristic length, break times, inputs, bodies with their outlines, joints and
  *  forces. docs/scenes.md describes the format. Numbers are exact: a mechanism that is read back
  *  moves bit for bit like the original.
  *
- *  A text cannot contain functions. Callbacks and `user` pointers are therefore written as names,
- *  and hooks tell which function or pointer has which name. */
+ *  A text cannot contain functions. A scene therefore contains names in place of callbacks and
+ *  `user` pointers. An array of hooks states which function or pointer has which name. */
 #ifndef BAUM_SCENE_H
 #define BAUM_SCENE_H
 
@@ -25,8 +25,8 @@ extern "C" {
 /** Any callback of a definition, cast to this type. */
 typedef void baum_hook_fn(void);
 
-/** The name of a function, or of what a field `user` points to. Either `function` or `user` is
- *  NULL. */
+/** A hook: the name of a function, or the name of the data to which a field `user` points. One of
+ *  the two members `function` and `user` is NULL. */
 typedef struct baum_hook {
   const char *name;       /**< Not empty. */
   baum_hook_fn *function; /**< A callback of a definition. */
@@ -42,7 +42,7 @@ typedef struct baum_hook {
  *                          0.
  *  @param      capacity    [byte]
  *  @param[out] size        [byte] length of the whole scene without the final zero. May be NULL.
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also: a function without a hook), BAUM_ERR_MEMORY */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if a function has no hook), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_print(const baum_mechanism *mechanism, const baum_hook *hooks,
                                           int32_t hook_count, char *text, size_t capacity,
                                           size_t *size);
@@ -51,13 +51,13 @@ BAUM_API baum_status baum_mechanism_print(const baum_mechanism *mechanism, const
  *  @param     mechanism   frozen or not
  *  @param[in] hooks       (hook_count) as in baum_mechanism_print()
  *  @param     hook_count  [-] >= 0
- *  @param[in] path        of the file, which is replaced as a whole or not at all
+ *  @param[in] path        of the file. If it exists, it is replaced when the new file is complete
  *  @return  as baum_mechanism_print(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write(const baum_mechanism *mechanism, const baum_hook *hooks,
                                           int32_t hook_count, const char *path);
 
-/** Create a mechanism from a scene. Unknown fields and kinds of elements, and everything that the
- *  add functions refuse, are refused; the message names the line.
+/** Create a mechanism from a scene. The call fails if the scene contains an unknown field or kind
+ *  of element, or anything that the functions that add elements refuse. The message names the line.
  *  @param[in]  text        (size) need not end with a zero
  *  @param      size        [byte]
  *  @param[in]  hooks       (hook_count) functions and `user` pointers that the scene names
@@ -76,8 +76,8 @@ BAUM_API baum_status baum_mechanism_parse(const char *text, size_t size, const b
 BAUM_API baum_status baum_mechanism_read(const char *path, const baum_hook *hooks,
                                          int32_t hook_count, baum_mechanism **out);
 
-/** Compare what was given to build two mechanisms, including names, outlines, functions and `user`
- *  pointers. Whether a mechanism is frozen makes no difference.
+/** Compare two mechanisms. They are equal if they were built from the same data, including names,
+ *  outlines, functions and `user` pointers. It does not matter whether they are frozen.
  *  @param      a      a mechanism
  *  @param      b      a mechanism
  *  @param[out] equal  whether their scenes are equal

@@ -67,6 +67,7 @@ from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .scenes import load, parse
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
+from .sweeps import Sweep, sweep
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -141,6 +142,7 @@ __all__ = [
     "StudyEntry",
     "StudyMethod",
     "StudyReference",
+    "Sweep",
     "View",
     "ViolationWarning",
     "Warning",
@@ -176,6 +178,7 @@ __all__ = [
     "stability_outline",
     "stability_statement",
     "study",
+    "sweep",
     "taylor",
     "v",
 ]

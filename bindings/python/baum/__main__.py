@@ -104,7 +104,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         options.call(options)
-    except BrokenPipeError:  # the reader of the output needs no more
+    except BrokenPipeError:  # the program that reads the output has closed it, for example `head`
         sys.stderr.close()
     except (Error, OSError, KeyError, TypeError, ValueError) as error:
         text = error.args[0] if isinstance(error, KeyError) else error

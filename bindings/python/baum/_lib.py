@@ -113,19 +113,19 @@ _check_structs(lib, path)
 
 
 def default(struct: type[Struct]) -> Struct:
-    """A new definition or options struct with the library's defaults."""
+    """Make a struct with the defaults of the library."""
     filled = struct()
     getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
     return filled
 
 
 def text(value: bytes) -> str:
-    """A text of the library, with the names of this package."""
+    """Convert a text of the library to a string, with the names of this package."""
     return in_python(value.decode(errors="replace"))
 
 
 def open_catalog() -> ctypes.CDLL:
-    """The library of the catalogue, in the same folder as the main one."""
+    """Load the library of the catalogue, which is in the same folder as the main library."""
     folder, name = os.path.split(path)
     beside = os.path.join(folder, name.replace("baum", "baum_catalog", 1))
     try:

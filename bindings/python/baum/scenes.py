@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes: mechanisms as JSON text, to save, send, compare and pickle them.
+"""Scenes: mechanisms in the form of a JSON text, which can be saved, sent, compared and pickled.
 
-A text cannot contain functions. It contains their names, and who reads the scene gives the
-functions with these names. A force function that receives inputs is written as "name(0, 2)", with
-the numbers of the inputs.
+A text cannot contain functions. A scene contains only their names, and the program that reads the
+scene provides the functions. A force function that receives inputs is written as "name(0, 2)",
+where 0 and 2 are the numbers of the inputs.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ LISTS = {"bodies": "body", "joints": "joint", "forces": "force"}
 
 
 def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
-    """The names of the fields of a definition that are functions or `user`, and their addresses."""
+    """Return the names of the fields of a definition that hold a function or `user`, with their
+    addresses."""
     for name, kind in struct._fields_:
         if kind in callbacks.SHELLS:
             address = ctypes.cast(getattr(struct, name), ctypes.c_void_p).value
@@ -40,8 +41,9 @@ def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
 
 
 def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functions) -> str:
-    """A name for a function: one that the user has given, or its own if this is not taken by
-    another function, or the element and field that use it."""
+    """Choose a name for a function: the name that the user has given, otherwise its own name. If
+    another function has the same name, choose the names of the element and the field that use
+    it."""
     for name, value in given.items():
         if value is function:
             return name
@@ -50,7 +52,7 @@ def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functio
 
 
 class _Hooks:
-    """The hooks of a mechanism, and the objects that they name."""
+    """The hooks of a mechanism, and the objects whose names they state."""
 
     def __init__(self, mechanism: Mechanism, given: Functions) -> None:
         self.objects: dict[str, Any] = {}
@@ -119,15 +121,15 @@ class Scenes:
         def frozen(self) -> bool: ...
 
     def scene(self: Any, functions: Functions | None = None) -> str:
-        """The mechanism as a JSON text, which baum.parse() reads.
+        """Return the mechanism as a JSON text, which baum.parse() can read.
 
-        functions: names for functions and objects, such as {"drag": drag}. A function without such
-        a name is written by its own name, or as "element.field" if it has none.
+        functions: names for functions and objects, such as {"drag": drag}. A function that is not
+            listed is written by its own name, or as "element.field" if it has none.
         """
         return _print(self, _Hooks(self, functions or {}))
 
     def save(self, path: str | os.PathLike[str], functions: Functions | None = None) -> None:
-        """Write the scene into a file, which baum.load() reads. functions: as in scene()."""
+        """Write the scene into a file, which baum.load() can read. functions: as in scene()."""
         Path(path).write_text(self.scene(functions), encoding="utf-8", newline="\n")
 
     def _comparable(self: Any) -> tuple[str, dict[str, Any]]:
@@ -135,7 +137,8 @@ class Scenes:
         return _print(self, hooks), hooks.objects
 
     def __eq__(self, other: object) -> bool:
-        """Whether both have the same elements with the same names, numbers and functions."""
+        """Whether both mechanisms have the same elements with the same names, numbers and
+        functions."""
         if not isinstance(other, Scenes):
             return NotImplemented
         return self is other or self._comparable() == other._comparable()
@@ -143,8 +146,8 @@ class Scenes:
     __hash__ = object.__hash__
 
     def difference(self: Any, other: Mechanism) -> str:
-        """What differs between this mechanism and another one: a line for each setting, element and
-        field, with both values. Empty if they are equal."""
+        """Describe how this mechanism differs from another one: a line for each setting, element
+        and field that differs, with both values. The text is empty if the mechanisms are equal."""
         return "\n".join(_differences(json.loads(self.scene()), json.loads(other.scene())))
 
     def __reduce__(self: Any) -> Any:
@@ -167,7 +170,7 @@ def _unpickled(text: str, functions: Functions, frozen: bool) -> Mechanism:
 
 
 def _elements(scene: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """Everything in a scene by name: settings, inputs and elements."""
+    """Return everything that a scene contains, by name: settings, inputs and elements."""
     found = {"mechanism": {key: scene[key] for key in scene if key not in (*LISTS, "inputs")}}
     for key in ("inputs", *LISTS):
         for number, element in enumerate(scene.get(key, ())):
@@ -194,7 +197,8 @@ def _differences(a: Mapping[str, Any], b: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _hook_fields(element: Any) -> Iterator[tuple[str, str]]:
-    """The fields of an element in a scene that name functions, and the names."""
+    """Return the fields of an element in a scene that contain names of functions, and these
+    names."""
     kind = KINDS.get(str(element.get("kind"))) if isinstance(element, dict) else None
     for name, of, *_ in kind.struct._fields_ if kind else ():
         if (of in callbacks.SHELLS or name == "user") and isinstance(element.get(name), str):
@@ -202,8 +206,8 @@ def _hook_fields(element: Any) -> Iterator[tuple[str, str]]:
 
 
 def _placeholders(scene: Any) -> list[_abi.baum_hook]:
-    """A hook for every name in a scene, so that the library can read it. Its functions are replaced
-    before they are called."""
+    """Make a hook for every name in a scene, so that the library can read the scene. The functions
+    of these hooks are replaced before they are called."""
     hooks = []
     place: Any = ctypes.cast(lib.baum_version, ctypes.c_void_p).value
     lists = [scene.get(key) for key in LISTS] if isinstance(scene, dict) else []
@@ -219,7 +223,7 @@ def _placeholders(scene: Any) -> list[_abi.baum_hook]:
 
 
 def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]]:
-    """The object with that name, and the numbers of the inputs that it receives."""
+    """Return the object with that name, and the numbers of the inputs that it receives."""
     parts = re.fullmatch(r"(.*?)\(([\d, ]+)\)", name)
     bare = parts[1] if parts else name
     if bare not in functions:
@@ -230,7 +234,8 @@ def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]
 
 
 def _set_functions(mechanism: Mechanism, element: Any, usual: str, functions: Functions) -> None:
-    """Replace the placeholders of an element. usual: its name if it has none."""
+    """Replace the placeholders of an element by functions. usual: the name that the element has by
+    default."""
     own = element.get("name", usual)
     changes: dict[str, Any] = {}
     for field, name in _hook_fields(element):
@@ -244,11 +249,12 @@ def _set_functions(mechanism: Mechanism, element: Any, usual: str, functions: Fu
 
 
 def parse(text: str, functions: Functions | None = None) -> Mechanism:
-    """Create a mechanism from the text of a scene. It is not frozen.
+    """Create a mechanism from the text of a scene. The mechanism is not frozen.
 
-    functions: the functions and objects that the scene names, such as {"drag": drag} or
-    globals(). Raises baum.Error, which names the line, if the text is not a scene, and KeyError if
-    a function is missing.
+    functions: the functions and objects that the scene names, such as {"drag": drag} or globals().
+
+    Raises baum.Error if the text is not a scene; the message names the line. Raises KeyError if a
+    function is missing.
     """
     from .mechanism import Mechanism
 
@@ -269,6 +275,6 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
-    """Create a mechanism from a file that Mechanism.save() has written, or a program in C.
-    Otherwise like baum.parse()."""
+    """Create a mechanism from a file that Mechanism.save() or a C program has written. The
+    arguments and errors are those of baum.parse()."""
     return parse(Path(path).read_text(encoding="utf-8"), functions)
