@@ -9,7 +9,8 @@
  * is the uncertainty of the reference. If runs fail, or differ by more than CLOSE, the study also
  * tries looser tolerances and implicit methods. It then uses the attempt with the smallest
  * difference. The last attempt makes two runs with RK4, one with STEPS steps and one with twice as
- * many. It succeeds even after singular configurations, where constraint violations grow strongly. */
+ * many. It succeeds even after singular configurations, where constraint violations grow
+ * strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
