@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests scenes, which are mechanisms written as text.
- * Mechanisms of every kind must be the same, bit for bit, after they were written and read. Wrong
- * texts must be refused with a message that names the line. If allocations fail, no memory may be
- * lost. */
+/* Tests scenes, which are mechanisms written as text. Mechanisms of every kind must be the same,
+ * bit for bit, after they were written and read. Wrong texts must be refused with a message that
+ * names the line. If allocations fail, no memory may be lost. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
