@@ -297,8 +297,8 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  do not alter its steps.
  *  @param simulation  the run
  *  @param t           [s] finite
- *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also if max_steps is reached, or if the mean of 10000
+ *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_STOP_TIME,
+ *           BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also if max_steps is reached, or if the mean of 10000
  *           successive variable steps is less than 1e-9 / r, where r [1/s] is the rate of the
  *           motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
  *           BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break),
@@ -325,6 +325,14 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
+
+/** Limit the wall time of calls that advance the run. A call that takes longer returns
+ *  BAUM_STOP_TIME after the step that it is taking; it takes at least one step. The next call
+ *  continues. The motion and the monitors do not depend on such stops.
+ *  @param simulation  the run
+ *  @param limit       [s] of wall time, > 0; INFINITY, as at the start of a run: none
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
 
 /** Replace the time and the state of a run. Multistep methods restart. If the new state does not
  *  violate the constraints more than the run already does, it is used as it is. Otherwise the

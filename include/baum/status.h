@@ -26,6 +26,7 @@ extern "C" {
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
   X(BAUM_STOP_EVENT, 2, "an event function changed sign")                                   \
+  X(BAUM_STOP_TIME, 3, "the time limit of the call has passed")                             \
   X(BAUM_WARNED, 10, "reached the end with warnings")                                       \
   X(BAUM_ERR_ARGUMENT, -1, "an argument is NULL, out of range or not finite")               \
   X(BAUM_ERR_STATE, -2, "the call is not allowed at this stage")                            \

@@ -78,7 +78,7 @@ baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *
   path->image = path->probe + nv;
   path->distance = path->image + nv;
   path->left = path->distance + nc;
-  return BAUM_OK;
+  return baum_i_kkt_prepare(workspace->kkt);
 }
 
 void baum_i_continuation_close(baum_i_continuation *path)

@@ -94,6 +94,16 @@ static number polynomial_increment(const baum_i_method *method, number mu)
   return w;
 }
 
+/* Does the same for real mu. */
+static double real_increment(const baum_i_method *method, double mu)
+{
+  double w = 0.0;
+  for (int k = method->degree; k > 0; k--) {
+    w = (w + method->coefficients[k]) * mu;
+  }
+  return w + (method->coefficients[0] - 1.0);
+}
+
 /* ---- Adams-Bashforth ------------------------------------------------------ */
 
 /* Returns the polynomial z^k - z^(k-1) - mu sum_j b_j z^(k-1-j). */
@@ -263,9 +273,27 @@ double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, 
   return excess(w[0]);
 }
 
+/* Tells whether |R(mu)| <= 1 for both mu of a one-step method. Conjugate and equal mu are evaluated
+ * once. */
+static bool is_one_step_stable(const baum_i_method *method, double A, double B)
+{
+  number mu[2];
+  bool stable = true;
+  characteristic_roots(A, B, mu);
+  for (int k = 0; k < (mu[0].re == mu[1].re ? 1 : 2) && stable; k++) {
+    const number w = mu[k].im == 0.0 ? (number){real_increment(method, mu[k].re), 0.0}
+                                     : polynomial_increment(method, mu[k]);
+    stable = 2.0 * w.re + w.re * w.re + w.im * w.im <= 0.0;
+  }
+  return stable;
+}
+
 bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, double beta2_h2,
                                  double growth)
 {
+  if (method->kind == BAUM_I_METHOD_ONE_STEP && growth == 0.0) {
+    return is_one_step_stable(method, alpha_h, beta2_h2);
+  }
   if (method->kind != BAUM_I_METHOD_ADAMS_BASHFORTH || !(growth > -1.0)) {
     return baum_i_amplification_growth(method, alpha_h, beta2_h2) <= growth;
   }

@@ -6,7 +6,16 @@
  * Along a ray, mu is proportional to b. The search steps through b in equal ratios until the
  * stability changes, and locates the change by bisection. The smallest limits occur on weakly
  * damped rays of methods that are unstable on the imaginary axis. For explicit Euler, the limit is
- * b = 2 zeta. No explicit method is stable if |mu| exceeds about twice its degree. */
+ * b = 2 zeta. No explicit method is stable if |mu| exceeds about twice its degree.
+ *
+ * One-step methods are stable where |mu| is small, and the search skips this part. With
+ * R = 1 + c_1 mu + ..., c_1 > 0, and Q = sum |c_k| |mu|^k over k >= 2,
+ *
+ *   |R|^2 <= 1 + 2 c_1 Re mu + 2 Q + (c_1 |mu| + Q)^2
+ *         <= 1   if   2 Q + (c_1 |mu| + Q)^2 <= -2 c_1 Re mu.
+ *
+ * -Re mu / |mu| is at least min(zeta, 1), and Q / |mu| grows with |mu|. If the condition holds for
+ * one |mu|, it therefore holds for all smaller ones. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
@@ -47,6 +56,19 @@ typedef struct ray {
   double end;
 } ray;
 
+/* Tells whether the bound above proves that a one-step method is stable for all mu of this size or
+ * smaller. */
+static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
+{
+  double first = method->coefficients[1]; /* c_1 */
+  double rest = 0.0;                      /* Q / |mu| */
+  for (int k = method->degree; k > 1; k--) {
+    rest = (rest + fabs(method->coefficients[k])) * size;
+  }
+  double growth = 2.0 * rest + size * (first + rest) * (first + rest);
+  return growth <= 2.0 * first * fmin(damping_ratio, 1.0);
+}
+
 static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
@@ -55,8 +77,18 @@ static ray make_ray(double damping_ratio)
   return (ray){damping_ratio, begin, SCAN_END / steepest};
 }
 
-/* Returns the next b at which the stability changes, or infinity if there is none. `stable` tells
- * whether the method is stable at the given b. */
+/* Skips the part of a ray that is surely stable. */
+static void begin_later(const baum_i_method *method, ray *r)
+{
+  double steepest = SCAN_END / r->end;
+  bool one_step = method->kind == BAUM_I_METHOD_ONE_STEP;
+  while (one_step && is_surely_stable(method, r->damping_ratio, 2.0 * r->begin * steepest)) {
+    r->begin *= 2.0;
+  }
+}
+
+/* Returns the next b at which the stability changes, or infinity. `stable` is the stability at
+ * b. */
 static double next_change(const baum_i_method *method, const ray *r, double b, bool stable)
 {
   while (b < r->end) {
@@ -72,6 +104,7 @@ static double next_change(const baum_i_method *method, const ray *r, double b, b
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   if (!is_stable(method, r.damping_ratio, r.begin)) {
     return 0.0;
   }
@@ -82,6 +115,7 @@ int baum_i_stability_intervals(const baum_i_method *method, double damping_ratio
                                double *from, double *to)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   int count = 0;
   double b = r.begin;
   double low = 0.0;

@@ -407,6 +407,8 @@ static void calls_on_no_run_are_refused(void **state)
   ASSERT_SAYS(baum_simulation_step(NULL, 1), BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_progress_interval(NULL, 1.0), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
+  ASSERT_SAYS(baum_simulation_set_time_limit(NULL, 1.0), BAUM_ERR_ARGUMENT,
+              "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_state(NULL, 0.0, numbers, numbers), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_get(NULL, &channel, 1, numbers), BAUM_ERR_ARGUMENT,

@@ -172,6 +172,7 @@ static void look(const asked *b, baum_status want)
   assert_int_equal(baum_simulation_energy_account(b->run, &account, sizeof account), want);
   assert_int_equal(baum_simulation_unique_multipliers(b->run, unique), want);
   assert_int_equal(baum_simulation_set_progress_interval(b->run, 0.0), want);
+  assert_int_equal(baum_simulation_set_time_limit(b->run, 1.0), want);
 }
 
 static void read_run(const asked *b)

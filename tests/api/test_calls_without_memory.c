@@ -104,6 +104,7 @@ typedef struct scene {
   X(baum_simulation_get, (s->run, &s->channel, 1, s->x))                                     \
   X(baum_simulation_set_input, (s->run, s->parts.throttle, 0.9))                             \
   X(baum_simulation_set_progress_interval, (s->run, 0.5))                                    \
+  X(baum_simulation_set_time_limit, (s->run, 0.5))                                           \
   X(baum_simulation_counters, (s->run, &s->counters, sizeof s->counters))                    \
   X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                \
   X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \

@@ -12,6 +12,7 @@
 
 #include "check.h"
 #include "driven.h"
+#include "message.h"
 #include "models.h"
 #include "spatial_scenes.h"
 #include "step_mode.h"
@@ -198,7 +199,7 @@ static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unu
 
 /* ---- sampling ---- */
 
-/* Samples positions and energies. If the sampling is cancelled, it continues with the remaining
+/* Samples positions and energies. If the sampling is cancelled or out of time, it continues with the remaining
  * samples. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
@@ -209,7 +210,7 @@ static void sample(baum_simulation *run, double rows[SAMPLES][4])
   for (int k = 0; k < SAMPLES; k++) {
     times[k] = (k + 1) * END / (SAMPLES + 0.5);
   }
-  while (status == BAUM_STOP_CANCELLED) {
+  while (status == BAUM_STOP_CANCELLED || status == BAUM_STOP_TIME) {
     int64_t done = 0;
     status =
       baum_simulation_sample(run, times + first, SAMPLES - first, channels, 2, rows[first], &done);
@@ -333,6 +334,97 @@ static void entries_are_not_added_by_a_study_that_is_cancelled(void **unused)
   model_destroy(&pendulum);
 }
 
+/* ---- time limits ---- */
+
+static void limit_time(baum_simulation *run)
+{
+  assert_int_equal(baum_simulation_set_time_limit(run, 1e-12), BAUM_OK);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters out;
+  check(baum_simulation_counters(run, &out, sizeof out));
+  out.wall = 0.0;
+  return out;
+}
+
+/* Every call ends after one step. */
+static void advance_within_limits(const baum_mechanism *m, const baum_simulation_options *o)
+{
+  baum_simulation *run = start(m, o, &(cancelling){.left = 0});
+  baum_simulation *limited = start(m, o, &(cancelling){.left = 0});
+  limit_time(limited);
+  int calls = 1;
+  while (baum_simulation_advance_to(limited, END) == BAUM_STOP_TIME) {
+    assert_string_equal(baum_simulation_message(limited), "");
+    calls++;
+  }
+  check(baum_simulation_advance_to(run, END));
+  const state want = state_of(m, run);
+  const state got = state_of(m, limited);
+  const baum_counters work = counters_of(run);
+  const baum_counters same = counters_of(limited);
+  assert_memory_equal(&got, &want, sizeof want);
+  assert_memory_equal(&same, &work, sizeof work);
+  assert_in_range(calls, work.steps, work.steps + 1);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(limited);
+}
+
+static void time_limits_change_neither_motion_nor_counters(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    advance_within_limits(pendulum.mechanism, &o);
+    o.error_check = true;
+    advance_within_limits(pendulum.mechanism, &o);
+  }
+  model_destroy(&pendulum);
+}
+
+static void samples_do_not_depend_on_time_limits(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    double want[SAMPLES][4];
+    double got[SAMPLES][4];
+    const baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    baum_simulation *run = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+    baum_simulation *limited = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+    limit_time(limited);
+    sample(run, want);
+    sample(limited, got);
+    assert_memory_equal(got, want, sizeof want);
+    baum_simulation_destroy(run);
+    baum_simulation_destroy(limited);
+  }
+  model_destroy(&pendulum);
+}
+
+static void time_limits_are_checked(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  baum_simulation_options o = step_mode_options(step_mode_at(0), 0.02, 1e-6);
+  baum_simulation *run = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+  ASSERT_SAYS(baum_simulation_set_time_limit(run, 0.0), BAUM_ERR_ARGUMENT,
+              "limit is 0 s, must be > 0");
+  limit_time(run);
+  ASSERT_SAYS(baum_simulation_advance_to(run, END), BAUM_STOP_TIME,
+              "t = 0.02 s: the time limit of the call, 1e-12 s, has passed");
+  assert_int_equal(baum_simulation_set_time_limit(run, (double)INFINITY), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
+  baum_simulation_destroy(run);
+  model_destroy(&pendulum);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -342,6 +434,9 @@ int main(void)
     cmocka_unit_test(cancelling_in_the_last_step_does_not_cancel_the_next_call),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
+    cmocka_unit_test(time_limits_change_neither_motion_nor_counters),
+    cmocka_unit_test(samples_do_not_depend_on_time_limits),
+    cmocka_unit_test(time_limits_are_checked),
     cmocka_unit_test(a_study_goes_on_to_the_same_entries),
     cmocka_unit_test(entries_are_not_added_by_a_study_that_is_cancelled),
   };

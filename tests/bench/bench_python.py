@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures the cost of user functions in Python, for the pendulum of the README. It prints the
-number of calls in a step of rk4, and the overhead of a call. The overhead is the time of a call
-without the time of the function itself.
+"""The cost of short runs from Python, for the slider-crank over 2 s, and of user functions in
+Python, for the pendulum of the README: the number of calls in a step of rk4, and the overhead of a
+call, which is its time without that of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
 With `quick` or `full`, the program also measures a study of the pendulum over 2 s with this grid.
 
-To find the overhead, the program makes a second run. Its functions compute the same values in C,
-which requires a C compiler. All times are CPU times. Each is the smallest of several runs.
+The overhead is the difference from a run whose functions compute the same values in C, which needs a
+C compiler. Times of short runs are wall times, all others CPU times, the smallest of several runs.
 """
 import ctypes
 import sys
@@ -22,9 +22,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
 import baum
+from baum import catalog
 from compiler import CC, Folder
 
 STEPS, REPEATS = 1000, 7
+SHORT_RUNS = 300
 
 C = """
 int phi(double t, const double *q, double *out, void *user)
@@ -106,6 +108,33 @@ def report_study(grid, language, phi):
     print(f"study with the {grid} grid, phi in {language}: {len(study)} settings, {seconds:.1f} s")
 
 
+def short_run(m, options):
+    """Wall times of creating a run, advancing it and reading q."""
+    clock = time.perf_counter
+    times = [clock()]
+    s = m.simulation("rk8", rtol=1e-5, **options)
+    times.append(clock())
+    s.advance_to(2.0)
+    times.append(clock())
+    _ = s.q
+    times.append(clock())
+    return np.diff(times), s.counters
+
+
+def report_short_run(**options):
+    m = catalog.build("slider_crank", speed=10.0)
+    runs = [short_run(m, options) for _ in range(SHORT_RUNS)]
+    create, advance, read = 1e6 * np.min([times for times, _ in runs], axis=0)
+    done = runs[0][1]
+    what = ", ".join(options.values()) or "default formulation"
+    print(
+        f"short run, {what}: create {create:.0f} us, advance {advance:.0f} us, read q {read:.1f} us; "
+        f"{done.steps} steps, {done.rejected} rejected, {done.evaluations} evaluations"
+    )
+
+
+report_short_run()
+report_short_run(formulation="baumgarte")
 folder = Folder()
 compiled = ctypes.CDLL(folder.shared_object(C)) if CC else None
 report(["phi"], compiled)

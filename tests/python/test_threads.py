@@ -9,12 +9,13 @@ import sys
 import threading
 import time
 import unittest
+import unittest.mock
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 import baum
-from baum import _calls
+from baum import _calls, simulation
 from mechanisms import circle, pendulum, rod_pendulum, slider_crank
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -23,6 +24,38 @@ LONG = 1e9  # [s] duration of a run that is never completed
 
 def long_run():
     return rod_pendulum().simulation("rk4", step=1e-3)
+
+
+class ShortCalls(unittest.TestCase):
+    """Calls that take less than AT_ONCE stay in the calling thread; longer ones are continued in a
+    second one."""
+
+    def test_a_short_run_starts_no_thread(self):
+        code = (
+            "import threading; from mechanisms import slider_crank; m = slider_crank()\n"
+            's = m.simulation("rk4", step=1e-3); s.advance_to(2e-3); m.simulate([1e-3], "rk4", '
+            "step=1e-3)\nprint(threading.active_count())"
+        )
+        done = subprocess.run([sys.executable, "-c", code], cwd=HERE, capture_output=True, text=True)
+        self.assertEqual((done.stdout.strip(), done.stderr), ("1", ""))
+
+    def test_it_does_not_matter_where_a_call_is_continued(self):
+        m = slider_crank()
+        times = np.linspace(0, 0.2, 41)
+        for method in ({"integrator": "rk4", "step": 1e-3}, {"integrator": "rk8", "rtol": 1e-7}):
+            whole = m.simulate(times, **method)
+            moved = m.simulation(**method)
+            moved.advance_to(0.2)
+            with unittest.mock.patch.object(simulation, "AT_ONCE", 1e-9):
+                parts = m.simulate(times, **method)
+                again = m.simulation(**method)
+                self.assertEqual(again.advance_to(0.2), baum.Status.OK)
+            np.testing.assert_array_equal(parts.q, whole.q)
+            np.testing.assert_array_equal(again.q, moved.q)
+            self.assertEqual(parts.status, baum.Status.OK)
+            self.assertEqual(again.message, "")
+            counters = (str(run.counters._replace(wall=0)) for run in (parts, whole))
+            self.assertEqual(*counters)
 
 
 class Pool(unittest.TestCase):
@@ -243,6 +276,15 @@ class Interrupted(unittest.TestCase):
             "interrupted True",
             self.interrupt(
                 's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10)', "s.step(10**10)"
+            ),
+        )
+
+    def test_runs_that_ask_again_and_again(self):
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk8", rtol=1e-6)',
+                "while True: s.advance_to(s.time + 0.01)",
             ),
         )
 

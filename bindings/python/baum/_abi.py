@@ -16,6 +16,7 @@ class baum_status(enum.IntEnum):
     BAUM_OK = 0
     BAUM_STOP_CANCELLED = 1
     BAUM_STOP_EVENT = 2
+    BAUM_STOP_TIME = 3
     BAUM_WARNED = 10
     BAUM_ERR_ARGUMENT = -1
     BAUM_ERR_STATE = -2
@@ -1298,6 +1299,7 @@ PROTOTYPES = {
     "baum_simulation_step": (c_int, [c_void_p, c_int64]),
     "baum_simulation_cancel": (None, [c_void_p]),
     "baum_simulation_set_progress_interval": (c_int, [c_void_p, c_double]),
+    "baum_simulation_set_time_limit": (c_int, [c_void_p, c_double]),
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_simulation_continue": (c_int, [c_void_p, c_void_p]),
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),

@@ -112,11 +112,16 @@ _declare(lib, path, _abi.PROTOTYPES)
 _check_structs(lib, path)
 
 
+_defaults: dict[type[ctypes.Structure], bytes] = {}
+
+
 def default(struct: type[Struct]) -> Struct:
     """Make a struct with the defaults of the library."""
-    filled = struct()
-    getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
-    return filled
+    if struct not in _defaults:
+        filled = struct()
+        getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
+        _defaults[struct] = bytes(filled)
+    return struct.from_buffer_copy(_defaults[struct])
 
 
 def text(value: bytes) -> str:

@@ -75,4 +75,6 @@ def address(array: Any) -> Any:
 
 def numbers(place: int | None, size: int) -> Array | None:
     """Copy the numbers at an address into a new array; return None for NULL."""
-    return None if place is None else np.array((ctypes.c_double * size).from_address(place))
+    if place is None:
+        return None
+    return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()

@@ -28,6 +28,7 @@ class Status(enum.IntEnum):
     OK = 0
     STOP_CANCELLED = 1
     STOP_EVENT = 2
+    STOP_TIME = 3
     WARNED = 10
     ERR_ARGUMENT = -1
     ERR_STATE = -2
@@ -49,12 +50,12 @@ class Status(enum.IntEnum):
         return self.name
 
 
+STATUSES = {status.value: status for status in Status}
+
+
 def as_status(value: int) -> Status:
     """Convert a number to a Status. Return the number itself if this package does not know it."""
-    try:
-        return Status(value)
-    except ValueError:
-        return value  # type: ignore[return-value]
+    return STATUSES.get(value, value)  # type: ignore[arg-type]
 
 
 class Error(Exception):

@@ -11,6 +11,7 @@ the run waits.
 from __future__ import annotations
 
 import html
+import queue
 import threading
 import time
 import warnings
@@ -48,6 +49,9 @@ class Frame(NamedTuple):
     q: Array
 
 
+NO_FRAME = Frame(0.0, np.empty(0))
+
+
 class Live:
     """What a run and its views share: the newest frame, and whether the run waits.
 
@@ -60,13 +64,13 @@ class Live:
         self.servers: list[Server] = []
         self.pages = 0
         self.paused = False
-        self.frame = Frame(0.0, np.empty(0))
+        self.frame = NO_FRAME
         self.cancelled = False
         self._interval = self._interval_now = interval
         self._due = self._function_due = 0.0
         self._held_at = float("nan")
         self._left_at: float | None = None
-        self._steps = threading.Semaphore(0)
+        self._steps: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._lock = threading.Lock()
 
     # ---- in the thread that advances the run -----------------------------------------------------
@@ -84,6 +88,10 @@ class Live:
             return False
         self._function_due = now + self._interval
         return bool(self.function(t))
+
+    def is_silent(self, seconds: float) -> bool:
+        """Whether the library does not call call() within this time."""
+        return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:
         """Prepare for a call that advances the run, if the run is paused or has a progress
@@ -121,9 +129,10 @@ class Live:
             return
         self._held_at = self.frame.t
         while self.paused and self.servers and not self.cancelled:
-            if self._steps.acquire(timeout=0.05):
-                return
-            left = self._left_at
+            try:
+                return self._steps.get(timeout=0.05)
+            except queue.Empty:
+                left = self._left_at
             if self.pages == 0 and left is not None and time.monotonic() > left + AWAY:
                 self.paused = False
 
@@ -145,8 +154,8 @@ class Live:
     # ---- in the threads of pages -----------------------------------------------------------------
 
     def pause(self) -> None:
-        while self._steps.acquire(blocking=False):
-            pass
+        while not self._steps.empty():
+            self._steps.get()
         self._held_at = float("nan")
         self.paused = True
 
@@ -154,7 +163,7 @@ class Live:
         self.paused = False
 
     def step(self) -> None:
-        self._steps.release()
+        self._steps.put(None)
 
     def enter(self) -> None:
         with self._lock:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from .typing import SimulationOptions
 
 LISTED = 30  # largest number of names in a message
+MANY = 1000  # elements of a mechanism whose evaluation may take longer than a few ms
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
@@ -130,6 +131,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """Take over a mechanism of the library, with the elements of another Mechanism."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
+        self._sizes: Sizes | None = None  # once they are known, after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
@@ -407,11 +409,19 @@ class Mechanism(Adding, AddingInSpace, Scenes):
                     yield joint
 
     @property
+    def is_quick(self) -> bool:
+        """Whether calls that only evaluate this mechanism, such as the start of a run, take at most
+        a few ms and call no Python function."""
+        return len(self._entries) < MANY and not self.has_python
+
+    @property
     def sizes(self) -> Sizes:
         """The numbers nq, nv and nc of a frozen mechanism."""
-        counts = [ctypes.c_int32() for _ in range(3)]
-        _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
-        return Sizes(*(count.value for count in counts))
+        if self._sizes is None:
+            counts = [ctypes.c_int32() for _ in range(3)]
+            _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
+            self._sizes = Sizes(*(count.value for count in counts))
+        return self._sizes
 
     def rows(self, joint: JointLike) -> slice:
         """Return where the rows of a joint are in Phi and lambda of a frozen mechanism."""
@@ -461,7 +471,10 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:
-        _calls.interruptible(_calls.make, function, self.handle, *arguments)
+        if self.is_quick:
+            _calls.make(function, self.handle, *arguments)
+        else:
+            _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
     def channel(self, value: ChannelLike) -> Channel:
         """Return the channel for a channel or its name, such as "energy" or "B.phi". Raises

@@ -273,7 +273,9 @@ class Simulation(_calls.Closing):
         error_check: bool = False,
     ) -> None:
         given = locals()
-        struct = make_options(integrator, {name: given[name] for name in CONVERT})
+        kept = Simulation.__init__.__kwdefaults__ or {}
+        changed = {name: given[name] for name in CONVERT if given[name] is not kept[name]}
+        struct = make_options(integrator, changed)
         self.mechanism = mechanism
         self._own_progress = _checked(progress)
         self._own_watcher: Watcher = None if progress is True else self._own_progress
@@ -285,15 +287,17 @@ class Simulation(_calls.Closing):
         self._event_functions: list[Any] = []
         self._warned: dict[int, int] = {}
         self._seconds_per_step: float | None = None
+        self._time_limit = math.inf
         if row_gains is not None:
             factors = row_factors(mechanism, row_gains)
             struct.row_gains = factors.ctypes.data
             struct.row_gain_count = len(factors)
         out = ctypes.c_void_p()
-        create = lib.baum_simulation_create
-        _calls.interruptible(
-            _calls.make, create, mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
-        )
+        arguments = mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
+        if mechanism.is_quick:
+            _calls.make(lib.baum_simulation_create, *arguments)
+        else:
+            _calls.interruptible(_calls.make, lib.baum_simulation_create, *arguments)
         self._owner = _calls.Handle(_calls.made(out), lib.baum_simulation_destroy, "simulation")
         self._sizes = mechanism.sizes
         self._warn()
@@ -317,7 +321,7 @@ class Simulation(_calls.Closing):
             fails. The run then stays at the end of its last successful step.
         """
         end = number(t, "t")
-        return self._run(progress, lib.baum_simulation_advance_to, end, end=end)
+        return self._run(progress, lib.baum_simulation_advance_to, lambda: (end,), end=end)
 
     def step(self, count: int = 1, progress: Progress = None) -> Status:
         """Take `count` whole steps forward in time. Returns and raises the same as
@@ -325,9 +329,8 @@ class Simulation(_calls.Closing):
         count = integer(count, "count", 64)
         begun = time.perf_counter()
         try:
-            return self._run(
-                progress, lib.baum_simulation_step, count, at_once=self._is_short(count)
-            )
+            at_once = self._is_short(count)
+            return self._run(progress, lib.baum_simulation_step, lambda: (count,), at_once=at_once)
         finally:
             self._seconds_per_step = (time.perf_counter() - begun) / max(count, 1)
 
@@ -350,30 +353,33 @@ class Simulation(_calls.Closing):
         your own functions, have the attribute `run` with the samples recorded so far.
         """
         given = vector(np.atleast_1d(times), None, "times")
+        counts: list[ctypes.c_int64] = []
         channels = [record] if isinstance(record, (str, Channel)) else record
         layout = self._layout(
             [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in channels)]
         )
         rows = layout.rows(len(given))
-        done = ctypes.c_int64()
-        arguments = (
-            address(given),
-            len(given),
-            layout.structs,
-            layout.count,
-            address(rows),
-            ctypes.byref(done),
-        )
+
+        def done() -> int:
+            return sum(count.value for count in counts)
+
+        def remaining() -> tuple[Any, ...]:
+            first = done()
+            counts.append(ctypes.c_int64())
+            left, to = given[first:], rows[first:]
+            into = ctypes.byref(counts[-1])
+            return address(left), len(left), layout.structs, layout.count, address(to), into
+
         try:
             end = float(given[-1]) if len(given) else None
-            status = self._run(None, lib.baum_simulation_sample, *arguments, end=end)
+            status = self._run(None, lib.baum_simulation_sample, remaining, end=end)
         except BaseException as error:
             if not self._owner.busy:
-                recorded = self._make_run(layout, given, rows, done.value, _status_of(error))
+                recorded = self._make_run(layout, given, rows, done(), _status_of(error))
                 recorded.failure = str(error)
                 error.run = recorded  # type: ignore[attr-defined]
             raise
-        return self._make_run(layout, given, rows, done.value, status)
+        return self._make_run(layout, given, rows, done(), status)
 
     def _make_run(
         self, layout: Layout, times: Array, rows: Array, done: int, status: Status
@@ -552,12 +558,13 @@ class Simulation(_calls.Closing):
         self,
         progress: Progress,
         function: Any,
-        *arguments: Any,
+        arguments: Callable[[], tuple[Any, ...]],
         at_once: bool = False,
         end: float | None = None,
     ) -> Status:
         """Call a function that advances the run. `end` is the time at which it will end, if that is
-        known."""
+        known. arguments() returns the arguments for everything that has not been done yet. at_once
+        tells that the call is short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
@@ -568,12 +575,7 @@ class Simulation(_calls.Closing):
             live.begin(self._owner.address)
         status: Status
         try:
-            if at_once:
-                status = self._owner.call(function, *arguments)
-            else:
-                status = _calls.interruptible(
-                    self._owner.call, function, *arguments, cancel=self.cancel
-                )
+            status = self._advance(function, arguments, at_once, end is not None)
         except Error:
             self._warn()
             raise
@@ -586,6 +588,29 @@ class Simulation(_calls.Closing):
         if live.servers:
             live.returned(self._owner)
         return status
+
+    def _advance(
+        self, function: Any, arguments: Callable[[], tuple[Any, ...]], short: bool, divisible: bool
+    ) -> Status:
+        """Make a call that advances the run: in this thread if it is short, otherwise in a second
+        thread. A divisible call is begun in this thread, where it has the time AT_ONCE, which is
+        too short for Python callbacks."""
+        if short:
+            return self._owner.call(function, *arguments())
+        if divisible and self._live.is_silent(AT_ONCE) and not self._has_python:
+            self._limit_time(AT_ONCE)
+            status = self._owner.call(function, *arguments())
+            if status != Status.STOP_TIME:
+                return status
+        self._limit_time(math.inf)
+        call = self._owner.call
+        last: Status = _calls.interruptible(call, function, *arguments(), cancel=self.cancel)
+        return last
+
+    def _limit_time(self, seconds: float) -> None:
+        if seconds != self._time_limit:
+            self._owner.call(lib.baum_simulation_set_time_limit, seconds)
+            self._time_limit = seconds
 
     def _call(self, function: Any, *arguments: Any) -> Any:
         """Make a short call. If it may run Python callbacks, make it in a second thread."""
@@ -637,7 +662,7 @@ class Simulation(_calls.Closing):
 
     def _copy(self, function: Any, size: int) -> Array:
         place = function(self._owner.address)
-        return np.array((ctypes.c_double * size).from_address(place))
+        return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()
 
     @overload
     def get(self, channel: ChannelLike, /) -> Array: ...
@@ -693,20 +718,24 @@ class Simulation(_calls.Closing):
 
     @property
     def counters(self) -> Counters:
-        """What the run has cost, and how well it has satisfied the constraints."""
-        struct = _abi.baum_counters()
-        self._call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
+        """What the run has cost and how well it has kept the constraints."""
+        struct = self._read_counters()
         values = [getattr(struct, name) for name in Counters._fields]
         return Counters._make(
             self.mechanism.find("joint", value) if isinstance(value, ctypes.Structure) else value
             for value in values
         )
 
+    def _read_counters(self) -> _abi.baum_counters:
+        struct = _abi.baum_counters()
+        self._owner.call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
+        return struct
+
     @property
     def warnings(self) -> list[Warning]:
         """A list with a baum.Warning for each kind of warnings so far."""
         found = []
-        for k in range(self.counters.warnings):
+        for k in range(self._read_counters().warnings):
             out = _abi.baum_warning()
             self._owner.call(lib.baum_simulation_warning, k, ctypes.byref(out), ctypes.sizeof(out))
             found.append(as_warning(out, self.mechanism.find("joint", out.joint)))
