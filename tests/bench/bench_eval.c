@@ -198,11 +198,13 @@ static bool is_wanted(const arguments *given, scene_kind kind, int n)
 static bool bench_solvers(const arguments *given)
 {
   bool fine = true;
-  if (!given->json) {
-    print_head();
-  }
+  bool begun = given->json;
   for (int k = 0; k < CASE_COUNT; k++) {
     if (is_wanted(given, CASES[k].kind, CASES[k].n)) {
+      if (!begun) {
+        print_head();
+        begun = true;
+      }
       fine = bench_scene(CASES[k].kind, CASES[k].n, given->json) && fine;
     }
   }
@@ -218,25 +220,25 @@ static const double CRANK_OF_PEERS = 184e-9;
  * their fastest calls (Pinocchio 4.1.0, MuJoCo 4.0.0). NaN: not measured. MuJoCo's flyball had no
  * springs. No command repeats these measurements. */
 static const struct {
-  scene_kind kind;
+  model_spatial which;
   int n;
   double peer;
 } SPATIAL[] = {
-  {SCENE_SPATIAL_SLIDER_CRANK, 1, 1590.0},
-  {SCENE_RSSR, 1, 1538.0},
-  {SCENE_BRICARD, 1, 2595.0},
-  {SCENE_SLENDER_BRICARD, 1, (double)NAN},
-  {SCENE_STEWART, 1, 8640.0},
-  {SCENE_QUADRUPED, 1, 2630.0},
-  {SCENE_FLYBALL, 1, 807.0},
-  {SCENE_SPHERICAL_CHAIN, 10, 3700.0},
-  {SCENE_SPHERICAL_CHAIN, 100, 39100.0},
-  {SCENE_SPHERICAL_CHAIN, 1000, (double)NAN},
-  {SCENE_SPHERICAL_CHAIN, 10000, (double)NAN},
-  {SCENE_REVOLUTE_CHAIN, 10, 1720.0},
-  {SCENE_REVOLUTE_CHAIN, 100, 31800.0},
-  {SCENE_REVOLUTE_CHAIN, 1000, (double)NAN},
-  {SCENE_REVOLUTE_CHAIN, 10000, (double)NAN},
+  {MODEL_SPATIAL_SLIDER_CRANK, 1, 1590.0},
+  {MODEL_RSSR, 1, 1538.0},
+  {MODEL_BRICARD, 1, 2595.0},
+  {MODEL_SLENDER_BRICARD, 1, (double)NAN},
+  {MODEL_STEWART, 1, 8640.0},
+  {MODEL_QUADRUPED, 1, 2630.0},
+  {MODEL_FLYBALL, 1, 807.0},
+  {MODEL_SPHERICAL_CHAIN, 10, 3700.0},
+  {MODEL_SPHERICAL_CHAIN, 100, 39100.0},
+  {MODEL_SPHERICAL_CHAIN, 1000, (double)NAN},
+  {MODEL_SPHERICAL_CHAIN, 10000, (double)NAN},
+  {MODEL_REVOLUTE_CHAIN, 10, 1720.0},
+  {MODEL_REVOLUTE_CHAIN, 100, 31800.0},
+  {MODEL_REVOLUTE_CHAIN, 1000, (double)NAN},
+  {MODEL_REVOLUTE_CHAIN, 10000, (double)NAN},
 };
 enum { SPATIAL_COUNT = sizeof SPATIAL / sizeof SPATIAL[0] };
 
@@ -265,8 +267,9 @@ static bool bench_spatial_scene(int k, measured *crank, bool json)
 {
   scene at;
   measured all[MOST_SOLVERS];
-  if (!scene_make(SPATIAL[k].kind, SPATIAL[k].n, &at)) {
-    (void)fprintf(stderr, "%s %d: %s\n", scene_name(SPATIAL[k].kind), SPATIAL[k].n, baum_message());
+  if (!scene_make(scene_of_space(SPATIAL[k].which), SPATIAL[k].n, &at)) {
+    (void)fprintf(stderr, "%s %d: %s\n", model_spatial_name(SPATIAL[k].which), SPATIAL[k].n,
+                  baum_message());
     return false;
   }
   int count = create_all(&at, solver_in_space_at, all);
@@ -299,7 +302,7 @@ static bool bench_spatial(const arguments *given)
   fine = fine && crank.self;
   bool begun = given->json;
   for (int k = 0; k < SPATIAL_COUNT && crank.self; k++) {
-    if (is_wanted(given, SPATIAL[k].kind, SPATIAL[k].n)) {
+    if (is_wanted(given, scene_of_space(SPATIAL[k].which), SPATIAL[k].n)) {
       if (!begun) {
         print_spatial_head();
         begun = true;

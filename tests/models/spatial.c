@@ -215,6 +215,22 @@ static baum_status build_chain(bool revolute, int links, model *out)
   return model_finish(&parts, NULL, out);
 }
 
+const char *model_spatial_name(model_spatial which)
+{
+  static const char *const names[] = {
+    [MODEL_SPATIAL_SLIDER_CRANK] = "spatial_slider_crank",
+    [MODEL_RSSR] = "rssr",
+    [MODEL_BRICARD] = "bricard",
+    [MODEL_SLENDER_BRICARD] = "slender_bricard",
+    [MODEL_STEWART] = "stewart",
+    [MODEL_QUADRUPED] = "quadruped",
+    [MODEL_FLYBALL] = "flyball",
+    [MODEL_SPHERICAL_CHAIN] = "spherical_chain",
+    [MODEL_REVOLUTE_CHAIN] = "revolute_chain",
+  };
+  return names[which];
+}
+
 baum_status model_spatial_build(model_spatial which, int links, model *out)
 {
   *out = (model){.mechanism = NULL};

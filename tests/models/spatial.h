@@ -23,4 +23,6 @@ typedef enum model_spatial {
  * others ignore it. Only the coupler and the rocker of MODEL_RSSR have free velocities. */
 baum_status model_spatial_build(model_spatial which, int links, model *out);
 
+const char *model_spatial_name(model_spatial which);
+
 #endif

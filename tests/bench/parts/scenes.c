@@ -5,7 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "spatial.h"
+static bool is_spatial(scene_kind kind)
+{
+  return kind >= SCENE_SPATIAL;
+}
+
+static model_spatial model_of(scene_kind kind)
+{
+  return (model_spatial)((int)kind - SCENE_SPATIAL);
+}
 
 const char *scene_name(scene_kind kind)
 {
@@ -19,22 +27,8 @@ const char *scene_name(scene_kind kind)
     [SCENE_THIRD_BY_A_ROD] = "three_cranks_by_a_rod",
     [SCENE_THREE_CRANKS] = "three_cranks",
     [SCENE_TWO_CRANKS] = "two_cranks",
-    [SCENE_SPATIAL_SLIDER_CRANK] = "spatial_slider_crank",
-    [SCENE_RSSR] = "rssr",
-    [SCENE_BRICARD] = "bricard",
-    [SCENE_SLENDER_BRICARD] = "slender_bricard",
-    [SCENE_STEWART] = "stewart",
-    [SCENE_QUADRUPED] = "quadruped",
-    [SCENE_FLYBALL] = "flyball",
-    [SCENE_SPHERICAL_CHAIN] = "spherical_chain",
-    [SCENE_REVOLUTE_CHAIN] = "revolute_chain",
   };
-  return names[kind];
-}
-
-bool scene_is_spatial(scene_kind kind)
-{
-  return kind >= SCENE_SPATIAL_SLIDER_CRANK;
+  return is_spatial(kind) ? model_spatial_name(model_of(kind)) : names[kind];
 }
 
 /* A chain whose links have irregular angles to both sides. */
@@ -78,29 +72,13 @@ static baum_status build_planar(scene_kind kind, int n, model *out)
   }
 }
 
-static baum_status build_spatial(scene_kind kind, int n, model *out)
-{
-  static const model_spatial models[] = {
-    [SCENE_SPATIAL_SLIDER_CRANK] = MODEL_SPATIAL_SLIDER_CRANK,
-    [SCENE_RSSR] = MODEL_RSSR,
-    [SCENE_BRICARD] = MODEL_BRICARD,
-    [SCENE_SLENDER_BRICARD] = MODEL_SLENDER_BRICARD,
-    [SCENE_STEWART] = MODEL_STEWART,
-    [SCENE_QUADRUPED] = MODEL_QUADRUPED,
-    [SCENE_FLYBALL] = MODEL_FLYBALL,
-    [SCENE_SPHERICAL_CHAIN] = MODEL_SPHERICAL_CHAIN,
-    [SCENE_REVOLUTE_CHAIN] = MODEL_REVOLUTE_CHAIN,
-  };
-  return model_spatial_build(models[kind], n, out);
-}
-
 bool scene_make(scene_kind kind, int n, scene *out)
 {
   memset(out, 0, sizeof *out);
   out->kind = kind;
   out->n = n;
-  baum_status status =
-    scene_is_spatial(kind) ? build_spatial(kind, n, &out->m) : build_planar(kind, n, &out->m);
+  baum_status status = is_spatial(kind) ? model_spatial_build(model_of(kind), n, &out->m)
+                                        : build_planar(kind, n, &out->m);
   if (status != BAUM_OK || baum_workspace_create(out->m.mechanism, &out->workspace) != BAUM_OK) {
     scene_clear(out);
     return false;
@@ -115,7 +93,7 @@ bool scene_make(scene_kind kind, int n, scene *out)
   }
   out->v = out->q + nq;
   return baum_workspace_design(out->workspace, out->q, out->v) == BAUM_OK &&
-         (!scene_is_spatial(kind) || /* rssr has free velocities */
+         (!is_spatial(kind) || /* rssr has free velocities */
           baum_workspace_assemble(out->workspace, 0.0, out->q, out->v, NULL, 0) == BAUM_OK);
 }
 

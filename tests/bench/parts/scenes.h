@@ -5,6 +5,7 @@
 
 #include "dynamics/dynamics.h"
 #include "models.h"
+#include "spatial.h"
 
 typedef enum scene_kind {
   SCENE_SLIDER_CRANK, /* driven: 9 rows */
@@ -16,15 +17,7 @@ typedef enum scene_kind {
   SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
   SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
   SCENE_TWO_CRANKS,
-  SCENE_SPATIAL_SLIDER_CRANK, /* this and all below: spatial.h */
-  SCENE_RSSR,
-  SCENE_BRICARD,
-  SCENE_SLENDER_BRICARD,
-  SCENE_STEWART,
-  SCENE_QUADRUPED,
-  SCENE_FLYBALL,
-  SCENE_SPHERICAL_CHAIN,
-  SCENE_REVOLUTE_CHAIN
+  SCENE_SPATIAL /* this and above: SCENE_SPATIAL + a model_spatial */
 } scene_kind;
 
 typedef struct scene {
@@ -38,7 +31,11 @@ typedef struct scene {
 } scene;
 
 const char *scene_name(scene_kind kind);
-bool scene_is_spatial(scene_kind kind);
+
+static inline scene_kind scene_of_space(model_spatial which)
+{
+  return (scene_kind)(SCENE_SPATIAL + (int)which);
+}
 
 /* Returns false with the reason in baum_message(). */
 bool scene_make(scene_kind kind, int n, scene *out);
