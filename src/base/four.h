@@ -84,6 +84,18 @@ BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
   return _mm256_permute_pd(x, 0x5);
 }
 
+/* |x| */
+BAUM_I_INLINE baum_i_four baum_i_four_magnitude(baum_i_four x)
+{
+  return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
+}
+
+/* Return the larger numbers, or those of y where x is NaN. */
+BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
+{
+  return _mm256_max_pd(x, y);
+}
+
 #else
 
 typedef struct baum_i_four {
@@ -150,6 +162,16 @@ BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
 BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
 {
   return (baum_i_four){baum_i_exchanged(x.low), baum_i_exchanged(x.high)};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_magnitude(baum_i_four x)
+{
+  return (baum_i_four){baum_i_magnitude(x.low), baum_i_magnitude(x.high)};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
+{
+  return (baum_i_four){baum_i_larger(x.low, y.low), baum_i_larger(x.high, y.high)};
 }
 
 #endif

@@ -16,6 +16,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/four.h"
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
@@ -331,46 +332,57 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-static inline baum_i_pair magnitude(baum_i_pair x)
+/* Returns by how much the residuals of two pins exceed rounding level. second: index of the second
+ * pin, or 0 for one pin. */
+BAUM_I_INLINE baum_i_four excess_of(const baum_i_block *b, const baum_i_pin_node *pin,
+                                    const double *arm, ptrdiff_t second)
 {
-  return (baum_i_pair){fabs(x[0]), fabs(x[1])};
+  const double *x = b->motion + pin[0].place[0];
+  const double *y = b->motion + pin[0].place[1];
+  const double *z = b->motion + pin[second].place[0];
+  const double *u = b->motion + pin[second].place[1];
+  const double *other = arm + 4 * second;
+  baum_i_four right = baum_i_four_gathered(b->right + 2 * (ptrdiff_t)pin[0].node,
+                                           b->right + 2 * (ptrdiff_t)pin[second].node);
+  baum_i_four terms[4] = {
+    baum_i_four_gathered(x, z), baum_i_four_minus(baum_i_four_all(0.0), baum_i_four_gathered(y, u)),
+    baum_i_four_times(baum_i_four_spread(x + 2, z + 2), baum_i_four_gathered(arm, other)),
+    baum_i_four_times(baum_i_four_spread(y + 2, u + 2), baum_i_four_gathered(arm + 2, other + 2))};
+  baum_i_four rest = right;
+  baum_i_four size = baum_i_four_magnitude(right);
+  for (int k = 0; k < 4; k++) {
+    rest = baum_i_four_minus(rest, terms[k]);
+    size = baum_i_four_plus(size, baum_i_four_magnitude(terms[k]));
+  }
+  return baum_i_four_minus(baum_i_four_magnitude(rest),
+                           baum_i_four_times(baum_i_four_all(rounding), size));
 }
 
 static bool check_pins(const baum_i_block *b)
 {
-  double worst = 0.0;
+  baum_i_four worst = baum_i_four_all(0.0);
+  const baum_i_pin_node *pin = b->pins;
   const double *arm = b->arm;
-  const double *motion = b->motion;
-  const double *rights = b->right;
-  for (int i = 0; i < b->pin_count; i++, arm += 4) {
-    const baum_i_pin_node *pin = &b->pins[i];
-    const double *x = motion + pin->place[0];
-    const double *y = motion + pin->place[1];
-    baum_i_pair right = baum_i_load(rights + 2 * (size_t)pin->node);
-    baum_i_pair move_x = baum_i_load(x);
-    baum_i_pair move_y = baum_i_load(y);
-    baum_i_pair turn_x = x[2] * baum_i_load(arm);
-    baum_i_pair turn_y = y[2] * baum_i_load(arm + 2);
-    baum_i_pair rest = magnitude(right - (move_x - move_y + turn_x + turn_y));
-    baum_i_pair size = magnitude(right) + magnitude(move_x) + magnitude(move_y) +
-                       magnitude(turn_x) + magnitude(turn_y);
-    baum_i_pair excess = rest - rounding * size;
-    worst = excess[0] > worst ? excess[0] : worst;
-    worst = excess[1] > worst ? excess[1] : worst;
+  for (int left = b->pin_count; left > 1; left -= 2, pin += 2, arm += 8) {
+    worst = baum_i_four_larger(excess_of(b, pin, arm, 1), worst);
   }
-  return worst <= 0.0;
+  if (b->pin_count % 2 != 0) {
+    worst = baum_i_four_larger(excess_of(b, pin, arm, 0), worst);
+  }
+  baum_i_pair most = baum_i_larger(baum_i_four_low(worst), baum_i_four_high(worst));
+  return most[0] <= 0.0 && most[1] <= 0.0;
 }
 
 static bool check_full(const baum_i_block *b, const baum_i_full_node *full)
 {
   baum_i_pair rest = baum_i_load(b->right + 2 * (size_t)full->node);
-  baum_i_pair size = magnitude(rest);
+  baum_i_pair size = baum_i_magnitude(rest);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
     baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
     const double *x = b->motion + b->place[b->side_body_block[s]];
     for (int c = 0; c < 3; c++) {
       rest -= x[c] * g.c[c];
-      size += magnitude(x[c] * g.c[c]);
+      size += baum_i_magnitude(x[c] * g.c[c]);
     }
   }
   return fabs(rest[0]) <= rounding * size[0] && fabs(rest[1]) <= rounding * size[1];

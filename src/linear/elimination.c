@@ -10,6 +10,7 @@
 
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
@@ -192,6 +193,75 @@ static baum_status begin(search *s, const baum_i_graph *graph)
   return BAUM_OK;
 }
 
+/* Sets depth[k] (count) to the distance of place k from the root of the elimination tree, in which
+ * the parent of a place is the first later place coupled with it. Returns the largest depth. */
+static int32_t find_depths(const baum_i_elimination *order, const int32_t *later, int32_t *depth)
+{
+  int32_t most = 0;
+  for (int32_t k = order->count - 1; k >= 0; k--) {
+    int32_t parent = order->count;
+    for (int32_t e = order->start[k]; e < order->start[k + 1]; e++) {
+      int32_t place = order->place[later[e]];
+      parent = place < parent ? place : parent;
+    }
+    depth[k] = parent < order->count ? depth[parent] + 1 : 0;
+    most = depth[k] > most ? depth[k] : most;
+  }
+  return most;
+}
+
+/* Writes the places in the order of falling depth to sorted (count). Places of the same depth keep
+ * their order. first (most + 2) is scratch. */
+static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t *first,
+                          int32_t *sorted)
+{
+  for (int k = 0; k < count; k++) {
+    first[most - depth[k] + 1]++;
+  }
+  for (int32_t d = 0; d < most; d++) {
+    first[d + 1] += first[d];
+  }
+  for (int k = 0; k < count; k++) {
+    sorted[first[most - depth[k]]++] = k;
+  }
+}
+
+/* Moves every node to just before the nodes that need it, so that its numbers are still in the
+ * cache. The fill stays the same, and nodes of the same depth are independent of each other. */
+static baum_status order_by_depth(search *s)
+{
+  baum_i_elimination *out = s->out;
+  size_t n = (size_t)out->count;
+  size_t count = (size_t)s->later.count;
+  int32_t *later = s->later.items;
+  int32_t *depth = baum_i_alloc(5 * n + 3 + count, sizeof *depth);
+  if (!depth) {
+    return BAUM_ERR_MEMORY;
+  }
+  int32_t *sorted = depth + n;
+  int32_t *node = sorted + n;
+  int32_t *start = node + n;
+  int32_t *old = start + n + 1;
+  int32_t most = find_depths(out, later, depth);
+  sort_by_depth(depth, out->count, most, old + count, sorted);
+  memcpy(node, out->node, n * sizeof *node);
+  memcpy(start, out->start, (n + 1) * sizeof *start);
+  for (size_t i = 0; i < count; i++) {
+    old[i] = later[i];
+  }
+  for (int32_t k = 0; k < out->count; k++) {
+    int32_t from = sorted[k];
+    out->node[k] = node[from];
+    out->place[node[from]] = k;
+    out->start[k + 1] = out->start[k];
+    for (int32_t e = start[from]; e < start[from + 1]; e++) {
+      later[out->start[k + 1]++] = old[e];
+    }
+  }
+  baum_i_free(depth);
+  return BAUM_OK;
+}
+
 static int ascending(const void *a, const void *b)
 {
   int32_t x = *(const int32_t *)a;
@@ -258,6 +328,9 @@ baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_
   }
   if (status == BAUM_OK) {
     status = take_rounds(&s);
+  }
+  if (status == BAUM_OK) {
+    status = order_by_depth(&s);
   }
   if (status == BAUM_OK) {
     order_later(&s);

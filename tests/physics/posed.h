@@ -16,10 +16,11 @@
 typedef struct posed {
   model m;
   baum_workspace *workspace;
+  int32_t nq;
   int32_t nv;
   int32_t nc;
-  double *memory; /* one block of memory for the arrays below */
-  double *q;      /* (nv) */
+  double *memory; /* holds the arrays below */
+  double *q;      /* (nq) */
   double *v;      /* (nv) */
   double *a;      /* (nv) as computed by the library */
   double *want_a; /* (nv) as computed by the oracle */
@@ -33,13 +34,14 @@ static inline posed pose_model(baum_status built, model m)
   check(built);
   posed p = {.m = m};
   check(baum_workspace_create(m.mechanism, &p.workspace));
-  check(baum_mechanism_sizes(m.mechanism, NULL, &p.nv, &p.nc));
+  check(baum_mechanism_sizes(m.mechanism, &p.nq, &p.nv, &p.nc));
+  size_t nq = (size_t)p.nq;
   size_t nv = (size_t)p.nv;
   size_t nc = (size_t)p.nc;
-  p.memory = calloc(4 * nv + 2 * nc, sizeof *p.memory);
+  p.memory = calloc(nq + 3 * nv + 2 * nc, sizeof *p.memory);
   assert_non_null(p.memory);
   p.q = p.memory;
-  p.v = p.q + nv;
+  p.v = p.q + nq;
   p.a = p.v + nv;
   p.want_a = p.a + nv;
   p.lambda = p.want_a + nv;

@@ -284,8 +284,31 @@ static void read_dense(quad_system *s, const double *mass, const double *jacobia
   }
 }
 
-bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
-                       const unsigned char *left_out, double *a, double *lambda)
+/* Subtracts 2 gain Phi' + gain^2 Phi from the right sides of the rows. Phi' = J v - nu. */
+static bool add_gain(const quad_system *s, baum_workspace *workspace, double t, const double *q,
+                     const double *v, double gain, const double *jacobian)
+{
+  int nv = s->nv;
+  int nc = s->n - nv;
+  double *nu = calloc(2 * (size_t)nc + 1, sizeof *nu);
+  double *phi = nu + nc;
+  bool done = nu && baum_workspace_nu(workspace, t, q, nu) == BAUM_OK &&
+              baum_workspace_phi(workspace, t, q, phi) == BAUM_OK;
+  for (int i = 0; done && i < nc; i++) {
+    wide rate = -(wide)nu[i];
+    for (int j = 0; j < nv; j++) {
+      rate += (wide)jacobian[(size_t)i * (size_t)nv + (size_t)j] * (wide)v[j];
+    }
+    wide less = 2 * (wide)gain * rate + (wide)gain * (wide)gain * (wide)phi[i];
+    s->b[nv + i] = (double)((wide)s->b[nv + i] - less);
+  }
+  free(nu);
+  return done;
+}
+
+bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const double *q,
+                                 const double *v, double gain, const unsigned char *left_out,
+                                 double *a, double *lambda)
 {
   int nv = workspace->mechanism->nv;
   int nc = workspace->mechanism->nc;
@@ -296,6 +319,9 @@ bool quad_acceleration(baum_workspace *workspace, double t, const double *q, con
               baum_workspace_jacobian(workspace, t, q, jacobian) == BAUM_OK &&
               baum_workspace_force(workspace, t, q, v, s.b) == BAUM_OK &&
               baum_workspace_gamma(workspace, t, q, v, s.b + nv) == BAUM_OK;
+  if (done && gain != 0.0) {
+    done = add_gain(&s, workspace, t, q, v, gain, jacobian);
+  }
   if (done) {
     read_dense(&s, mass, jacobian, left_out);
     done = solve(&s, a, lambda);
@@ -304,6 +330,12 @@ bool quad_acceleration(baum_workspace *workspace, double t, const double *q, con
   free(jacobian);
   finish(&s);
   return done;
+}
+
+bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
+                       const unsigned char *left_out, double *a, double *lambda)
+{
+  return quad_acceleration_with_gain(workspace, t, q, v, 0.0, left_out, a, lambda);
 }
 
 static void read_blocks(quad_system *s, const baum_workspace *w)

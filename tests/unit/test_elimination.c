@@ -252,6 +252,39 @@ static void chains_are_eliminated_from_both_ends_in_turn(void **state)
   baum_i_elimination_clear(&found);
 }
 
+/* The joints of an N-four-bar: bars 0 to N stand on the ground, and couplers join bar k with bar
+ * k + 1. Node 3 k is the foot of bar k, nodes 3 k + 1 and 3 k + 2 are the ends of coupler k. */
+static graph make_ladder(int windows)
+{
+  graph g = make_graph(3 * windows + 1);
+  for (int k = 0; k < windows; k++) {
+    couple(&g, 3 * k, 3 * k + 1);
+    couple(&g, 3 * k + 1, 3 * k + 2);
+    couple(&g, 3 * k + 2, 3 * k + 3);
+    if (k > 0) {
+      couple(&g, 3 * k - 1, 3 * k + 1);
+    }
+  }
+  return g;
+}
+
+/* Four nodes at most are at the same distance from the root, two at each end, and a node is coupled
+ * with nodes that are at most two nearer. */
+static void nodes_come_shortly_before_those_they_change(void **state)
+{
+  (void)state;
+  graph ladder = make_ladder(19);
+  baum_i_elimination found;
+  (void)check(&ladder);
+  assert_int_equal(order(&ladder, INT_MAX, &found), BAUM_OK);
+  for (int k = 0; k < found.count; k++) {
+    for (int e = found.start[k]; e < found.start[k + 1]; e++) {
+      assert_true(found.later[e] - k < 12);
+    }
+  }
+  baum_i_elimination_clear(&found);
+}
+
 /* Each elimination removes one node of a ring and couples its two neighbours, until three nodes are
  * left. */
 static void rings_have_the_fill_that_cannot_be_avoided(void **state)
@@ -328,6 +361,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(graphs_without_rings_have_no_fill),
     cmocka_unit_test(chains_are_eliminated_from_both_ends_in_turn),
+    cmocka_unit_test(nodes_come_shortly_before_those_they_change),
     cmocka_unit_test(rings_have_the_fill_that_cannot_be_avoided),
     cmocka_unit_test(cliques_are_full),
     cmocka_unit_test(nodes_without_couplings_and_no_nodes_at_all_are_fine),

@@ -5,6 +5,7 @@
 
 #include "dynamics/dynamics.h"
 #include "models.h"
+#include "spatial.h"
 
 typedef enum scene_kind {
   SCENE_SLIDER_CRANK, /* with a driver; it has 9 rows */
@@ -15,7 +16,8 @@ typedef enum scene_kind {
   SCENE_TWO_GUIDES,     /* the same with a second guide, which adds two redundant rows */
   SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
   SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
-  SCENE_TWO_CRANKS
+  SCENE_TWO_CRANKS,
+  SCENE_SPATIAL /* this and above: SCENE_SPATIAL + a model_spatial */
 } scene_kind;
 
 typedef struct scene {
@@ -24,13 +26,18 @@ typedef struct scene {
   model m;
   int bodies;
   baum_workspace *workspace;
-  double *q; /* (nv) */
+  double *q; /* (nq) */
   double *v; /* (nv) */
 } scene;
 
 const char *scene_name(scene_kind kind);
 
-/* Makes a scene. If this fails, returns false, and baum_message() gives the reason. */
+static inline scene_kind scene_of_space(model_spatial which)
+{
+  return (scene_kind)(SCENE_SPATIAL + (int)which);
+}
+
+/* Returns false with the reason in baum_message(). */
 bool scene_make(scene_kind kind, int n, scene *out);
 void scene_clear(scene *out);
 
