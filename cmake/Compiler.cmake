@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# baum_compile_options(target): C11, reproducible arithmetic, hidden symbols, the warnings of the
-# house as far as the compiler knows them. Sanitizers reach everything that is built here.
+# The function baum_compile_options(target) sets the options of a target: C11, reproducible
+# arithmetic, hidden symbols, and our warnings, as far as the compiler knows them. Sanitizers are
+# applied to everything that is built here.
 include(CheckCCompilerFlag)
 include(CheckLinkerFlag)
 
@@ -18,16 +19,18 @@ foreach(
   endif()
 endforeach()
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
-  # clang objects to the standard's NAN and INFINITY, which are floats by definition; gcc holds the rule.
+  # clang warns about NAN and INFINITY of the C standard, which are floats by definition. gcc checks
+  # the same rule without this warning.
   list(REMOVE_ITEM BAUM_WARNINGS -Wdouble-promotion)
-  # Integer constants are enums here, and new releases object to their use with doubles.
+  # In this project, integer constants are enums. New releases of compilers warn when enums are used
+  # with doubles.
   list(APPEND BAUM_WARNINGS -Wno-enum-float-conversion)
 endif()
 check_c_compiler_flag(-ffp-contract=off BAUM_KNOWS_fp_contract)
 check_linker_flag(C LINKER:--as-needed BAUM_KNOWS_as_needed)
 
-# Hot files (src/base/hot.h): vectorized, and free of what errno and traps would cost; twice where the
-# compiler knows wide vectors.
+# Hot files (src/base/hot.h) are compiled so that loops are vectorized and that no time is lost by
+# errno and traps. If the compiler supports wide vectors, they are compiled twice.
 set(BAUM_HOT_OPTIONS "")
 foreach(flag -O3 -fno-math-errno -fno-trapping-math)
   string(MAKE_C_IDENTIFIER "BAUM_KNOWS${flag}" known)
@@ -48,7 +51,8 @@ endif()
 
 check_linker_flag(C LINKER:-z,defs BAUM_KNOWS_z_defs)
 
-# A symbol that nobody defines is found here and not by the first user; sanitizers leave theirs open.
+# If a symbol is nowhere defined, the linker fails here, and not when a user links the library. With
+# sanitizers this is impossible, because their symbols remain undefined in the library.
 if(BAUM_KNOWS_z_defs AND NOT BAUM_SANITIZE)
   set(BAUM_NO_UNDEFINED LINKER:-z,defs)
 endif()
@@ -60,7 +64,7 @@ if(BAUM_SANITIZE)
   add_link_options(${sanitize})
 endif()
 
-# A fuzzer sees which branches its inputs take.
+# The fuzzer is told which branches of the code its inputs take.
 if(BAUM_FUZZ)
   if(NOT CMAKE_C_COMPILER_ID MATCHES Clang)
     message(FATAL_ERROR "BAUM_FUZZ needs clang and its libFuzzer, not ${CMAKE_C_COMPILER}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds what baum is built on, or stops with a message that names the package. Sets
+# Finds the packages that baum needs. If one is missing, stops with a message that names it. Sets
 #   BAUM_BACKENDS      what the library links
 #   BAUM_CAPABILITIES  compile definitions that tell the sources what is there
 
@@ -47,7 +47,7 @@ if(BAUM_TESTS)
   if(NOT TARGET PkgConfig::CMOCKA)
     baum_refuse("CMocka (through pkg-config)" "libcmocka-dev (and pkg-config)" BAUM_TESTS)
   endif()
-  find_package(GSL QUIET) # an oracle, which the library has nothing to do with
+  find_package(GSL QUIET) # used by tests only, which compare results with it
   if(NOT GSL_FOUND)
     baum_refuse("GSL" libgsl-dev BAUM_TESTS)
   endif()

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The parts of SUNDIALS that baum uses, in releases 6.4 to 7, after SuiteSparse was found. Sets
-# BaumSundials_FOUND and BAUM_SUNDIALS_TARGETS. Installed beside baum-config.cmake, which uses it too.
+# Finds the parts of SUNDIALS that baum uses, in releases 6.4 to 7. SuiteSparse must have been found
+# before. Sets BaumSundials_FOUND and BAUM_SUNDIALS_TARGETS. This file is installed beside
+# baum-config.cmake, which uses it as well.
 #
-# SUNDIALS_FOUND is not asked: it is false where one of its parallel parts lacks OpenMP, as with
-# clang on Debian, although everything that baum links is there.
+# SUNDIALS_FOUND is not used. It is false if one of the parallel parts of SUNDIALS lacks OpenMP, as
+# with clang on Debian, although everything that baum needs is there.
 find_package(SUNDIALS QUIET CONFIG)
 
 set(BAUM_SUNDIALS_TARGETS "")

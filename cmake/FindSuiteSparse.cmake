@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# SuiteSparse's KLU, and COLAMD that it is linked with, as SuiteSparse::KLU, found by name because
-# releases before 7 bring no CMake files. Installed beside baum-config.cmake, which uses it too.
+# Finds KLU of SuiteSparse, and COLAMD, which KLU needs, and makes the target SuiteSparse::KLU. They
+# are found by their names, because releases before 7 have no CMake files. This file is installed
+# beside baum-config.cmake, which uses it as well.
 include(FindPackageHandleStandardArgs)
 
 find_path(SuiteSparse_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs headers, libraries shared and static, the CMake package and the .pc files, all free of absolute paths.
+# Installs the headers, the shared and the static libraries, the CMake package and the .pc files.
+# None of them contains an absolute path.
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/baum)
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(DIRECTORY include/baum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-# Two sets, because only the static libraries need the backends where they are used.
+# There are two sets of targets, because only a program that uses the static libraries needs the
+# backends.
 foreach(library baum baum_static)
   string(REPLACE baum baum_catalog catalog ${library})
   install(
@@ -27,17 +29,17 @@ install(
         cmake/FindSuiteSparse.cmake cmake/FindBaumSundials.cmake
   DESTINATION ${config_dir})
 
-# baum.pc: library names only, taken from what is linked.
+# The file baum.pc contains only names of libraries. They are taken from what is linked.
 set(BAUM_PC_PRIVATE "")
 foreach(target IN LISTS BAUM_SUNDIALS_TARGETS)
   string(REPLACE "SUNDIALS::" " -lsundials_" flag ${target})
   string(APPEND BAUM_PC_PRIVATE ${flag})
 endforeach()
-if(TARGET MPI::MPI_C) # SUNDIALS 7 of Debian is compiled for MPI
+if(TARGET MPI::MPI_C) # SUNDIALS 7 of Debian is compiled with MPI
   string(APPEND BAUM_PC_PRIVATE " -lmpi")
 endif()
 string(APPEND BAUM_PC_PRIVATE " -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig")
-# The archive of suitesparseconfig may need OpenMP.
+# The static library suitesparseconfig may need OpenMP.
 execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp.so OUTPUT_VARIABLE path
                 OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(IS_ABSOLUTE "${path}")

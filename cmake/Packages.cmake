@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Debian packages: libbaum0, libbaum-dev and python3-baum.
+# Makes the Debian packages libbaum0, libbaum-dev and python3-baum.
 #   cmake --preset debian && cmake --build build/debian && (cd build/debian && cpack)
-# Debian's policy wants no RUNPATH, a copyright file and a changelog in each package.
+# Debian's policy forbids a RUNPATH. It requires a copyright file and a changelog in each package.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The baum authors <maintainers@baum.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -54,7 +54,7 @@ install(
   COMPONENT python
   EXCLUDE_FROM_ALL)
 
-# documents(COMPONENT PACKAGE): the files that each package has in /usr/share/doc.
+# documents(COMPONENT PACKAGE) makes the files that each package installs in /usr/share/doc.
 function(documents component package)
   set(folder ${PROJECT_BINARY_DIR}/documents/${package})
   file(READ LICENSE licence)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes pages that show mechanisms of the catalogue in motion, in any browser and without a
-network, and drawings of their initial configurations."""
+"""Shows mechanisms of the catalogue in motion. Writes a page for each of them, which any browser
+can show without a network, and a drawing of its initial configuration."""
 
 import sys
 import warnings
@@ -33,7 +33,8 @@ LARGEST = 300e3  # [byte] largest size of a page
 
 
 def simulate(name: str, plots: list[str]) -> baum.Run:
-    """A run over the time span of the catalogue, with the reactions of all joints."""
+    """Simulates a mechanism over the time span of the catalogue, and records the reactions of all
+    joints."""
     m = catalog.build(name)
     reactions = [element.reaction for element in m if isinstance(element, baum.Joint)]
     times = np.linspace(0, catalog.entry(name).end_time, 401)

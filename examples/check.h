@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* CHECK(call) prints the message of a warning; after a failure it prints the message and ends the
- * program. */
+/* CHECK(call) checks the status that a call returns. If the status is a warning, it prints the
+ * message. If the call has failed, it prints the message and ends the program. */
 #ifndef CHECK_H
 #define CHECK_H
 

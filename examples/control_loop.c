@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A control loop. Every millisecond a controller reads the angle and speed of the slider-crank's
- * crank and sets the torque of the motor, which keeps the speed when a brake is switched on. With
- * fixed steps the work of an interval is bounded: ten steps, which allocate no memory. A table
- * shows the wall times of the intervals. */
+/* A control loop. Every millisecond a controller reads the angle and the speed of the crank of a
+ * slider-crank, and sets the torque of the motor. It keeps the speed constant, even when a brake is
+ * switched on. An interval consists of ten steps of fixed length, which allocate no memory, so its
+ * computing time is bounded. A table shows the wall times of the intervals. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -21,14 +21,16 @@ typedef struct loop {
   baum_joint_id pin;
   baum_input_id motor;
   baum_input_id brake;
-  double crank[2];      /* [rad] angle and [rad/s] angular velocity */
-  double work;          /* [J] done by the motor and (negative) by the brake */
-  double longest;       /* [s] longest wall time of an interval */
-  double longest_step;  /* [s] longest mean wall time of a step in an interval */
-  long histogram[BINS]; /* element k: intervals of 2^k to 2^(k+1) us; the last: all longer ones */
+  double crank[2];     /* [rad] angle and [rad/s] angular velocity */
+  double work;         /* [J] done by the motor and (negative) by the brake */
+  double longest;      /* [s] longest wall time of an interval */
+  double longest_step; /* [s] longest mean wall time of a step in an interval */
+  /* element k counts intervals of 2^k to 2^(k+1) us; the last counts all longer ones */
+  long histogram[BINS];
 } loop;
 
-/* Adds a torque on the crank; an input sets the torque. */
+/* Adds a load of 1 N m on the crank and an input that multiplies it, so that the input is the
+ * torque. */
 static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, const char *name)
 {
   baum_planar_load_def load = baum_planar_load_def_default();
@@ -45,7 +47,8 @@ static void look(loop *l)
   CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
 }
 
-/* The integral of the speed error is the difference of the desired and the actual angle. */
+/* A proportional-integral controller. The integral of the speed error is the difference between the
+ * desired and the actual angle. */
 static double controller(const loop *l, double t)
 {
   return PROPORTIONAL * (SPEED - l->crank[1]) + INTEGRAL * (SPEED * t - l->crank[0]);

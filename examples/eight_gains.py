@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows what Baumgarte's gains do: eight driven slider-cranks move side by side, integrated by
-explicit Euler with the eight sets of gains of slider_crank.py. Writes a page that shows the
-violations enlarged, as gaps in the joints, and plots the logarithms of their true sizes."""
+"""Shows the effect of Baumgarte's gains. Eight driven slider-cranks move side by side. They are
+integrated by explicit Euler, each with one of the eight sets of gains of slider_crank.py. The page
+that this program writes shows the violations enlarged, as gaps in the joints. It also plots the
+logarithms of their true sizes."""
 
 import sys
 import warnings
@@ -20,7 +21,8 @@ PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]  # [m] of th
 
 
 def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:
-    """The positions of a run and its largest violation at each sample [m]."""
+    """Simulates one slider-crank. Returns its positions and its largest violation at each sample
+    [m]."""
     joints = [element for element in m if isinstance(element, baum.Joint)]
     record = [joint.phi for joint in joints]
     with warnings.catch_warnings():
@@ -32,8 +34,9 @@ def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:
 
 
 def eight_slider_cranks() -> baum.Mechanism:
-    """Eight slider-cranks that are only drawn. Bodies and curves with the same index have the same
-    colour, so the eight cranks are added first."""
+    """Makes a mechanism of eight slider-cranks, which is only drawn and not simulated. Bodies and
+    curves with the same index have the same colour. The eight cranks are added first, so that each
+    crank has the colour of its curve."""
     m = baum.Mechanism()
     for name, (x, y) in zip(GAINS, PLACES):
         m.planar_body(f"crank, {name}", position=(x + R / 2, y))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The smallest program: linked statically, a program that calls only baum_euler() contains
- * nothing of SUNDIALS. A rod swings about its upper end for one second. */
+/* A small program: it calls only the integrator baum_euler(), so it contains no code of SUNDIALS if
+ * it is linked statically. A rod swings about its upper end for one second. */
 #include "example_util.h"
 
 static baum_mechanism *turning_rod(void)

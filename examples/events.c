@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events and break times. A pendulum bounces at a stop: the run finds the times of the bounces. A
- * torque acts on a pendulum for short intervals, whose times are known in advance. */
+/* Events and break times. In the first part a pendulum bounces at a stop, and the run finds the
+ * times of the bounces. In the second part a torque acts on a pendulum during short intervals,
+ * whose times are known in advance. */
 #include <baum/baum.h>
 
 #include "example_util.h"
@@ -84,7 +85,7 @@ static void add_stop(baum_simulation *run, const pendulum *p)
   CHECK(baum_simulation_add_event(run, &stop, NULL));
 }
 
-/* Sets the velocities after the bounce. The run has stopped at the event. */
+/* Sets the velocities after a bounce. The run has stopped at the event of this bounce. */
 static void bounce(baum_simulation *run)
 {
   double v[3];
@@ -94,8 +95,9 @@ static void bounce(baum_simulation *run)
   CHECK(baum_simulation_set_state(run, baum_simulation_time(run), baum_simulation_q(run), v));
 }
 
-/* At every bounce the energy is multiplied by RESTITUTION^2. In the next swing it becomes potential
- * energy, which is proportional to 1 - cos(angle). */
+/* Compares the bounces with the exact times. A bounce multiplies the kinetic energy by
+ * RESTITUTION^2. In the next swing this energy becomes potential energy, which is proportional to 1
+ * - cos(angle) and thus gives the amplitude. */
 static double tell_bounces(baum_simulation *run)
 {
   static const example_column columns[] = {{"bounce", "bounce", 'd', 0},

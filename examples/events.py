@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Events and break times. A pendulum bounces at a stop: the run finds the times of the bounces. A
-torque acts on a pendulum for short intervals, whose times are known in advance."""
+"""Events and break times. In the first part a pendulum bounces at a stop, and the run finds the
+times of the bounces. In the second part a torque acts on a pendulum during short intervals, whose
+times are known in advance."""
 
 import sys
 
@@ -29,8 +30,8 @@ def pendulum() -> baum.Mechanism:
 
 
 def quarter(angle: float) -> float:
-    """Duration of a quarter of a swing of the given amplitude [s]: K(sin(angle / 2)) sqrt(2 l /
-    (3 g)), with K computed by the arithmetic-geometric mean."""
+    """Return the duration [s] of a quarter of a swing of the given amplitude. It is K(sin(angle /
+    2)) sqrt(2 l / (3 g)), and the arithmetic-geometric mean gives K."""
     a, b = 1.0, np.cos(angle / 2)
     for _ in range(8):
         a, b = (a + b) / 2, np.sqrt(a * b)
@@ -38,8 +39,9 @@ def quarter(angle: float) -> float:
 
 
 def exact_times() -> Array:
-    """At every bounce the energy is multiplied by RESTITUTION^2. In the next swing it becomes
-    potential energy, which is proportional to 1 - cos(angle)."""
+    """Return the exact times of the bounces. A bounce multiplies the kinetic energy by
+    RESTITUTION^2. In the next swing this energy becomes potential energy, which is proportional to
+    1 - cos(angle) and thus gives the amplitude."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
     times: Array = quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
@@ -47,7 +49,8 @@ def exact_times() -> Array:
 
 
 def bounces(m: baum.Mechanism) -> Array:
-    """Times [s] of the bounces and angular velocities before them [rad/s]."""
+    """Simulate the pendulum. Return the times of the bounces [s] and the angular velocities before
+    them [rad/s]."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")
     rows: list[tuple[float, float]] = []

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the examples share. Not a part of the library.
+/* Functions that the examples share: command line, tables and checks. They are not a part of the
+ * library.
  *
- *   example_begin()   reads the command line: [--json FILE] [--data FILE] [--page FILE]
- *   example_table()   begins a table; its cells follow row by row
- *   example_expect()  a check, which decides the exit code; checks come after all tables
- *   example_end()     closes the files and gives the exit code
+ *   example_begin() reads the command line: [--json FILE] [--data FILE] [--page FILE]
+ *   example_table() begins a table; its cells follow row by row example_expect() makes a check; the
+ *   program fails if a check fails. Checks come after all tables example_end() closes the files and
+ *   gives the exit code
  *
  * A table goes to the screen, to the JSON file as  "name": {"columns": {key: title}, "rows": [{key:
  * value}]}, and to the data file as a block that gnuplot finds with  index "name".
@@ -23,7 +24,8 @@
 
 enum { EXAMPLE_SKIPPED = 77 };
 
-/* One column. The key stays as it is for programs that read the JSON; the title is for people. */
+/* One column of a table. The key is its name in the JSON file, and the title its heading on the
+ * screen. */
 typedef struct example_column {
   const char *key;
   const char *title;

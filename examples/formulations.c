@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cost and accuracy of integrators and formulations: the slider-crank without a driver, released at
- * 150 rad/s, for 0.2 s. Error: the largest difference from the samples of the reference, with
- * angles in radians and lengths divided by the characteristic length. Violations: the largest of
- * all rows; the row of the guide's angle is in radians. */
+/* Cost and accuracy of integrators and formulations. Each of them simulates the slider-crank
+ * without a driver, which is released at 150 rad/s, for 0.2 s. The error is the largest difference
+ * from the samples of a reference, with angles in radians and lengths divided by the characteristic
+ * length. The violation is the largest of all rows; the row of the guide's angle is in radians. */
 #include "slider_crank_reference.h"
 
-enum { SETTINGS = 3, SHOWN = 1 }; /* a coarse setting, that of the table and a fine one */
+enum { SETTINGS = 3, SHOWN = 1 }; /* a coarse setting, the one in the table, and a fine one */
 
 typedef enum tuning { STEP, RTOL } tuning;
 
@@ -78,8 +78,8 @@ static void row(int k, int setting, const outcome *out)
   example_number(out->energy);
 }
 
-/* Writes the results of one setting into the table and of all settings into the files; then makes
- * the checks. */
+/* Writes the results into tables, and checks them. The table on the screen contains one setting of
+ * each method, and the files contain all settings. */
 static void tell(outcome outcomes[][SETTINGS], int count)
 {
   static const example_column columns[] = {{"integrator", "integrator", 's', 19},

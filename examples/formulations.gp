@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Cost over error, and violation over error. Run in the folder of formulations.dat.
+# Plots cost over error, and violation over error. Run it in the folder of formulations.dat.
 set terminal pngcairo size 1300,620 font "Sans,11"
 set output "formulations.png"
 data = "formulations.dat"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A heavy top: a disc on a light axle that stands on a spherical joint. At a certain angular
-velocity about its axle the top precesses steadily; when it spins slightly slower, its tilt
+velocity about its axle, the top precesses steadily. If it spins slightly more slowly, its tilt
 oscillates."""
 
 import sys
@@ -32,14 +32,16 @@ COLUMNS = {
 
 
 def steady_spin() -> float:
-    """Angular velocity about the axle [rad/s] at which the top precesses steadily with PRECESSION p
-    at TILT n: AXIAL spin p - ACROSS p^2 cos(n) = MASS GRAVITY ARM."""
+    """Return the angular velocity about the axle [rad/s] at which the top precesses steadily. With
+    p = PRECESSION and n = TILT, it follows from AXIAL spin p - ACROSS p^2 cos(n) = MASS GRAVITY
+    ARM."""
     weight = MASS * GRAVITY * ARM
     return float((weight + ACROSS * PRECESSION**2 * np.cos(TILT)) / (AXIAL * PRECESSION))
 
 
 def top(spin: float) -> baum.Mechanism:
-    """The centre of mass starts in the plane of x and z; the axle is the body's z axis."""
+    """Build the top. Its axle is the z axis of the body. At the start its centre of mass is in the
+    plane of x and z."""
     m = baum.Mechanism(up="z")
     sine, cosine = np.sin(TILT), np.cos(TILT)
     axes = np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])  # columns: axes of the body
@@ -56,7 +58,7 @@ def top(spin: float) -> baum.Mechanism:
 
 
 def simulate(spin: float, times: Array) -> tuple[baum.Run, Array]:
-    """Returns a run, and azimuth and tilt [rad] of the axle (2 x n)."""
+    """Simulate the top. Return the run, and the azimuth and the tilt [rad] of the axle (2 x n)."""
     run = top(spin).simulate(times, "rk8", rtol=1e-10, record=["foot.reaction", "energy"])
     x, y, z = run["top.pose"][:, :3].T
     return run, np.stack([np.unwrap(np.arctan2(y, x)), np.arctan2(np.hypot(x, y), z)])

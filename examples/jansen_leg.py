@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two legs of Theo Jansen's beach animals on one driven crank. His thirteen numbers are the lengths
-of the rods; with them, a foot moves along a nearly straight line while it is on the ground. Writes
-a page that shows the motion, and a drawing."""
+"""Two legs of Theo Jansen's beach animals, moved by one driven crank. Jansen chose thirteen
+numbers, which are the lengths of the rods. With these lengths, a foot moves along a nearly straight
+line while it is on the ground. The program writes a drawing, and a page that shows the motion."""
 
 import sys
 from pathlib import Path
@@ -31,7 +31,8 @@ LEG = {  # the bodies of a leg, and their points
 
 
 def meet(a: Array, from_a: float, b: Array, from_b: float) -> Array:
-    """The points at given distances from points a and b (n x 2), left of the line from a to b."""
+    """Return the points (n x 2) that have given distances from points a and b and are to the left
+    of the line from a to b."""
     x = b - a
     apart = np.hypot(x[:, :1], x[:, 1:])
     along = (apart**2 + from_a**2 - from_b**2) / (2 * apart)
@@ -41,7 +42,8 @@ def meet(a: Array, from_a: float, b: Array, from_b: float) -> Array:
 
 
 def leg_at(angle: Array, side: int) -> dict[str, Array]:
-    """The points of a leg (n x 2) [m] in closed form. side: 1 left, -1 right, its mirror image."""
+    """Return the points of a leg (n x 2) [m], computed in closed form. side: 1 for the left leg, -1
+    for the right leg, which is its mirror image."""
     mirror, n = np.array([side, 1]), LENGTH
     wrist = n.m * np.stack([np.cos(angle), np.sin(angle)], axis=1) * mirror
     hip = np.full_like(wrist, (-n.a, -n.l))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaper's quick-return motion by kinematics: its motor leaves no degree of freedom, so that
-every configuration follows from the constraints alone. The torque of the motor follows from the
-accelerations.
+"""The quick-return mechanism of a shaper, computed by kinematics. The motor leaves no degree of
+freedom, so every configuration follows from the constraints alone. The torque of the motor follows
+from the accelerations.
 
 A pin of the crank slides in a slot of the rocker. A pin of the ram slides in the same slot, and a
 guide lets the ram move only horizontally. With the crank at angle p the ram is at
@@ -32,8 +32,8 @@ COLUMNS = {
 
 
 def shaper() -> baum.Mechanism:
-    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
-    the bodies to their places."""
+    """Build the mechanism of three bodies. The crank is at angle 0. The other poses are only
+    approximate; assembly moves the bodies to their places."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)
@@ -49,7 +49,7 @@ def shaper() -> baum.Mechanism:
 
 
 def ram_at(t: Array) -> Array:
-    """x [m], x' and x'' of the ram, from the closed form."""
+    """Return x [m], x' and x'' of the ram, computed in closed form."""
     sine, cosine = np.sin(OMEGA * t), np.cos(OMEGA * t)
     height = D + R * sine
     x = H * R * cosine / height
@@ -59,7 +59,8 @@ def ram_at(t: Array) -> Array:
 
 
 def turning_times() -> Array:
-    """Times [s] at which the ram reverses, where sin(p) = -R / D. Between them it moves back."""
+    """Return the two times [s] at which the ram reverses its direction, where sin(p) = -R / D.
+    Between them it moves back."""
     more = np.arcsin(R / D)
     times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
     return times

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Three typical modelling mistakes, each in a four-bar linkage: a wrong point, a wrong axis and a
-wrong length. Writes pictures whose red lines show the joint that is open."""
+"""Three typical modelling mistakes: a wrong point, a wrong axis and a wrong length, each in a
+four-bar linkage. The program writes pictures, in which red lines show the joint that is open."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ RED = "#e11d48"
 
 
 def linkage(coupler: float = 2.5, point: float | None = None) -> baum.Mechanism:
-    """Crank and rocker of 1 m on pins 2.5 m apart, and a coupler between their ends.
+    """Build a four-bar linkage: crank and rocker have a length of 1 m, their pins on the ground are
+    2.5 m apart, and a coupler connects their ends.
 
     coupler: its length [m]. point: x of pin A on the coupler [m], by default its left end.
     """
@@ -34,18 +35,21 @@ def linkage(coupler: float = 2.5, point: float | None = None) -> baum.Mechanism:
 
 
 def wrong_point() -> baum.Mechanism:
-    """The point of A on the coupler is given as on the crank."""
+    """Build the linkage with a wrong point: the point of joint A on the coupler is given with the
+    value for the crank."""
     return linkage(point=0.5)
 
 
 def wrong_length() -> baum.Mechanism:
-    """The coupler is too short to reach from the crank to the rocker."""
+    """Build the linkage with a wrong length: the coupler is too short to reach from the crank to
+    the rocker."""
     return linkage(coupler=0.4)
 
 
 def wrong_axis() -> baum.Mechanism:
-    """A spatial four-bar. The axes of C are given in body axes. The rocker is rotated by 40 degrees
-    about z, but its axis is given as in ground axes."""
+    """Build a spatial four-bar with a wrong axis. The axes of joint C must be given in body axes,
+    and the rocker is rotated by 40 degrees about z. The mistake is that the axis on the rocker is
+    given in ground axes."""
     turn = math.radians(40)
     y = (0, 1, 0)
     m = baum.Mechanism(up="z")
@@ -64,7 +68,7 @@ def wrong_axis() -> baum.Mechanism:
 
 
 def open_joints(svg: str) -> list[str]:
-    """The joints that have a red line in a picture."""
+    """Return the joints that have a red line in a picture."""
     groups = xml.etree.ElementTree.fromstring(svg)
     return sorted({group[0].text or "" for group in groups if group[1].get("stroke") == RED})
 

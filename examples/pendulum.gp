@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The swing, and its error. Run in the folder of pendulum.dat.
+# Plots the motion of the pendulum, and its error. Run it in the folder of pendulum.dat.
 set terminal pngcairo size 1000,760 font "Sans,11"
 set output "pendulum.png"
 data = "pendulum.dat"

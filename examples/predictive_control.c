@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Trying controls and undoing them. Every two milliseconds a controller simulates one revolution of
- * the crank with each of two torques, on the run itself. It restores the saved run after each trial
- * and chooses the torque whose mean speed is closer to the set point. Saving and restoring allocate
- * no memory. With a one-step method and blocks the run continues as if there had been no trial. */
+/* Predictive control: a controller tries torques on the run itself. Every two milliseconds it saves
+ * the run, simulates one revolution of the crank with each of two torques, and restores the saved
+ * run after each trial. It then chooses the torque whose mean speed is closer to the set point.
+ * Saving and restoring allocate no memory. With a one-step method and the block solver, the run
+ * continues as if there had been no trial. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -39,8 +40,8 @@ static double angle(const plant *p)
   return crank[0];
 }
 
-/* Returns the error of the mean speed over the next AHEAD steps with a given torque. Restores the
- * run. */
+/* Simulates the next AHEAD steps with a given torque, and restores the run. Returns by how much the
+ * mean speed differs from the set point. */
 static double try_torque(plant *p, double torque)
 {
   size_t size = 0;

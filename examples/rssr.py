@@ -26,25 +26,25 @@ COLUMNS = {
 
 
 def crank_end(angle: Array) -> Array:
-    """Where the coupler meets the crank (n x 3) [m]."""
+    """Return the points (n x 3) at which the coupler is attached to the crank [m]."""
     return CRANK * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
 
 
 def rocker_end(angle: Array) -> Array:
-    """Where the coupler meets the rocker (n x 3) [m]."""
+    """Return the points (n x 3) at which the coupler is attached to the rocker [m]."""
     return PIVOT + ROCKER * np.stack([np.zeros_like(angle), np.cos(angle), np.sin(angle)], axis=-1)
 
 
 def rocker_angle(t: Array) -> Array:
-    """The angle of the rocker [rad], known in closed form: the catalogue has this mechanism, with a
-    coupler that does not spin."""
+    """Return the exact angle of the rocker [rad]. The catalogue contains this mechanism, with a
+    coupler that does not rotate about its own axis, and its motion is known in closed form."""
     q = catalog.reference("rssr", t).q
     found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))  # x and w of its quaternion
     return found
 
 
 def axes_along(x: Array) -> Array:
-    """Three perpendicular axes (columns), the first along x."""
+    """Return three perpendicular axes as columns. The first one is along x."""
     first = x / np.linalg.norm(x)
     second = np.cross((0, 0, 1), first)
     second = second / np.linalg.norm(second)
@@ -52,7 +52,8 @@ def axes_along(x: Array) -> Array:
 
 
 def mechanism(with_coupler: bool) -> baum.Mechanism:
-    """The mechanism with the crank along x; each joint is given by its point in ground axes."""
+    """Build the mechanism. The crank is along x. Each joint is given by its point in ground
+    axes."""
     start = np.zeros(1)
     a, b = crank_end(start)[0], rocker_end(rocker_angle(start))[0]
     m = baum.Mechanism(up="z")

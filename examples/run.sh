@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh examples/run.sh [NAME...]
 #
-# Installs missing packages, builds the release library and runs the named examples (default: all).
-# Writes into out/ what each prints (.txt), its tables (.json, and .dat for gnuplot), their figures
-# (.png), drawings (.svg), and the pages of studies and of mechanisms in motion (.html).
+# Installs missing packages, builds the release library and runs the named examples, by default all.
+# For each example it writes files into out/: what the example prints (.txt), its tables (.json, and
+# .dat for gnuplot), their figures (.png), drawings (.svg), and pages of studies and of mechanisms
+# in motion (.html).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh

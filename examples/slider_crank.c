@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 3 of Flores et al. 2008: Phi_3 of the eccentric slider-crank, its crank driven at constant
- * speed, with explicit Euler and eight sets of Baumgarte's gains.
+/* Reproduces Fig. 3 of Flores et al. 2008. The figure shows the constraint violation Phi_3 of the
+ * eccentric slider-crank, whose crank is driven at constant speed. The integrator is explicit
+ * Euler, with eight sets of Baumgarte's gains.
  *
- * Prediction: one step of Euler from the exact motion causes the violations d of Phi_3 and e of
- * Phi_3'. Earlier violations follow equation (6), so that
- *   Phi_3+ = Phi_3 + h Phi_3' + d,   Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e,
- * a recursion whose characteristic equation is (19). */
+ * Phi_3 can be predicted. One step of Euler from the exact motion causes a violation d of Phi_3 and
+ * a violation e of Phi_3'. Violations of earlier steps follow equation (6). Together this gives the
+ * recursion Phi_3+ = Phi_3 + h Phi_3' + d, Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) +
+ * e, whose characteristic equation is (19). */
 #include "slider_crank_model.h"
 
 enum { STEPS = 10000, TURN = 419, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
@@ -26,7 +27,8 @@ enum { PHI3, X = 2, CHANNELS = 5 };
 static double rows[SETS][STEPS + 1][CHANNELS];
 static double predicted[SETS][STEPS + 1]; /* Phi_3 */
 
-/* A driven mechanism has no degree of freedom: its motion follows from the constraints alone. */
+/* Computes the exact motion. The driven mechanism has no degree of freedom, so its motion follows
+ * from the constraints alone. */
 static void solve_kinematics(const baum_mechanism *mechanism)
 {
   baum_workspace *workspace = NULL;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fig. 3: Phi_3 over time in four panels. Run in the folder of slider_crank.dat.
+# Plots Fig. 3 of the paper, Phi_3 over time, in four panels. Run it in the folder of
+# slider_crank.dat.
 set terminal pngcairo size 1200,800 font "Sans,11"
 set output "slider_crank.png"
 set multiplot layout 2,2 title "Eccentric slider-crank, explicit Euler, h = 10^{-4} s: error of the 3rd constraint" \

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fig. 3 of Flores et al. 2008 from Python: the eccentric slider-crank, its crank driven at
-constant speed, by explicit Euler with eight sets of Baumgarte's gains.
+"""Reproduces Fig. 3 of Flores et al. 2008 in Python. The crank of the eccentric slider-crank is
+driven at constant speed. The integrator is explicit Euler, with eight sets of Baumgarte's gains.
 
-Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165,
-Table 1. The eccentricity and the other numbers of the runs are chosen here, because the paper
-does not give them. The motion is known in closed form, so the error of each run is shown too.
+Lengths, masses and inertias are those of Flores, Leine, Glocker, Multibody System Dynamics 23
+(2010) 165, Table 1. The eccentricity and the other numbers are chosen here, because the paper does
+not give them. The motion is known in closed form, so the table also shows the error of each run.
 """
 
 import sys
@@ -46,8 +46,8 @@ COLUMNS = {
 
 
 def slider_crank() -> baum.Mechanism:
-    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
-    the bodies to their places."""
+    """Build the mechanism of three bodies. The crank is at angle 0. The other poses are only
+    approximate; assembly moves the bodies to their places."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -61,13 +61,14 @@ def slider_crank() -> baum.Mechanism:
 
 
 def slider_at(t: Array) -> Array:
-    """x of the slider [m], in closed form."""
+    """Return x of the slider [m], computed in closed form."""
     x: Array = R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
     return x
 
 
 def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.Run, Row]:
-    """Returns a run and its row of the table. Phi_3 is the first row of pin B."""
+    """Simulate with one set of gains. Return the run and its row of the table. Phi_3 is the first
+    row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -77,7 +78,7 @@ def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.R
 
 
 def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> None:
-    """Checks what the paper says of its eight sets."""
+    """Check the statements of the paper about its eight sets of gains."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The eccentric slider-crank of the examples.
  *
- * Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165,
- * Table 1, without clearance. The eccentricity of 0.05 m and the other numbers of the runs are
- * chosen here: the paper on Baumgarte's method (Flores et al. 2008) does not give the data of its
- * figures.
+ * Lengths, masses and inertias are those of Flores, Leine, Glocker, Multibody System Dynamics 23
+ * (2010) 165, Table 1, without clearance. The eccentricity of 0.05 m and the other numbers are
+ * chosen here, because the paper on Baumgarte's method (Flores et al. 2008) does not give the data
+ * of its figures.
  *
  *   rows of Phi   1, 2 pin A   3, 4 pin B   5, 6 pin C   7, 8 guide   9 motor, if driven
  */
@@ -47,8 +47,8 @@ static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const ch
   return id;
 }
 
-/* Adds the bodies with the crank at angle 0 and the other poses only approximate. Assembly corrects
- * them. */
+/* Adds the bodies. The crank is at angle 0. The poses of the other bodies are only approximate;
+ * assembly corrects them. */
 static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
 {
   const double r = SLIDER_CRANK_R;
@@ -80,8 +80,8 @@ static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
   CHECK(baum_mechanism_add_planar_body(s->mechanism, &body, &s->slider));
 }
 
-/* driven: the crank rotates at constant speed, which leaves no degree of freedom. Otherwise only
- * the initial speed of the crank is given. */
+/* Builds the mechanism. If `driven` is true, a motor rotates the crank at constant speed, and no
+ * degree of freedom is left. Otherwise only the initial speed of the crank is given. */
 static inline slider_crank slider_crank_build(bool driven)
 {
   const double r = SLIDER_CRANK_R;

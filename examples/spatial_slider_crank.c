@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank in space: the crank rotates about the z axis, the slider moves along x beside and
- * above it. One joint of each kind leaves the mechanism one degree of freedom:
+/* A slider-crank in space. The crank rotates about the z axis. The slider moves along x, on a line
+ * that is beside and above the crank. With these joints the mechanism has one degree of freedom:
  *
  *   ground - revolute - crank - spherical - rod - universal - slider - prismatic - ground
  *
- * The crank is released at 20 rad/s. With its angle p the slider is at
- * x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2), and the energy is conserved. */
+ * The crank is released at 20 rad/s. Two facts check the run. If p is the angle of the crank, the
+ * slider is at x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2). The energy is
+ * conserved. */
 #include <string.h>
 
 #include <baum/baum.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 1 of Flores et al. 2008 for every fixed-step integrator: which gains are stable? Prediction:
- * the library gives the boundary of the stable region in the plane of alpha h and beta^2 h^2 (for
- * explicit Euler the triangle of equation (19)) and how fast violations decay inside it.
- * Simulation: a slider-crank starts with all rows violated. Gains count as stable if the largest
- * violation stays bounded and is smaller in the last quarter of the run than in the first. */
+/* Reproduces Fig. 1 of Flores et al. 2008 for every fixed-step integrator: the region of stable
+ * gains in the plane of alpha h and beta^2 h^2. The library predicts the boundary of this region,
+ * and how fast violations decay inside it; for explicit Euler, the region is the triangle of
+ * equation (19). The prediction is compared with simulations of a slider-crank that starts with all
+ * rows violated. In a simulation, gains count as stable if the largest violation stays bounded and
+ * is smaller in the last quarter of the run than in the first. */
 #include "slider_crank_model.h"
 
 enum { CELLS = 22, STEPS = 1500, NQ = 9, NC = 8, OUTLINE = 2000 };
@@ -43,7 +44,8 @@ static baum_simulation *start(const bench *b, const baum_integrator *integrator,
   return run;
 }
 
-/* The assembled initial configuration, with every coordinate moved by a different small amount. */
+/* Makes the start of the simulations: the assembled initial configuration, with every coordinate
+ * moved by a different small amount. */
 static bench make_bench(void)
 {
   bench out = {.mechanism = slider_crank_build(false).mechanism};
@@ -133,7 +135,8 @@ typedef struct window {
   double step[2];
 } window;
 
-/* Points that are neither on the axes nor at round numbers, where boundaries may be. */
+/* Returns alpha h of column i of the grid. The grid avoids the axes and round numbers, because
+ * boundaries of regions may be there. */
 static double alpha_at(const window *w, int i)
 {
   return fmax(0.0, w->step[0] * (i + 0.6));
@@ -156,8 +159,8 @@ static bool at_boundary(const window *w, int i, int j)
   return other;
 }
 
-/* Writes the points to the files. @return the number of points where simulation and prediction
- * differ */
+/* Simulates all points of the grid and writes them to the files. @return the number of points where
+ * simulation and prediction differ */
 static int compare(const bench *b, const window *w, int *astray)
 {
   static const example_column columns[] = {{"alpha_h", "alpha h [-]", 'f', 4},
@@ -224,8 +227,8 @@ static void show(const summary *all)
   }
 }
 
-/* With Taylor's gains explicit Euler has z^2 = -1: a violation returns every fourth step and does
- * not decay. @return its relative change in 1000 steps */
+/* Simulates explicit Euler with Taylor's gains. Theory gives z^2 = -1: a violation has the same
+ * value after every fourth step, and does not decay. @return its relative change in 1000 steps */
 static double taylor(const bench *b)
 {
   static const example_column columns[] = {{"step", "step", 'd', 5}, {"phi", "Phi_1 [m]", 'e', 3}};

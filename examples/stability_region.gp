@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fig. 1 for every fixed-step integrator: the predicted region with contours of the spectral radius,
-# and the observed behaviour of a slider-crank. Run in the folder of stability_region.dat.
+# Plots Fig. 1 of the paper for every fixed-step integrator: the predicted region with contours of
+# the spectral radius, and the observed behaviour of a slider-crank. Run it in the folder of
+# stability_region.dat.
 set terminal pngcairo size 1900,860 font "Sans,11"
 set output "stability_region.png"
 data = "stability_region.dat"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A quarter of a car on a test rig, seen from the front: a wheel on double wishbones, a strut, and
-a plate under the tyre that moves like a bump in the road. Writes a page that shows the motion, and
-a drawing."""
+"""A quarter of a car on a test rig, seen from the front. It consists of a wheel on double wishbones
+and a strut. A plate under the tyre moves like a bump in the road. The program writes a drawing, and
+a page that shows the motion."""
 
 import sys
 from pathlib import Path
@@ -29,7 +29,7 @@ BUMP, BEGIN, DURATION = 0.06, 0.5, 0.25  # [m], [s]
 
 
 def road(t: float) -> tuple[float, float, float]:
-    """Height of the plate [m], its velocity and acceleration."""
+    """Return the height of the plate [m], its velocity and its acceleration."""
     if not BEGIN < t < BEGIN + DURATION:
         return 0.0, 0.0, 0.0
     rate = np.pi / DURATION

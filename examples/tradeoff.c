@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accuracy and cost: a study of the slider-crank without a driver, released at 150 rad/s, for
- * 0.2 s. It runs every integrator with every formulation and recommends settings. --page FILE
- * writes everything as a page for a browser. */
+/* A study of accuracy and cost. It simulates the slider-crank without a driver, which is released
+ * at 150 rad/s, for 0.2 s, with every integrator and every formulation. It recommends settings. The
+ * option --page FILE writes all results as a page for a browser. */
 #include "slider_crank_reference.h"
 
 static const char TITLE[] = "Undriven slider-crank, released at 150 rad/s";
 
-/* A grid that takes a few seconds: it has few settings, and the cost of each is limited. */
+/* Makes a study that takes only a few seconds: its grid has few settings, and the cost of each is
+ * limited. */
 static baum_study *make_study(const slider_crank *s)
 {
   baum_study *study = NULL;
@@ -43,7 +44,7 @@ static void tell_entry(const baum_study *study, int32_t k, int columns)
   }
 }
 
-/* Prints the entries on the front and writes all entries to the files. */
+/* Prints the entries on the Pareto front, and writes all entries to the files. */
 static void tell_entries(const baum_study *study)
 {
   enum { MOST = 100 };

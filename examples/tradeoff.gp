@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Cost over error, and violation over error. Run in the folder of tradeoff.dat.
+# Plots cost over error, and violation over error. Run it in the folder of tradeoff.dat.
 set terminal pngcairo size 1300,660 font "Sans,11"
 set output "tradeoff.png"
 data = "tradeoff.dat"

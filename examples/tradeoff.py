@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Accuracy and cost, from Python: a study of the slider-crank, released at 150 rad/s, and runs with
-the settings that it recommends."""
+"""A study of accuracy and cost in Python. It simulates the slider-crank, which is released at 150
+rad/s. The program then runs the settings that the study recommends."""
 
 import sys
 
@@ -20,8 +20,8 @@ COLUMNS = {
 
 
 def slider_crank() -> baum.Mechanism:
-    """Three bodies with the crank at angle 0. The other poses are approximate: assembly moves
-    the bodies to their places."""
+    """Build the mechanism of three bodies. The crank is at angle 0. The other poses are only
+    approximate; assembly moves the bodies to their places."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body(
         "crank", mass=0.038, inertia=7.4e-5, position=(0.0765, 0), held=True, angular_velocity=150
@@ -36,7 +36,7 @@ def slider_crank() -> baum.Mechanism:
 
 
 def error_of(m: baum.Mechanism, study: baum.Study, options: baum.Recommendation) -> float:
-    """The largest error of a run at the samples of the study's reference."""
+    """Return the largest error of a run at the samples of the study's reference."""
     times, q, _, _ = study.reference_samples()
     return float(abs(m.simulate(times, **options).q - q).max())
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study of a mechanism given entirely by Python functions: a bead on a wire y = x^2 - x^4 / 4
-in oil. Here the time spent in Python's functions dominates, so that the method with the fewest
-evaluations is the cheapest."""
+"""A study of a mechanism that is given entirely by Python functions: a bead moves in oil on a wire
+y = x^2 - x^4 / 4. Most of the time is spent in these functions, so the method with the fewest
+evaluations is the fastest."""
 
 import sys
 
@@ -22,7 +22,8 @@ COLUMNS = {
 
 
 def wire() -> baum.Mechanism:
-    """Two coordinates, x and y, with a mass matrix, a force and one constraint."""
+    """Build the mechanism: two coordinates, x and y, with a mass matrix, a force and one
+    constraint."""
     m = baum.Mechanism(gravity=(0, 0))
     bead = m.coordinates(
         "bead",

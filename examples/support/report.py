@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shared by the Python examples: tables, checks that decide the exit code, the JSON file with both.
+"""Functions that the Python examples share: tables, checks, and a JSON file that contains both. An
+example fails if one of its checks fails.
 
-The JSON file has the form of that of the C examples:
-"name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
+The JSON file has the same form as that of the C examples: "name": {"columns": {key: title}, "rows":
+[{key: value}]}, "checks", "ok".
 """
 
 import argparse
@@ -14,7 +15,7 @@ from baum import Counters, library_version
 
 
 class Report:
-    """An example's command line, and what it prints and writes."""
+    """The command line of an example, its tables and its checks."""
 
     def __init__(self, name: str, **options: str) -> None:
         parser = argparse.ArgumentParser(prog=name)
@@ -53,7 +54,7 @@ class Report:
 
     @staticmethod
     def _number(value: Any) -> Any:
-        """A value for JSON, which has no NaN."""
+        """Return a value for JSON. NaN becomes None, because JSON has no NaN."""
         return (
             value
             if isinstance(value, (str, int))

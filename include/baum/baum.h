@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Includes all public headers except catalog.h. Each header is the manual of its topic. */
+ *  Includes all public headers except catalog.h, which belongs to a separate library. Each header
+ *  is the manual of its topic. */
 #ifndef BAUM_BAUM_H
 #define BAUM_BAUM_H
 
@@ -13,6 +14,7 @@
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
 #include <baum/report.h>
+#include <baum/scene.h>
 #include <baum/simulation.h>
 #include <baum/spatial.h>
 #include <baum/spatial_joints.h>

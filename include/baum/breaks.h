@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Break times: times at which the loads on a mechanism or its laws jump. Schedules: inputs that
- *  change at given times.
+ *  Break times and schedules. A break time is a time at which a load or a law of the mechanism
+ *  jumps. A schedule lists the times at which an input changes, and its values.
  */
 #ifndef BAUM_BREAKS_H
 #define BAUM_BREAKS_H
@@ -13,21 +13,24 @@ extern "C" {
 #endif
 
 /** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
- *  have a kink. At its break time a function must return the value after the break.
+ *  have a kink. When such a function is called exactly at its break time, it must return its value
+ *  after the break.
  *
- *  No step crosses a break, forward or backward in time. Forward in time, a step ends a few
- *  rounding errors before the break, and the next step begins at the break. Methods that use past
- *  steps restart there (counters.restarts). A fixed-step method shortens the step before a break
- *  that is off its grid (counters.short_steps) and begins a new grid at the break. Breaks do not
- *  change the times of outputs. A requested time that differs from a break only by rounding is
- *  moved to the break.
+ *  No step crosses a break, whether the run goes forward or backward in time. In a forward run, one
+ *  step ends a few rounding errors before the break, and the next step begins at the break. Methods
+ *  that use past steps restart at the break (counters.restarts counts this). If a break is not on
+ *  the grid of a fixed-step method, the method shortens the step before the break
+ *  (counters.short_steps counts this) and begins a new grid at the break. Breaks do not change the
+ *  times of outputs. If a requested time differs from a break only by rounding, it is moved to the
+ *  break.
  *
- *  Positions and velocities stay continuous. After a jump in the law of a driver, the state
- *  therefore violates the constraint of the driver, as after baum_simulation_set_driver(). Only
- *  baum_kinematics() takes the new velocities from the law.
+ *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
+ *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()
+ *  describes how each formulation handles such a violation. baum_kinematics() is an exception:
+ *  there the velocities jump to those of the law.
  *  @param     mechanism  not frozen; unchanged on failure
- *  @param[in] times      (count) [s] finite, in any order, in addition to earlier ones. Copied.
- *                        NULL if count is 0.
+ *  @param[in] times      (count) [s] finite, in any order; added to the break times of earlier
+ *                        calls. Copied. NULL if count is 0.
  *  @param     count      [-] >= 0
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const double *times,
@@ -35,25 +38,27 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
 
 /** Read the break times.
  *  @param      mechanism  may be NULL
- *  @param[out] count      [-] their number. May be NULL.
- *  @return (count) [s] rising, without repetition, owned by the mechanism; NULL if there are
- *  none */
+ *  @param[out] count      [-] number of break times. May be NULL.
+ *  @return (count) [s] the break times in rising order, each one once; owned by the mechanism. NULL
+ *          if there are none */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
-/** Schedule the values of an input: values[k] holds from times[k] to times[k + 1]. The last value
- *  holds from the last time on. Before times[0] the input has its value at the time of this call.
- *  The schedule is a function of time: it also holds backward in time, at past times, and after
- *  baum_simulation_set_state().
+/** Schedule the values of an input. The input has the value values[k] from times[k] to times[k +
+ *  1], and the last value from the last time on. Before times[0] the input keeps the value that it
+ *  has when this function is called. The schedule makes the input a function of time: the input
+ *  also follows the schedule when the run goes backward in time, and after
+ *  baum_simulation_set_state() has moved the run to another time.
  *
  *  Each time at which the value changes is a break time of this run, see
- *  baum_mechanism_add_break_times(). Methods that use past steps restart there and at this call.
- *  The schedule replaces an earlier one of this input. baum_simulation_set_input(), or a count of
- *  0, ends it; a count of 0 keeps the present value. baum_simulation_save() includes schedules, and
- *  baum_simulation_continue() copies them.
+ *  baum_mechanism_add_break_times(). Methods that use past steps restart at these times, and also
+ *  when this function is called. The new schedule replaces an earlier schedule of the same input.
+ *  baum_simulation_set_input() ends the schedule. A call of this function with a count of 0 ends
+ *  the schedule, too, and the input keeps its present value. baum_simulation_save() saves
+ *  schedules, and baum_simulation_continue() copies them.
  *  @param     simulation  unchanged on failure
- *  @param     input       one of the mechanism
- *  @param[in] times       (count) [s] finite, rising; may be in the past. Copied. NULL if count is
- *                         0.
+ *  @param     input       an input of the mechanism
+ *  @param[in] times       (count) [s] finite, rising; times before the present time are allowed.
+ *                         Copied. NULL if count is 0.
  *  @param[in] values      (count) finite. Copied. NULL if count is 0.
  *  @param     count       [-] >= 0
  *  @return  as baum_simulation_set_input() */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Named mechanisms with known motion, for examples, tests of methods and comparisons of programs.
- *  docs/mechanisms.md lists them. The catalogue is a separate library, baum_catalog, and uses only
- *  the public interface of baum.
+ *  The catalogue: ready mechanisms whose motion is known. They serve as examples, for tests of
+ *  integration methods, and for comparisons with other programs. docs/mechanisms.md lists them. The
+ *  catalogue is a separate library, baum_catalog, which uses only the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);
@@ -10,12 +10,13 @@
  *  Units are SI. Angles are counter-clockwise from the x axis unless documented otherwise. Strings
  *  in structs are constant and must not be freed.
  *
- *  A reference is either stored samples or formulas (`exact`). Samples hold for the default
- *  parameters only. Formulas hold for all parameters, and for all times at which rounding errors do
- *  not exceed the stated digits. The library refuses comparisons where the reference does not hold.
+ *  The reference of a mechanism is its known motion. It is given either as stored samples or by
+ *  formulas (the field `exact` says which). Samples are valid for the default parameters only.
+ *  Formulas are valid for all parameters, and for all times at which their rounding errors stay
+ *  below the accuracy that `digits_q` and `digits_v` promise. The library refuses a comparison if
+ *  the reference is not valid for it.
  *
- *  Threads: every function may be called from any thread. A mechanism from baum_catalog_build()
- *  depends on no other object. */
+ *  Threads: every function may be called from any thread. */
 #ifndef BAUM_CATALOG_H
 #define BAUM_CATALOG_H
 
@@ -43,16 +44,16 @@ typedef struct baum_catalog_entry {
   size_t struct_size; /**< Set by the call. */
   const char *name;   /**< Such as "slider_crank". */
   const char *title;  /**< Description in a few words. */
-  const char *source; /**< Source of its data. */
-  /** How its reference was computed and checked; "" if it has none. */
+  const char *source; /**< Where the data of the mechanism come from. */
+  /** How the reference was computed and checked; "" if the mechanism has no reference. */
   const char *provenance;
-  const char *note;        /**< Advice for running it; may be "". */
+  const char *note;        /**< Advice for simulating it; may be "". */
   int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
-  int32_t sample_count;    /**< [-] samples of the reference; 0: it has none. */
-  double start_time;       /**< [s] start of the problem and its reference. */
-  double end_time;         /**< [s] end of the problem and its reference. */
-  /** [-] digits of the reference positions that can be trusted, relative to max(1, |q|); NaN
-   *  without a reference. */
+  int32_t sample_count;    /**< [-] number of stored samples; 0 if there are none. */
+  double start_time;       /**< [s] start of the problem and of its reference. */
+  double end_time;         /**< [s] end of the problem and of its reference. */
+  /** [-] number of digits of the reference positions that can be trusted, relative to max(1, |q|).
+   *  NaN if there is no reference. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
   bool exact;      /**< The reference consists of formulas. */
@@ -76,11 +77,11 @@ typedef struct baum_catalog_setting {
   double value;     /**< [unit of the parameter] finite. */
 } baum_catalog_setting;
 
-/** A mechanism of the catalogue and its parameters. */
+/** Which mechanism of the catalogue to build, with which parameters. */
 typedef struct baum_catalog_choice {
   const char *name;                     /**< Name of the entry. */
   const baum_catalog_setting *settings; /**< (setting_count) NULL if there are none. */
-  int32_t setting_count;                /**< [-] >= 0; the other parameters have their defaults. */
+  int32_t setting_count;                /**< [-] >= 0; parameters not listed have their defaults. */
 } baum_catalog_choice;
 
 /** Count the entries. @return their number */
@@ -137,27 +138,28 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
  *                      time
  *  @param[out] q       (nq) positions in the order of the mechanism. May be NULL.
  *  @param[out] v       (nv) velocities. May be NULL.
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED (no
- *           reference, none for these parameters, or rounding errors of the formulas exceed the
- *           stated digits at this time) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED
+ *           (there is no reference, or none for these parameters, or the formulas are not accurate
+ *           enough at this time because of rounding) */
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
 
-/** Solution for baum_study_set_solution(): calls baum_catalog_reference(). For exact references.
+/** A function to pass to baum_study_set_solution(). It returns the reference of a mechanism whose
+ *  reference is given by formulas, by calling baum_catalog_reference().
  *  @param      t       [s]
  *  @param[out] q,v     (nq), (nv)
- *  @param[out] lambda  not written: multipliers are not known
+ *  @param[out] lambda  not written, because the reference has no multipliers
  *  @param[in]  user    const baum_catalog_choice *
  *  @return  0, or -1 if baum_catalog_reference() fails */
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
 
 /** Errors of states relative to the reference. Errors of lengths are divided by the characteristic
- *  length of the mechanism; errors of angles [rad] and user coordinates are not scaled. The error
- *  of an orientation in space has three components: the rotation from the reference to the state
- *  about the body axes [rad]. Errors of velocities are scaled in the same way and then divided by
- *  the largest scaled velocity of the reference. A floor is the uncertainty of the reference:
- *  errors below it have no meaning. */
+ *  length of the mechanism. Errors of angles [rad] and of user coordinates are not scaled. The
+ *  error of an orientation in space is the rotation that leads from the reference to the state; it
+ *  has three components, the rotations about the body axes [rad]. Errors of velocities are scaled
+ *  in the same way and then divided by the largest scaled velocity of the reference. The fields
+ *  named floor are the uncertainty of the reference. An error below the floor has no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */

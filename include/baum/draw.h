@@ -9,12 +9,13 @@
  *    page.channels = &channel, page.channel_count = 1, page.rows = rows;
  *    baum_page_write(mechanism, &page, "slider_crank.html");
  *
- *  The shapes follow from the elements: links are bars between their joints, sliders are blocks,
- *  and wheels are discs. The size of other bodies corresponds to their inertia. Joints and forces
- *  are symbols. Outlines replace the shape of a body.
+ *  The library chooses the shape of each body from the elements of the mechanism: links are bars
+ *  between their joints, sliders are blocks, and wheels are discs. The size of other bodies
+ *  corresponds to their inertia. Joints and forces are drawn as symbols. You can give a body
+ *  outlines of your own, which replace its shape.
  *
- *  Files replace older ones as described for baum_study_write(). Drawing does not change the
- *  mechanism.
+ *  Functions that write a file replace an older file of the same name in the way that
+ *  baum_study_write() describes. Drawing does not change the mechanism.
  */
 #ifndef BAUM_DRAW_H
 #define BAUM_DRAW_H
@@ -33,34 +34,38 @@ extern "C" {
 
 /** Forms of outlines. */
 typedef enum baum_outline_form {
-  BAUM_OUTLINE_POLYGON = 0,  /**< Flat, with the corners `points`; may be concave. */
+  BAUM_OUTLINE_POLYGON = 0,  /**< A flat polygon with the corners `points`. It may be concave. */
   BAUM_OUTLINE_CIRCLE = 1,   /**< A disc parallel to the x-y plane. */
-  BAUM_OUTLINE_BOX = 2,      /**< Its edges are parallel to the axes of the body. */
-  BAUM_OUTLINE_CYLINDER = 3, /**< Circular, from `start` to `end`. */
-  BAUM_OUTLINE_SPHERE = 4,   /**< About `center`. */
+  BAUM_OUTLINE_BOX = 2,      /**< A box with edges parallel to the axes of the body. */
+  BAUM_OUTLINE_CYLINDER = 3, /**< A circular cylinder from `start` to `end`. */
+  BAUM_OUTLINE_SPHERE = 4,   /**< A sphere about `center`. */
   BAUM_OUTLINE_MESH = 5      /**< Triangles. Both of their sides are visible. */
 } baum_outline_form;
 
-#define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Most triangles of a mesh. */
+#define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Largest number of triangles of a mesh. */
 
-/** A shape in the axes of a body. Only the fields of its form are used. */
+/** A shape that is given in the axes of a body. Each form uses only some of the fields below; their
+ *  comments name the forms that use them. */
 typedef struct baum_outline {
   size_t struct_size;     /**< Set by the default. Do not write. */
   baum_outline_form form; /**< Default: BAUM_OUTLINE_POLYGON. */
-  /** (point_count x 3) [m] x, y, z of the corners of a polygon, all with the same z, or of the
-   *  vertices of a mesh. Default: NULL, must be set. */
+  /** (point_count x 3) [m] x, y, z of the corners of a polygon or of the vertices of a mesh. The
+   *  corners of a polygon must all have the same z. Default: NULL, must be set. */
   const double *points;
   int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
-  /** (triangle_count x 3) [-] vertices of the triangles of a mesh: indices of rows of `points`,
-   *  from 0. Default: NULL, must be set. */
+  /** (triangle_count x 3) [-] the three vertices of each triangle of a mesh, as indices of rows of
+   *  `points`, counted from 0. Default: NULL, must be set. */
   const int32_t *triangles;
   int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
-  double center[3];       /**< [m] of a circle, box or sphere. Default: (0, 0, 0). */
-  /** [m] >= 0, edges of a box; one of them may be 0. Default: (0, 0, 0), must be set. */
+  double center[3];       /**< [m] centre of a circle, box or sphere. Default: (0, 0, 0). */
+  /** [m] >= 0, lengths of the edges of a box; one of them may be 0. Default: (0, 0, 0), must be
+   *  set. */
   double size[3];
-  double start[3];   /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
-  double end[3];     /**< [m] centre of the other end, not `start`. Default: (0, 0, 0). */
-  double radius;     /**< [m] > 0, of a circle, cylinder or sphere. Default: 0, must be set. */
+  double start[3]; /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
+  /** [m] centre of the other end; must differ from `start`. Default: (0, 0, 0). */
+  double end[3];
+  /** [m] > 0, radius of a circle, cylinder or sphere. Default: 0, must be set. */
+  double radius;
   const char *color; /**< "#rrggbb". Default: NULL, chosen for each body. */
 } baum_outline;
 
@@ -77,14 +82,17 @@ static inline baum_outline baum_outline_default(void)
   return outline;
 }
 
-/** Set how a body is drawn: by these outlines, in place of the shapes that follow from its joints.
- *  Every form is allowed on every body, also on ground, before and after freezing. Outlines have no
- *  other effect. Copies of the mechanism have the same outlines. No other thread may draw or copy
- *  the mechanism during the call.
+/** Set the outlines of a body. The body is then drawn by these outlines instead of the shape that
+ *  the library has chosen. Every body may have outlines of every form; ground may have them, too.
+ *  The mechanism may be frozen or not. Outlines change only drawings, not the motion. Copies of the
+ *  mechanism have the same outlines. While this function runs, no other thread may draw or copy the
+ *  mechanism.
  *  @param     mechanism  unchanged on failure
- *  @param     body       not user coordinates, which have no position in space
- *  @param[in] outlines   (count) replace earlier ones. Copied. NULL if count is 0.
- *  @param     count      [-] >= 0; 0: the shape follows from the joints again
+ *  @param     body       a body of the mechanism; not one of user coordinates, which have no
+ *                        position in space
+ *  @param[in] outlines   (count) replace all earlier outlines of the body. Copied. NULL if count is
+ *                        0.
+ *  @param     count      [-] >= 0; with 0 the body is drawn with the shape that the library chooses
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum_body_id body,
                                                  const baum_outline *outlines, int32_t count);
@@ -92,7 +100,7 @@ BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum
 /** Count the outlines of a body.
  *  @param mechanism  may be NULL
  *  @param body       one of the mechanism
- *  @return [-] their number; 0 if there is no such body */
+ *  @return [-] number of outlines; 0 if there is no such body */
 BAUM_API int32_t baum_mechanism_outline_count(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Read an outline. Its pointers stay valid until the outlines of the body are set again.
@@ -107,9 +115,10 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 
 /* ---- one configuration ----------------------------------------------------------------------- */
 
-/** Draw a mechanism as an SVG picture, in the x-y plane or, with spatial elements, in a parallel
- *  view from above. Red lines show where the constraints of a joint are violated: between points
- *  that should coincide, from a point to its line, plane or curve, and between axes that should be
+/** Draw a mechanism as an SVG picture. A planar mechanism is shown in the x-y plane. A mechanism
+ *  with spatial elements is shown in a parallel projection, seen obliquely from above. Red lines
+ *  show where the constraints of a joint are violated. They connect points that should coincide, a
+ *  point with the line, plane or curve on which it should be, and the tips of axes that should be
  *  parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
@@ -136,8 +145,9 @@ BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, c
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
  *  @return  BAUM_OK, also if the constraints contradict each other; BAUM_ERR_ARGUMENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY, and what
- *           baum_mechanism_freeze() returns if the mechanism is not frozen */
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY. If the
+ *           mechanism is not frozen, the function freezes a copy and may also return a status of
+ *           baum_mechanism_freeze(). */
 BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanism, char *text,
                                                   size_t capacity, size_t *size);
 
@@ -156,28 +166,31 @@ typedef struct baum_page {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *title;   /**< Default: NULL, "Mechanism". */
   const double *times; /**< (count) [s] monotone. Default: NULL, must be set. */
-  /** [-] > 0. A page keeps at most 600 samples, among them the extremes of the columns that it
-   *  plots. Default: 0, must be set. */
+  /** [-] > 0, number of samples. A page keeps at most 600 of them, and among these the samples at
+   *  which a plotted column has its largest and its smallest value. Default: 0, must be set. */
   int64_t count;
-  /** (channel_count) the channels in each row. BAUM_Q must be among them; BAUM_JOINT_REACTION is
-   *  shown as an arrow. Default: NULL, must be set. */
+  /** (channel_count) the channels that each row contains. BAUM_Q must be one of them. Reactions
+   *  (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */
   const baum_channel *channels;
   int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
-  const double *rows;    /**< (count x baum_channels_width()). Default: NULL, must be set. */
-  /** (count x plot_count) columns to plot. May point into `rows`, such as `rows` + 9 for the
-   *  columns from index 9 on. Default: NULL, none. */
+  /** (count x baum_channels_width()) samples. Default: NULL, must be set. */
+  const double *rows;
+  /** (count x plot_count) columns to plot over time. This pointer may point into `rows`: `rows` + 9
+   *  plots the columns from index 9 on. Default: NULL, none. */
   const double *plots;
-  int32_t plot_count;  /**< [-] >= 0. Default: 0. */
-  int32_t plot_stride; /**< [-] numbers from row to row. Default: 0, plot_count. */
-  /** (plot_count) such as "slider velocity [m/s]". Consecutive columns with the same unit share a
-   *  plot. Default: NULL. */
+  int32_t plot_count; /**< [-] >= 0. Default: 0. */
+  /** [-] distance of two rows in `plots`, in numbers. Default: 0, plot_count. */
+  int32_t plot_stride;
+  /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
+   *  the same unit are drawn in the same plot. Default: NULL. */
   const char *const *plot_labels;
-  /** (trace_count) BAUM_BODY_POSE of the points whose paths are drawn. Default: NULL, none. */
+  /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE. Default:
+   *  NULL, none. */
   const baum_channel *traces;
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
   const char *const *mark_texts; /**< (mark_count) Default: NULL. */
-  /** (mark_count) of type baum_mark_kind. Default: NULL, all BAUM_MARK_WARNING. */
+  /** (mark_count) values of baum_mark_kind. Default: NULL, all are BAUM_MARK_WARNING. */
   const int32_t *mark_kinds;
   int32_t mark_count; /**< [-] >= 0. Default: 0. */
 } baum_page;
@@ -195,9 +208,9 @@ static inline baum_page baum_page_default(void)
   return page;
 }
 
-/** Write a page into a file: one HTML file that loads no other file.
+/** Write a page into a file. The page is a single HTML file, which loads no other file.
  *  @param     mechanism  frozen
- *  @param[in] page       what it shows
+ *  @param[in] page       what the page shows
  *  @param[in] path       of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_FILE, BAUM_ERR_MEMORY */
@@ -206,7 +219,7 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
 
 /** Write a page into memory.
  *  @param      mechanism  frozen
- *  @param[in]  page       what it shows
+ *  @param[in]  page       what the page shows
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole page without the final zero. May be NULL.
@@ -214,9 +227,10 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
 BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum_page *page,
                                      char *text, size_t capacity, size_t *size);
 
-/** Draw one sample of a page as an SVG picture, with the paths of the traces up to this sample, and
- *  with reactions as arrows. The view holds the whole motion, so that pictures of several samples
- *  have the same scale. Plots, marks and the title are not shown.
+/** Draw one sample of a page as an SVG picture. The picture contains the paths of the traces up to
+ *  this sample, and reactions as arrows. It does not contain the plots, the marks and the title of
+ *  the page. Its frame is large enough for the whole motion, so that pictures of several samples
+ *  have the same scale.
  *  @param      mechanism  frozen
  *  @param[in]  page       the motion
  *  @param      sample     [-] >= 0, < count of the page

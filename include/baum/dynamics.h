@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Evaluation of a frozen mechanism at one state, without a run: Phi, J, nu, gamma, M, g,
- *  accelerations, residuals, assembly and projection.
+ *  Workspaces. A workspace evaluates a frozen mechanism at one state, without a run. It computes
+ *  the constraints Phi, the Jacobian J, nu, gamma, the mass matrix M, the forces g, accelerations
+ *  and residuals. It can also assemble a mechanism and project a state onto the constraints.
+ *  docs/notation.md explains the symbols; the numbers in parentheses are its equations.
  *
  *  Arguments: times t [s], positions q (nq) and velocities v (nv) must be finite. No output may
- *  overlap an input. Outputs are not written on failure. Dense matrices are row-major. Rows and
- *  columns are in the order of adding. Units follow the coordinates.
+ *  overlap an input. If a call fails, it does not write its outputs. Dense matrices are row-major.
+ *  Columns are in the order in which the bodies were added, and rows in the order of the joints.
+ *  The units of results follow from the units of the coordinates.
  *
- *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
- *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (called from a user function
- *  that this workspace is calling), and the statuses that its own comment adds.
+ *  Every call returns BAUM_OK or one of these statuses: BAUM_ERR_ARGUMENT (an argument is NULL or
+ *  not finite), BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element),
+ *  BAUM_ERR_STATE (a user function has called the workspace while the workspace was calling this
+ *  function). The comment of a call names further statuses.
  *
  *  Threads: one workspace is used by one thread at a time. Any number of workspaces may share a
  *  mechanism.
@@ -23,13 +27,14 @@
 extern "C" {
 #endif
 
-/** Memory for evaluating one mechanism. */
+/** The memory that evaluations of one mechanism need. */
 typedef struct baum_workspace baum_workspace;
 
-/** Create a workspace; it keeps the mechanism alive. Redundant rows are determined here, from the
- *  design configuration at t = 0.
+/** Create a workspace. The mechanism stays in memory as long as the workspace exists. This call
+ *  also determines the redundant rows, starting from the design configuration at t = 0.
  *  @param      mechanism  frozen
- *  @param[out] out        receives it, NULL on failure; release it with baum_workspace_destroy()
+ *  @param[out] out        receives the workspace, NULL on failure; release it with
+ *                         baum_workspace_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out);
 
@@ -38,11 +43,12 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
 /** Read the design configuration and the given initial velocities.
  *  @param      workspace  of the mechanism
- *  @param[out] q,v        (nq), (nv); v is NaN where it is free. Each may be NULL.
+ *  @param[out] q,v        (nq), (nv); v is NaN where no initial velocity is given. Each may be
+ *                         NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
-/** Change an input. Until then it has its initial value.
+/** Change an input. Before the first such call, the input has its initial value.
  *  @param workspace  of the mechanism
  *  @param input      one of its inputs
  *  @param value      finite
@@ -53,10 +59,12 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
 /** Read an input.
  *  @param workspace  may be NULL
  *  @param input      one of the mechanism
- *  @return  its present value; NaN for NULL and other ids */
+ *  @return  present value of the input; NaN for NULL and for ids that are not inputs of the
+ *           mechanism */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
-/** Compute q' = N(q) v. It equals v if q is a vector, as for planar bodies.
+/** Compute the time derivative of the positions, q' = N(q) v. For bodies whose positions form a
+ *  vector, such as planar bodies, q' equals v.
  *  @param      workspace  of the mechanism
  *  @param[in]  q,v        (nq), (nv)
  *  @param[out] dq         (nq)
@@ -64,14 +72,16 @@ BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by a displacement dx (nv): q + dx if q is a vector.
+/** Move positions by a displacement dx (nv). For bodies whose positions form a vector, the result
+ *  is q + dx.
  *  @param         workspace  of the mechanism
  *  @param[in]     dx         (nv)
  *  @param[in,out] q          (nq)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double *dx, double *q);
 
-/** Compute the displacement by which baum_workspace_move() takes one configuration to another.
+/** Compute the displacement dx between two configurations: baum_workspace_move() with this dx moves
+ *  `from` to `to`.
  *  @param      workspace  of the mechanism
  *  @param[in]  from,to    (nq) each
  *  @param[out] dx         (nv)
@@ -86,21 +96,22 @@ BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const 
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Evaluate the velocity Jacobian J = dPhi/dq N (3). N is the identity if q is a vector.
+/** Evaluate the velocity Jacobian J = dPhi/dq N (3). For bodies whose positions form a vector, N is
+ *  the identity matrix.
  *  @param      workspace,t,q  see the top of this file
  *  @param[out] jacobian       (nc x nv)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                              double *jacobian);
 
-/** Evaluate nu = -dPhi/dt, the right side of J v = nu (3).
+/** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu (3).
  *  @param      workspace,t,q  see the top of this file
  *  @param[out] nu             (nc)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
                                        double *nu);
 
-/** Evaluate gamma, the right side of J a = gamma (4).
+/** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma (4).
  *  @param      workspace,t,q,v  see the top of this file
  *  @param[out] gamma            (nc)
  *  @return  see the top of this file */
@@ -121,8 +132,8 @@ BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, co
 BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *force);
 
-/** Evaluate the kinetic energy and the potential energy of gravity, springs, constant loads and
- *  user potentials.
+/** Evaluate the kinetic energy and the potential energy. The potential energy is that of gravity,
+ *  springs, constant loads and user potentials.
  *  @param      workspace,t,q,v    see the top of this file
  *  @param[out] kinetic,potential  [J] Each may be NULL.
  *  @return  see the top of this file */
@@ -132,42 +143,43 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
 /** Solve M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7) for accelerations and
  *  multipliers; alpha = beta = 0 gives (5).
  *
- *  Redundant rows are omitted from the solution. Where multipliers are not unique, the function
- *  returns those of least norm, with lambda_i multiplied by |row i of J M^-1/2|. They balance the
- *  forces to a relative 1e-9. If the remaining rows become nearly dependent, the workspace looks
- *  for a better choice of omitted rows. A new choice allocates memory; baum_workspace_residual()
- *  then omits the same rows.
+ *  The solution omits redundant rows. Where multipliers are not unique, the function returns the
+ *  multipliers of least norm; in this norm, each lambda_i is multiplied by |row i of J M^-1/2|.
+ *  These multipliers balance the forces to a relative 1e-9. If the rows that are not omitted become
+ *  nearly dependent, the workspace looks for a better choice of omitted rows. A change of this
+ *  choice allocates memory. After a change, baum_workspace_residual() omits the same rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
  *  @param[out] lambda           (nc) May be NULL.
- *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (the accelerations
- *           violate an omitted row; the message names a joint) */
+ *  @return  the statuses at the top of this file; also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ *           BAUM_ERR_INCONSISTENT (the accelerations violate an omitted row; the message names a
+ *           joint) */
 BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
 
-/** Compute the reaction of a joint: force and moment on its body_b, see planar.h and spatial.h. For
- *  user constraints, gears and couplings it is the generalized force -J^T lambda on the velocities
- *  of their bodies.
+/** Compute the reaction of a joint. For most joints, the reaction is the force and the moment on
+ *  body_b; planar.h and spatial.h give the details. For user constraints, gears and couplings, the
+ *  reaction is the generalized force -J^T lambda that belongs to the velocities of their bodies.
  *  @param      workspace,t,q  see the top of this file
  *  @param[in]  lambda         (nc)
  *  @param      joint          one of the mechanism
- *  @param[out] reaction       (width) as the channel BAUM_JOINT_REACTION; 3 for planar, 6 for
- *                             spatial joints
+ *  @param[out] reaction       (width) with as many numbers as the channel BAUM_JOINT_REACTION has
+ *                             columns: 3 for planar joints, 6 for spatial joints
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** The equations that baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and the
- *  constraints below.
+/** Which equations baum_workspace_residual() evaluates. The residual consists of q' - N v, then M
+ *  v' + J^T lambda - g, and then the constraints in one of the forms below.
  *
- *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first equation by q' - N (v - W^-1 J^T mu) and
- *  adds one unknown mu for each row. All mu of the exact solution are zero. W is constant and
- *  diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk below m / s_k^2
- *  are raised to m / s_k^2, where s_k is the scale of coordinate k and m is a millionth of the
- *  largest M_jj s_j^2. */
+ *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
+ *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
+ *  is a constant diagonal matrix. Its diagonal is the diagonal of M in the design configuration at
+ *  t = 0, but very small entries are raised: an entry is at least m / s_k^2, where s_k is the scale
+ *  of coordinate k, and m is a millionth of the largest M_jj s_j^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
@@ -175,24 +187,26 @@ typedef enum baum_residual {
   BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu, then Phi. */
 } baum_residual;
 
-/** Which equations, and their gains. */
+/** Which form of the equations is evaluated, and with which gains. */
 typedef struct baum_dae {
   baum_residual index; /**< Form of the constraints. */
-  double alpha;        /**< [1/s] finite; used by index 1. */
-  double beta;         /**< [1/s] finite; used by index 1. */
+  double alpha;        /**< [1/s] finite; used only by index 1. */
+  double beta;         /**< [1/s] finite; used only by index 1. */
 } baum_dae;
 
-/** A sparse matrix in compressed columns with sorted rows. The caller owns the arrays. */
+/** A sparse matrix in compressed-column form. Within a column, entries are sorted by row. The
+ *  caller owns the arrays. */
 typedef struct baum_sparse {
-  int32_t *columns; /**< (size + 1) starts of the columns. May be NULL. */
+  int32_t *columns; /**< (size + 1) index of the first entry of each column. May be NULL. */
   int32_t *rows;    /**< (nonzeros). May be NULL. */
   double *values;   /**< (nonzeros). May be NULL. */
   int32_t nonzeros; /**< [-] number of entries; always written. */
 } baum_sparse;
 
-/** Evaluate the residual F(t, y, y') of the differential-algebraic equations with y = (q, v,
- *  lambda); for GGL y = (q, v, lambda, mu). The equations of an omitted redundant row i are
- *  replaced by lambda_i = 0, for GGL also by mu_i = 0.
+/** Evaluate the residual F(t, y, y') of the differential-algebraic equations. The unknowns are y =
+ *  (q, v, lambda), and for GGL y = (q, v, lambda, mu). If row i is redundant and omitted, its
+ *  constraint is replaced by the equation lambda_i = 0. For GGL, the second constraint of this row
+ *  is replaced by mu_i = 0.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
@@ -202,43 +216,49 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
                                              double t, const double *y, const double *dy,
                                              double *residual);
 
-/** Evaluate the Jacobian dF/dy + c dF/dy' of the residual F of baum_workspace_residual(). Its
- *  pattern depends on dae->index only. To learn the number of entries, first call the function with
- *  all arrays of `out` NULL. The function allocates memory, so do not use it in inner loops.
+/** Evaluate the Jacobian dF/dy + c dF/dy' of the residual F that baum_workspace_residual()
+ *  computes. The sparsity pattern of this matrix depends only on dae->index. To learn the number of
+ *  entries, first call the function with NULL for all arrays of `out`. The function allocates
+ *  memory, so do not use it in inner loops.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param      c            [1/s] finite
  *  @param[in]  y,dy         as for baum_workspace_residual()
- *  @param[out] out          receives nonzeros; its arrays are filled unless they are NULL
- *  @return  also BAUM_ERR_MEMORY */
+ *  @param[out] out          receives the number of entries (nonzeros); its arrays are filled unless
+ *                           they are NULL
+ *  @return  the statuses at the top of this file; also BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const baum_dae *dae, double c, double t,
                                                       const double *y, const double *dy,
                                                       baum_sparse *out);
 
-/** Assemble: move q by the least mass-weighted change that satisfies Phi(q, t) = 0, and complete v.
- *  Each Newton step is the least possible change. The sum of the steps is close to the least
- *  possible unless J changes much during the move. In that case list the bodies that must not move
- *  in `held`.
+/** Assemble the mechanism: change q until Phi(q, t) = 0, and compute the velocities that are not
+ *  given. Newton's method computes the change of q, and each of its steps is the smallest possible
+ *  one in the mass-weighted norm. The sum of the steps is therefore close to the smallest possible
+ *  change, unless J changes much during the move. If J does and the bodies move more than you want,
+ *  list the bodies that must not move in `held`.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
- *  @param[in,out] v            (nv) finite entries are kept exactly; NaN entries follow from the
- *                              constraints, with the least norm if undetermined. Unchanged on
- *                              failure.
+ *  @param[in,out] v            (nv) velocities. Finite entries are kept exactly. Entries that are
+ *                              NaN are computed from the constraints; if the constraints do not
+ *                              determine them, they are those of least norm. Unchanged on failure.
  *  @param[in]     held         (held_count) bodies that keep their positions, in addition to those
  *                              whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
- *  @return  also BAUM_ERR_INCONSISTENT (the message names the joints in conflict),
- *           BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
+ *  @return  the statuses at the top of this file; also BAUM_ERR_INCONSISTENT (the message names the
+ *           joints in conflict), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q,
                                              double *v, const baum_body_id *held,
                                              int32_t held_count);
 
-/** Project onto the constraints: change q, then v, by the least amount in the metric of M.
+/** Project a state onto the constraints: change q by the least amount such that Phi = 0, and then v
+ *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
+ *  M.
  *  @param         workspace,t  see the top of this file
- *  @param[in,out] q,v          (nq), (nv) near the constraints; unchanged on failure
- *  @return  also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT
- *           (redundant rows contradict the others) */
+ *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
+ *                              unchanged on failure
+ *  @return  the statuses at the top of this file; also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR,
+ *           BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (redundant rows contradict the other rows) */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
                                             double *v);
 

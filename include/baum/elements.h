@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Finding the elements of a mechanism, frozen or not, by number in the order of adding or by name.
- *  Useful for mechanisms that somebody else has built, such as those of the catalogue. Ground does
- *  not count as a body. Drivers and user constraints are joints.
+ *  Functions that find the elements of a mechanism, by name or by number. Elements are numbered in
+ *  the order in which they were added. The mechanism may be frozen or not. These functions are
+ *  useful for mechanisms that another program has built, such as those of the catalogue. Here
+ *  ground does not count as a body, and drivers and user constraints count as joints.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H
@@ -26,8 +27,9 @@ BAUM_API int32_t baum_mechanism_force_count(const baum_mechanism *mechanism);
 
 /** Find a body by number.
  *  @param mechanism  may be NULL
- *  @param k          0 to count - 1
- *  @return  its id; none (all-zero) if there is no such element */
+ *  @param k          number of the body, from 0 to baum_mechanism_body_count() - 1; for other
+ *                    elements likewise
+ *  @return  id of the element; all-zero if there is no such element */
 BAUM_API baum_body_id baum_mechanism_body_at(const baum_mechanism *mechanism, int32_t k);
 
 /** Find a joint by number. @copydetails baum_mechanism_body_at() */
@@ -42,7 +44,7 @@ BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, 
 /** Find the first body with a name; "ground" gives BAUM_GROUND.
  *  @param     mechanism  may be NULL
  *  @param[in] name       may be NULL
- *  @return  its id; none (all-zero) if there is no such element */
+ *  @return  id of the element; all-zero if there is no such element */
 BAUM_API baum_body_id baum_mechanism_find_body(const baum_mechanism *mechanism, const char *name);
 
 /** Find the first joint with a name. @copydetails baum_mechanism_find_body() */

@@ -3,23 +3,26 @@
  *  Events of a run: times at which a function of the state passes zero, or a joint coordinate
  *  passes a value.
  *
- *  Detection: the run evaluates its event functions after every step, at the quarters of the step
- *  and at outputs. After a change of sign it searches for the time of the event. The search uses
- *  the same states inside the last step as outputs do: variable-step methods interpolate the step,
- *  fixed-step methods take shorter steps from its start. The search is the same for every
- *  integrator. Two zeros between two evaluations are not detected; reduce max_step or the step.
+ *  Detection: after every step, the run evaluates its event functions at the end of the step and at
+ *  the quarters of the step. It also evaluates them at outputs. If the sign of a function has
+ *  changed, the run searches for the time of the event. The search needs states inside the step.
+ *  They are computed as for outputs: variable-step methods interpolate the step, and fixed-step
+ *  methods take shorter steps from its start. If a function passes zero twice between two
+ *  evaluations, the event is not detected. In this case, reduce max_step or the step.
  *
  *  Zero at the start: an event function may be zero where a run starts, after
- *  baum_simulation_set_state(), or where a run reverses. When it leaves zero there, this is not an
- *  event; its next crossing of zero is. A crossing shortly after such a start does not count,
- *  either, because the function may be zero up to rounding. Shortly means within 1e-10 T, where T
- *  is 1 over the rate that baum_simulation_explain() states, or within the tolerance of the event
- *  if that is longer. For IDA, which first moves the state onto the constraints, it means 10 rtol T
- *  instead of 1e-10 T. baum_simulation_set_input() and baum_simulation_set_driver() trigger no
- *  event: a function that jumps there continues with its new sign.
+ *  baum_simulation_set_state(), or where a run reverses its direction in time. It is not an event
+ *  when the function leaves zero there. The next time at which the function passes zero is an
+ *  event. A zero shortly after such a start is not an event, either, because it may be a rounding
+ *  error of the start. "Shortly" means within 1e-10 T, or within the tolerance of the event if that
+ *  is longer. T is 1 / r, where r is the rate of the motion, which baum_simulation_explain()
+ *  states. IDA first moves the state onto the constraints; for IDA, "shortly" therefore means 10
+ *  rtol T instead of 1e-10 T. baum_simulation_set_input() and baum_simulation_set_driver() trigger
+ *  no event. If an event function jumps to the other sign in such a call, the run continues with
+ *  the new sign.
  *
- *  Events do not alter the motion, with one exception: a fixed-step run that stops at an event
- *  begins a new grid there, as at a target off the grid. */
+ *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
+ *  begins a new grid of steps there. */
 #ifndef BAUM_EVENTS_H
 #define BAUM_EVENTS_H
 
@@ -33,18 +36,21 @@ extern "C" {
 typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  /** out (1); q (nq) and v (nv) are those of the whole run. It is called after a step. Therefore it
-   *  cannot ask for a smaller step: any non-zero return value ends the call that advances the run.
-   *  Default: NULL, the coordinate of `joint`. */
+  /** The event function. It writes one number to out; q (nq) and v (nv) are those of the whole
+   *  mechanism. The run calls it when a step is complete, so the function cannot ask for a smaller
+   *  step: if it returns a number other than 0, the call that advances the run fails. Default:
+   *  NULL, the coordinate of `joint` is used. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
-  double value;        /**< [rad or m] of the joint coordinate. Default: 0. */
-  /** [-] 1: only rising in time, -1: only falling, 0: both. Default: 0. */
+  double value;        /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
+  /** [-] 1: only when the function rises in time; -1: only when it falls; 0: both. Default: 0. */
   int32_t direction;
-  bool terminal;    /**< The call stops at the event with BAUM_STOP_EVENT. Default: true. */
-  double tolerance; /**< [s] > 0, accuracy of the event's time. Default: NaN, its rounding. */
-  void *user;       /**< Passed to function. Not owned. Default: NULL. */
-  baum_joint_coordinate coordinate; /**< [-] of joint. Default: BAUM_COORDINATE_FIRST. */
+  bool terminal; /**< The run stops at the event (BAUM_STOP_EVENT). Default: true. */
+  /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
+  double tolerance;
+  void *user; /**< Passed to function. Not owned. Default: NULL. */
+  /** [-] which coordinate of joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
 } baum_event_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -57,15 +63,16 @@ static inline baum_event_def baum_event_def_default(void)
   return def;
 }
 
-/** Add an event to a run, from the present state on. A run that stops at an event returns
- *  BAUM_STOP_EVENT, and its state is that at the event; the next call continues.
- *  baum_simulation_sample() has then filled the rows of the times before the event. Events at the
- *  same time are all recorded before the run stops. If an event happens at the time at which a call
- *  ends, that call records it, not the next one.
+/** Add an event to a run. The run looks for the event from the present state on. When a run stops
+ *  at an event, the call that advances the run returns BAUM_STOP_EVENT, and the state of the run is
+ *  the state at the event. The next call continues the run. If the call was
+ *  baum_simulation_sample(), it has filled the rows of the times before the event. If several
+ *  events happen at the same time, the run records all of them before it stops. If an event happens
+ *  exactly at the time at which a call ends, that call records it.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
- *  @param[out] index       receives its number 0, 1, ... in the order of adding; not written on
- *                          failure. May be NULL.
+ *  @param[out] index       receives the number of the event; events are numbered 0, 1, ... in the
+ *                          order of adding. Not written on failure. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
  *           BAUM_ERR_NOT_FINITE */
 BAUM_API baum_status baum_simulation_add_event(baum_simulation *simulation,
@@ -84,8 +91,8 @@ typedef struct baum_event_record {
  *  @return  0 for NULL */
 BAUM_API int64_t baum_simulation_event_count(const baum_simulation *simulation);
 
-/** Read an event that has happened. A run keeps the last 1024; read them during the run if there
- *  may be more.
+/** Read an event that has happened. A run keeps the last 1024 events. If there may be more, read
+ *  them while the run is in progress.
  *  @param      simulation   the run
  *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they
  *                           happened

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Visibility of the public functions. Define BAUM_STATIC when linking the static library by hand.
+ *  Visibility of the public functions. If you link the static library without CMake or pkg-config,
+ *  define BAUM_STATIC.
  */
 #ifndef BAUM_EXPORT_H
 #define BAUM_EXPORT_H

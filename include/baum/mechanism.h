@@ -2,51 +2,60 @@
 /** @file
  *  Mechanisms: what is simulated. A mechanism consists of bodies, joints, forces and inputs.
  *
- *  Use: add elements, freeze the mechanism, then run simulations. A frozen mechanism is constant
- *  and may be shared between threads.
- *  - A *body* is anything with coordinates: rigid bodies and particles (planar.h, spatial.h), or
- *    user coordinates.
- *  - A *joint* is anything with constraint rows: joints (planar.h, planar_joints.h,
- *    spatial_joints.h), drivers, couplings or user constraints.
- *  - A *force* is anything else that acts on bodies.
+ *  Use: add elements, freeze the mechanism, then run simulations. A frozen mechanism does not
+ *  change any more, so several threads may share it.
+ *  - A *body* is anything that has coordinates: a rigid body or a particle (planar.h, spatial.h),
+ *    or a group of user coordinates.
+ *  - A *joint* is anything that adds constraint equations, which are called rows: a joint between
+ *    two bodies (planar.h, planar_joints.h, spatial_joints.h), a driver, a coupling or a user
+ *    constraint.
+ *  - A *force* is anything else that acts on bodies: a spring, a load or a user force.
  *
- *  Equations of your own, without predefined elements, are one body of user coordinates and one
- *  user constraint.
+ *  If you want to simulate equations of your own, without predefined elements, use one body of user
+ *  coordinates and one user constraint.
  *
- *  Equations (numbers in parentheses are those of Flores et al. 2008): constraints Phi(q, t) = 0
- *  (1), their first derivative Phi' = J v - nu = 0 (3), their second derivative Phi'' = J a - gamma
- *  = 0 (4), and the equations of motion M a + J^T lambda = g (2). docs/notation.md lists all
- *  symbols.
+ *  Equations: the constraints are Phi(q, t) = 0 (1). Their first time derivative is Phi' = J v - nu
+ *  = 0 (3), and their second time derivative is Phi'' = J a - gamma = 0 (4). The equations of
+ *  motion are M a + J^T lambda = g (2). The numbers in parentheses are those of Flores et al. 2008.
+ *  docs/notation.md lists all symbols.
  *
- *  Units: any consistent set. Only the default gravity assumes SI. Angles are in radians. Comments
- *  give units in SI, [-] for a pure number, and shapes of arrays in parentheses. The *scale* of a
- *  coordinate is the characteristic length for a length, 1 for an angle, and `scale` for user
- *  coordinates.
+ *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
+ *  Angles are in radians. The comments in the headers give SI units in brackets, where [-] means a
+ *  pure number, and the shapes of arrays in parentheses.
  *
- *  Order: q, v, constraint rows and lambda follow the order in which bodies and joints were added.
+ *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
+ *  characteristic length of the mechanism, the scale of an angle is 1, and user coordinates state
+ *  their own `scale`.
+ *
+ *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
+ *  rows and lambda are in the order in which the joints were added.
  *
  *  NULL: pointers must not be NULL unless their comment says so.
  *
- *  Names of elements, inputs and events appear in messages. NULL selects the default name. Empty
- *  names and names with control characters are refused.
+ *  Names: messages contain the names of elements, inputs and events. If a name is NULL, the library
+ *  chooses a default name. Empty names and names with control characters are refused.
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- *  baum_mechanism_set_K(). They behave alike for every kind. The comments after
- *  baum_coordinates_def hold for all kinds.
+ *  baum_mechanism_set_K(). These functions do the same for every kind. The comments after
+ *  baum_coordinates_def describe them once for all kinds.
  *
- *  Versions: fields are only ever appended to a struct. `struct_size` tells the library which
- *  fields a program knows. A program that was compiled with an older version passes a smaller
- *  struct, and the missing fields have their defaults. Any other size, such as 0 in an all-zero
- *  struct or the size of a newer version, is refused (BAUM_ERR_STRUCT). In a struct that the
- *  library fills, it writes the first caller_size bytes only.
+ *  Versions: new versions of the library add fields only at the end of a struct. `struct_size`
+ *  tells the library which fields a program knows. A program that was compiled with an older
+ *  version passes a smaller struct; the fields that it does not know then have their defaults. Any
+ *  other size is refused (BAUM_ERR_STRUCT), such as 0 in an all-zero struct, or the size in a newer
+ *  version. If the library fills a struct, it writes only the first caller_size bytes.
  *
- *  Callbacks: q and v hold the coordinates of the named bodies one after the other. Matrices are
- *  dense and row-major. Outputs are zeroed before the call. Return 0 on success, > 0 to ask for a
- *  smaller step, < 0 to stop the run. If threads share the mechanism, callbacks must be reentrant.
- *  A callback may call the library, but must not use the workspace or run that is calling it:
- *  functions of this object that return a status fail with BAUM_ERR_STATE, and destroying it does
- *  nothing. The callback may only read its time, q, v, inputs and texts, and cancel the run. */
+ *  Callbacks are functions of yours that the library calls. Their arguments q and v hold the
+ *  coordinates of the bodies that the definition names, one body after the other. Matrices are
+ *  dense and row-major. The library sets outputs to zero before the call. A callback returns 0 on
+ *  success, a positive number to ask for a smaller step, and a negative number to stop the run. If
+ *  threads share the mechanism, callbacks must be reentrant.
+ *
+ *  A callback may call the library, but it must not use the workspace or the run that is calling
+ *  it. Functions of this workspace or run that return a status fail with BAUM_ERR_STATE, and the
+ *  function that destroys it does nothing. Two uses are allowed: the callback may read the time, q,
+ *  v, inputs and texts of the run, and it may cancel the run. */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H
 
@@ -61,112 +70,124 @@
 extern "C" {
 #endif
 
-/** Bodies, joints, forces and inputs; under construction or frozen. */
+/** A mechanism: its bodies, joints, forces and inputs. */
 typedef struct baum_mechanism baum_mechanism;
 
-/** Identifies a body of one mechanism and its copies. All-zero means none and is refused. */
+/** Identifies a body of a mechanism. The id is also valid in copies of this mechanism. An all-zero
+ *  id means no body, and functions refuse it. */
 typedef struct baum_body_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_body_id;
 
-/** Identifies a joint, which is anything with constraint rows. All-zero means none and is refused.
+/** Identifies a joint, which is anything that adds constraint rows. An all-zero id means no joint,
+ *  and functions refuse it.
  */
 typedef struct baum_joint_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_joint_id;
 
-/** Identifies a force. All-zero means none and is refused. */
+/** Identifies a force. An all-zero id means no force, and functions refuse it. */
 typedef struct baum_force_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_force_id;
 
-/** Identifies an input. All-zero means none. */
+/** Identifies an input. An all-zero id means no input. */
 typedef struct baum_input_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_input_id;
 
-/** The fixed body of every mechanism. */
+/** Ground, the body that never moves. Every mechanism has it. */
 static const baum_body_id BAUM_GROUND = {-1, 0};
 
 /** A function of time and positions.
  *  @param      t     [s] time
  *  @param[in]  q     positions of the named bodies
- *  @param[out] out   the result, whose shape the definition states
+ *  @param[out] out   the result; the field that holds the function states its shape
  *  @param      user  the definition's `user`
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_q_fn(double t, const double *q, double *out, void *user);
 
-/** A function of time, positions and velocities. Otherwise like baum_q_fn. */
+/** A function of time, positions and velocities. v holds the velocities of the named bodies; the
+ *  other arguments and the return value are those of baum_q_fn. */
 typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, void *user);
 
-/** A generalized force. Otherwise like baum_qv_fn. `inputs` holds the present values of all inputs
- *  in the order of adding; it is NULL if there are none. */
+/** A function that computes a generalized force. `inputs` holds the present values of all inputs of
+ *  the mechanism in the order in which they were added; it is NULL if there are none. The other
+ *  arguments and the return value are those of baum_qv_fn. */
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
 
-/** The law of a driver: s[0] is the value, s[1] the first and s[2] the second derivative at time t.
- *  s[1] and s[2] must be the exact derivatives; baum_mechanism_check_derivatives() compares them.
- *  The library also calls the law at times outside the run: to check derivatives, and to find
- *  redundant rows in configurations near the start. Returns the same as baum_q_fn. */
+/** The law of a driver. At time t the function writes the value of the law to s[0], its first time
+ *  derivative to s[1] and its second to s[2]. s[1] and s[2] must be the exact derivatives of s[0];
+ *  baum_mechanism_check_derivatives() compares them with finite differences. The library also calls
+ *  the law at times outside the run, in order to check the derivatives and to find redundant rows
+ *  in configurations near the start. The function returns the same numbers as baum_q_fn. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
 
-/** Computes dq = N(q) v, which is linear in v. q may be off the manifold by the error of a step.
- *  Scaling q must scale dq by the same factor. */
+/** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. q may lie
+ *  off the configuration manifold by the error of a step. If q is multiplied by a factor, dq must
+ *  be multiplied by the same factor. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
-/** Moves q in place along constant v for the time h, accurate to second order in h or better. With
- *  h = 1, v is a displacement (size). */
+/** Moves q for the time h with the constant velocity v, and overwrites q with the result. The
+ *  result must be accurate to second order in h or better. If h is 1, v is a displacement
+ *  (size). */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** Computes the displacement dx (size) for which baum_move_fn with h = 1 takes `from` to `to`. */
+/** Computes the displacement dx (size) from one configuration to another: the function of type
+ *  baum_move_fn, called with h = 1 and v = dx, moves `from` to `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
-/** Replaces q by the nearest point on the manifold. Do not change the sign of a quaternion here:
- *  methods that combine several positions would lose their order where the sign changes. */
+/** Replaces q by the nearest point of the configuration manifold, for example a quaternion by the
+ *  unit quaternion of the same direction. Do not change the sign of a quaternion here. Integrators
+ *  that combine the positions of several steps would lose their order of accuracy at the change of
+ *  sign. */
 typedef void baum_normalize_fn(double *q, void *user);
 
-/** A body with user coordinates, whose mass and force are given by functions.
+/** A body with user coordinates. Functions of yours give its mass matrix and its force.
  *
- *  Usually v = q'. If q is not a vector, for example a unit quaternion, set position_scale and the
- *  fields below it; then q' = N(q) v. All functions but `rate` receive a normalized q. Derivatives
- *  with respect to q, including those of constraints on these coordinates, are then derivatives
- *  along displacements (size): (Phi_q N) in place of Phi_q. rate, move, difference and normalize
- *  report failure by writing NaN. */
+ *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
+ *  quaternion, set position_scale and the fields below it; the time derivative of q is then N(q) v.
+ *  In this case every function except `rate` receives a normalized q. Derivatives with respect to q
+ *  are then derivatives along displacements (size). This also applies to constraints on these
+ *  coordinates: their Jacobian is Phi_q N, not Phi_q. The functions rate, move, difference and
+ *  normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
-  /** (position_count) design positions, on the manifold. Copied. Default: NULL, zeros; must be set
-   *  if `rate` is. */
+  /** (position_count) positions in the design configuration; they must lie on the configuration
+   *  manifold. Copied. Default: NULL, zeros; must be set if `rate` is set. */
   const double *q;
-  /** (size) initial velocities; NaN: free, determined by assembly. Copied. Default: NULL, all free.
-   */
+  /** (size) initial velocities. Where an entry is NaN, the velocity is free, and assembly
+   *  determines it. Copied. Default: NULL, all free. */
   const double *v;
-  /** (size) > 0, a typical change of each coordinate; tolerances are relative to it. Copied.
-   *  Default: NULL, ones. */
+  /** (size) > 0, the scale of each coordinate: the size of a typical change. Tolerances are
+   *  relative to the scale. Copied. Default: NULL, ones. */
   const double *scale;
   /** out (size x size), symmetric and positive semidefinite. Default: NULL, must be set. */
   baum_q_fn *mass;
-  baum_force_fn *force;     /**< out (size), g with velocity terms. Default: NULL, must be set. */
+  /** out (size), g including the velocity terms. Default: NULL, must be set. */
+  baum_force_fn *force;
   baum_force_fn *force_q;   /**< out (size x size), dg/dq. Default: NULL, by differences. */
   baum_force_fn *force_v;   /**< out (size x size), dg/dv. Default: NULL, by differences. */
   baum_q_fn *potential;     /**< out (1) [J]. Default: NULL, none. */
-  bool constant_mass;       /**< mass() always returns the same matrix. Default: false. */
+  bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
   bool held;                /**< Assembly keeps the design positions. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< force() reads v. RATTLE requires false. Default: true. */
+  bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
   /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
    *  Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
-  baum_move_fn *move;             /**< Default: NULL; must be set if `rate` is. */
-  baum_difference_fn *difference; /**< Default: NULL; must be set if `rate` is. */
+  baum_move_fn *move;             /**< Default: NULL; must be set if `rate` is set. */
+  baum_difference_fn *difference; /**< Default: NULL; must be set if `rate` is set. */
   baum_normalize_fn *normalize;   /**< Default: NULL, if every q is on the manifold. */
   int32_t position_count;         /**< [-] number of positions. Default: 0, the same as `size`. */
 } baum_coordinates_def;
@@ -176,7 +197,7 @@ typedef struct baum_coordinates_def {
  *  @param      caller_size  sizeof *def; no byte beyond it is written */
 BAUM_API void baum_coordinates_def_init(baum_coordinates_def *def, size_t caller_size);
 
-/** Get a definition with every field at its default. Start from it and set the other fields.
+/** Get a definition with every field at its default. Change the fields that you need.
  *  @return  the default definition */
 static inline baum_coordinates_def baum_coordinates_def_default(void)
 {
@@ -185,8 +206,9 @@ static inline baum_coordinates_def baum_coordinates_def_default(void)
   return def;
 }
 
-/** Add an element. The library copies the definition, its name and its arrays; it stores function
- *  pointers and `user`, but not what `user` points to.
+/** Add an element. The library copies the definition, including its name and its arrays. It also
+ *  stores the function pointers and the pointer `user`, but it does not copy the data to which
+ *  `user` points.
  *  @param      mechanism  not frozen; unchanged on failure
  *  @param[in]  def        the definition
  *  @param[out] id         receives the id of the element; not written on failure. May be NULL.
@@ -196,8 +218,8 @@ BAUM_API baum_status baum_mechanism_add_coordinates(baum_mechanism *mechanism,
                                                     const baum_coordinates_def *def,
                                                     baum_body_id *id);
 
-/** Read a definition back as it was given. Its pointers stay owned by the mechanism and are valid
- *  until the definition is set again.
+/** Read the definition of an element as it was given. The pointers in the definition belong to the
+ *  mechanism and are valid until the definition is set again.
  *  @param      mechanism    frozen or not
  *  @param      id           an element of this kind
  *  @param[out] out          receives the definition
@@ -207,8 +229,8 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     baum_body_id id, baum_coordinates_def *out,
                                                     size_t caller_size);
 
-/** Replace a definition. The structure must stay the same: the bodies or joints that the element
- *  acts on, numbers of rows and coordinates, and whether `rate` is given.
+/** Replace the definition of an element. Some properties must stay the same: the bodies or joints
+ *  that the element acts on, the number of its rows or coordinates, and whether `rate` is given.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param     id         an element of this kind
  *  @param[in] def        the new definition, copied as by the add function
@@ -219,12 +241,14 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 
 /* ---- constraints given by functions ---------------------------------------------------------- */
 
-/** Constraints Phi(q, t) = 0 on the coordinates of the named bodies, given by functions. Only phi
- *  is required. nv below is the total number of velocities of the named bodies.
+/** A user constraint: constraints Phi(q, t) = 0 on the coordinates of the listed bodies, given by
+ *  functions of yours. The only function that is required is phi. In the comments of the fields, nv
+ *  is the total number of velocities of the listed bodies.
  *
- *  The functions must be valid everywhere, not only where Phi = 0. Missing derivatives are replaced
- *  by central differences of phi. These evaluate phi up to 0.006 time units before and after t for
- *  nu, and up to 0.05 for gamma. If phi is not defined before t = 0, give nu and gamma. */
+ *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
+ *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
+ *  units before and after t, and those for gamma up to 0.05 time units. If phi is not defined
+ *  before t = 0, give nu and gamma. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -235,7 +259,7 @@ typedef struct baum_user_constraint_def {
   baum_q_fn *phi;      /**< out (row_count). Default: NULL, must be set. */
   baum_q_fn *jacobian; /**< out (row_count x nv), J. Default: NULL, differences of phi. */
   baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
-  baum_qv_fn *gamma;   /**< out (row_count), right side of (4). Default: NULL, differences. */
+  baum_qv_fn *gamma;   /**< out (row_count), gamma in (4). Default: NULL, differences of phi. */
   void *user;          /**< Passed to the functions. Not owned. Default: NULL. */
 } baum_user_constraint_def;
 
@@ -263,7 +287,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint, for drivers, couplings, joint springs, channels and events:
+/** A coordinate of a joint. Drivers, couplings, joint springs, channels and events name one of
+ *  these coordinates. The joints have the following ones:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT
@@ -272,23 +297,28 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
- *  Angles of planar joints are continuous over revolutions. For angles of spatial joints, a run
- *  counts the revolutions; functions of a workspace know one state only and use angles between -pi
- *  and pi. */
+ *  An angle of a planar joint grows continuously over several revolutions. An angle of a spatial
+ *  joint follows from a single configuration only up to whole revolutions. A run therefore counts
+ *  the revolutions. A workspace does not know the past of the motion, so its functions use angles
+ *  between -pi and pi. */
 typedef enum baum_joint_coordinate {
-  BAUM_COORDINATE_FIRST = 0,        /**< The first in the list above; most joints have only one. */
-  BAUM_COORDINATE_DISPLACEMENT = 1, /**< [m] of body_b's point from body_a's along the axis. */
-  BAUM_COORDINATE_ANGLE = 2,        /**< [rad] of body_b relative to body_a about the axis. */
-  BAUM_COORDINATE_ANGLE_B = 3,      /**< [rad] about axis_b. */
-  BAUM_COORDINATE_X = 4,            /**< [m] of body_b's point from body_a's in the plane. */
-  BAUM_COORDINATE_Y = 5             /**< [m] perpendicular to x in the plane. */
+  /** The first coordinate in the list above; most joints have only one. */
+  BAUM_COORDINATE_FIRST = 0,
+  /** [m] from body_a's point to body_b's point, along the axis. */
+  BAUM_COORDINATE_DISPLACEMENT = 1,
+  BAUM_COORDINATE_ANGLE = 2,   /**< [rad] of body_b relative to body_a about the axis. */
+  BAUM_COORDINATE_ANGLE_B = 3, /**< [rad] about axis_b. */
+  /** [m] from body_a's point to body_b's point, along x in the plane. */
+  BAUM_COORDINATE_X = 4,
+  BAUM_COORDINATE_Y = 5 /**< [m] perpendicular to x in the plane. */
 } baum_joint_coordinate;
 
 /* ---- drivers --------------------------------------------------------------------------------- */
 
-/** A driver: one row that prescribes the coordinate of a joint, coordinate(q) - s(t) = 0, with s(t)
- *  = value + rate t + acceleration t^2 / 2 or a law of your own. An angle of a spatial joint is
- *  prescribed up to whole revolutions. */
+/** A driver prescribes a coordinate of a joint as a function of time. It adds one row,
+ *  coordinate(q) - s(t) = 0. The function s(t) is the polynomial value + rate t + acceleration t^2
+ *  / 2, or a law of your own. If the coordinate is an angle of a spatial joint, whole revolutions
+ *  do not count in this row. */
 typedef struct baum_driver_def {
   size_t struct_size;               /**< Set by the default. Do not write. */
   const char *name;                 /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -322,29 +352,35 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 
 /* ---- couplings ------------------------------------------------------------------------------- */
 
-/** The law of a coupling: f[0] is the value, f[1] the first and f[2] the second derivative at
- *  coordinate x of joint_a [rad or m]. Angles count revolutions, except for angles of spatial
- *  joints in functions of a workspace, which are between -pi and pi. f is zeroed before the call.
- *  Methods that need third derivatives take differences of f[2]. The check of derivatives also
- *  calls the law at coordinates near those of the motion. Returns the same as baum_q_fn. */
+/** The law of a coupling. x is the coordinate of joint_a [rad or m]. The function writes the value
+ *  of the law at x to f[0], its first derivative to f[1] and its second derivative to f[2]. The
+ *  library sets f to zero before the call. If x is an angle, it grows over several revolutions,
+ *  with one exception: an angle of a spatial joint is between -pi and pi if a workspace calls the
+ *  function. Methods that need the third derivative compute it by differences of f[2]. When the
+ *  library checks the derivatives, it also calls the law at values of x that the motion does not
+ *  reach. The function returns the same numbers as baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
-/** A coupling: one row that ties the coordinates of two joints, coordinate_b - f(coordinate_a) = 0,
- *  with f(x) = ratio x + offset or a law of your own. A law describes a cam whose follower moves
- *  along coordinate_b. The joints may share bodies, such as a crank and a slider on the ground.
- *  With angle and displacement of one cylindrical joint it is a screw.
+/** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
+ *  f(coordinate_a) = 0, where f(x) is ratio x + offset, or a law of your own. A coupling with a law
+ *  can model a cam whose follower moves along coordinate_b. The two joints may share a body: for
+ *  example, both may be joints to ground. A coupling of the angle and the displacement of one
+ *  cylindrical joint is a screw.
  *
- *  Without a law, an angle of a spatial joint may change by whole revolutions without violating the
- *  row. If both coordinates are such angles, this holds only if ratio is a fraction with a
- *  denominator of at most 1000. With other ratios, revolutions count.
+ *  Angles of spatial joints are known up to whole revolutions. Without a law, the row therefore
+ *  remains satisfied if such an angle changes by whole revolutions. If both coordinates are angles
+ *  of spatial joints, this is true only if ratio is a fraction with a denominator of at most 1000.
+ *  With any other ratio, the row counts the revolutions.
  *
- *  Reaction: the generalized force -J^T lambda on the velocities of the bodies of joint_a, then of
- *  joint_b; each body once, without ground. */
+ *  The reaction of a coupling is the generalized force -J^T lambda that belongs to the velocities
+ *  of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints appears once,
+ *  and ground does not appear. */
 typedef struct baum_coupling_def {
   size_t struct_size;    /**< Set by the default. Do not write. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint_a; /**< A joint with a coordinate. Default: none, must be set. */
-  /** A joint with a coordinate; joint_a for two coordinates of it. Default: none, must be set. */
+  /** A joint with a coordinate. It may be joint_a again, to couple two coordinates of one joint.
+   *  Default: none, must be set. */
   baum_joint_id joint_b;
   double ratio; /**< [unit of b / unit of a] Default: 1. */
   /** [rad or m] of coordinate_b. Default: NaN, the value in the design configuration. */
@@ -376,10 +412,11 @@ BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum
 
 /* ---- forces given by functions --------------------------------------------------------------- */
 
-/** A generalized force on the named bodies, given by functions. nv below is the total number of
- *  velocities of these bodies. A planar body receives a force x, y [N] and a moment [N m]; a
- *  spatial body a force x, y, z in ground axes and a moment x, y, z in body axes; both about the
- *  centre of mass. */
+/** A user force: a generalized force on the listed bodies, given by functions of yours. In the
+ *  comments of the fields, nv is the total number of velocities of the listed bodies. For a planar
+ *  body, the generalized force consists of a force x, y [N] and a moment [N m]. For a spatial body,
+ *  it consists of a force x, y, z in ground axes and a moment x, y, z in body axes. The force acts
+ *  at the centre of mass, and the moment is about the centre of mass. */
 typedef struct baum_user_force_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -417,24 +454,27 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 
 /* ---- springs of joints ----------------------------------------------------------------------- */
 
-/** The law of a spring: tension or torque, and its derivatives.
- *  @param      length  [m] distance of the points; of a torsion spring [rad] angle_b - angle_a;
- *                      of a joint spring the coordinate
+/** The law of a spring: computes the tension or the torque of the spring, and the derivatives of
+ *  this value.
+ *  @param      length  distance of the two points [m]; for a torsion spring the angle angle_b -
+ *                      angle_a [rad]; for a joint spring the coordinate of the joint
  *  @param      rate    [m/s or rad/s] time derivative of length
- *  @param[out] out     (3) zeroed before the call. out[0]: tension [N] (positive pulls the points
- *                      together), restoring force [N] or torque [N m]; out[1]: its derivative with
- *                      respect to length [N/m or N m/rad]; out[2]: its derivative with respect to
- *                      rate [N s/m or N m s/rad]
+ *  @param[out] out     (3) set to zero before the call. out[0] is the tension [N], which pulls the
+ *                      points together if it is positive; for a torsion or joint spring it is the
+ *                      restoring force [N] or torque [N m]. out[1] is the derivative of out[0] with
+ *                      respect to length [N/m or N m/rad], and out[2] the derivative with respect
+ *                      to rate [N s/m or N m s/rad]
  *  @param      user    the definition's `user`
- *  @return  as baum_q_fn. The check of derivatives also calls it at configurations near those of
- *           the mechanism. */
+ *  @return  as baum_q_fn. When the library checks the derivatives, it also calls the law in
+ *           configurations that the motion does not reach. */
 typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
 
-/** A linear spring and damper in parallel on a coordinate of a joint, or a law of your own. It
- *  drives the coordinate towards free_value, by a force along the axis or a torque about it.
+/** A linear spring and damper in parallel, or a law of your own, that acts on a coordinate of a
+ *  joint. The spring pulls the coordinate towards free_value, with a force along the axis of the
+ *  joint or a torque about this axis.
  *
- *  In a run, angles of spatial joints count revolutions, so a spring winds up further with each
- *  revolution. Functions of a workspace use angles between -pi and pi. */
+ *  A run counts the revolutions of an angle of a spatial joint, so the spring winds up further with
+ *  each revolution. The functions of a workspace use angles between -pi and pi. */
 typedef struct baum_joint_spring_def {
   size_t struct_size;               /**< Set by the default. Do not write. */
   const char *name;                 /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -442,12 +482,14 @@ typedef struct baum_joint_spring_def {
   baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
   double stiffness;                 /**< [N m/rad or N/m] >= 0. Default: 0. */
   double damping;                   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
-  /** [rad or m] coordinate without force. Default: NaN, the value in the design configuration. */
+  /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
+   *  design configuration. */
   double free_value;
-  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
+  /** A law that replaces the three fields above; the spring then has no potential energy. Default:
+   *  NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
+  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
 } baum_joint_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -473,10 +515,10 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
 
 /* ---- inputs ---------------------------------------------------------------------------------- */
 
-/** Add an input: a number that acts on the motion from outside, such as the torque of a motor. An
- *  input multiplies the loads that name it (planar.h), and all force functions receive it. Runs and
- *  workspaces begin with the initial value and keep it until baum_simulation_set_input() or
- *  baum_workspace_set_input() changes it.
+/** Add an input. An input is a number that your program sets during a run, such as the torque of a
+ *  motor. A load whose definition names an input is multiplied by its value (planar.h), and all
+ *  force functions receive the values of all inputs. Runs and workspaces begin with the initial
+ *  value and keep it until baum_simulation_set_input() or baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
  *  @param[in]  name       label in messages. Copied. NULL: "input<k>".
  *  @param      initial    finite, in the unit of your choice
@@ -485,15 +527,15 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
 BAUM_API baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name,
                                               double initial, baum_input_id *id);
 
-/** Read an initial value.
+/** Read the initial value of an input.
  *  @param      mechanism  frozen or not
  *  @param      id         one of its inputs
- *  @param[out] initial    receives it
+ *  @param[out] initial    receives the initial value
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
                                               double *initial);
 
-/** Replace an initial value.
+/** Replace the initial value of an input.
  *  @param mechanism  not frozen
  *  @param id         one of its inputs
  *  @param initial    finite
@@ -507,25 +549,28 @@ BAUM_API int32_t baum_mechanism_input_count(const baum_mechanism *mechanism);
 /* ---- the mechanism --------------------------------------------------------------------------- */
 
 /** Create an empty mechanism with gravity (0, -9.81, 0) m/s^2.
- *  @param[out] out  receives it, NULL on failure; release it with baum_mechanism_destroy()
+ *  @param[out] out  receives the mechanism, NULL on failure; release it with
+ *                   baum_mechanism_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 
-/** Copy a mechanism. The copy is not frozen. Ids of the original are valid in the copy, and the
- *  other way round, until elements are added to either.
+/** Copy a mechanism. The copy is not frozen. Ids of the original are valid in the copy, and ids of
+ *  the copy in the original, until elements are added to one of the two.
  *
- *  Definitions are copied as they were given. Values that definitions leave to the design
- *  configuration therefore follow from the design configuration of the copy. These are the places
- *  of joints with `point`, and lengths, angles and offsets that were not given. To keep these
- *  values while you change the position or angle of a body, first give point_a, point_b, lengths,
- *  angles and offsets as numbers. Function pointers and `user` are shared.
+ *  Definitions are copied as they were given. A definition may leave some values to the design
+ *  configuration: the place of a joint that is given by `point`, and lengths, angles and offsets
+ *  that are not given. In the copy, such values follow from the design configuration of the copy.
+ *  If you want to change the position or the angle of a body in the copy and keep these values,
+ *  first give point_a, point_b, lengths, angles and offsets as numbers. The copy shares function
+ *  pointers and `user` with the original.
  *  @param      mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure; release it with
  *                         baum_mechanism_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism **out);
 
-/** Release a mechanism. Simulations and workspaces made from it keep it alive.
+/** Release a mechanism. If simulations, workspaces or studies of the mechanism still exist, its
+ *  memory is freed when the last of them is released.
  *  @param mechanism  may be NULL */
 BAUM_API void baum_mechanism_destroy(baum_mechanism *mechanism);
 
@@ -545,21 +590,22 @@ BAUM_API baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism,
 
 /** Set the characteristic length. Tolerances and errors of positions are relative to it.
  *  @param mechanism  not frozen
- *  @param length     [m] > 0. Default of a mechanism: the size of the design configuration, found
- *                    when it is frozen.
+ *  @param length     [m] > 0. Default of a mechanism: the size of its design configuration, which
+ *                    is determined when the mechanism is frozen.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism,
                                                               double length);
 
 /** Read the characteristic length.
  *  @param      mechanism  frozen or not
- *  @param[out] length     [m]; NaN if it was not set and the mechanism is not frozen
+ *  @param[out] length     [m]; NaN if no length was set and the mechanism is not frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_mechanism_get_characteristic_length(const baum_mechanism *mechanism,
                                                               double *length);
 
-/** Check everything and make the mechanism constant. A second call does nothing.
- *  @param mechanism  with at least one body; not frozen on failure
+/** Freeze a mechanism: check all its definitions, and make it constant, so that it can be
+ *  simulated. If the mechanism is frozen already, the call does nothing.
+ *  @param mechanism  a mechanism with at least one body; it is not frozen if the call fails
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (no bodies), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_freeze(baum_mechanism *mechanism);
 
@@ -582,10 +628,11 @@ BAUM_API baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32
 BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
                                          int32_t *first, int32_t *count);
 
-/** Find a body in q and v.
+/** Find the coordinates of a body in q and v.
  *  @param      mechanism        frozen
  *  @param      body             one of its bodies
- *  @param[out] first_q,first_v  [-] first index in q and in v. Each may be NULL.
+ *  @param[out] first_q,first_v  [-] index of the first coordinate of the body in q and in v. Each
+ *                               may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
                                             int32_t *first_q, int32_t *first_v);
@@ -593,34 +640,36 @@ BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, bau
 /** Name of a body.
  *  @param mechanism  frozen or not
  *  @param body       one of its bodies
- *  @return  text owned by the mechanism; NULL for other ids */
+ *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Name of a joint.
  *  @param mechanism  frozen or not
  *  @param joint      one of its joints
- *  @return  text owned by the mechanism; NULL for other ids */
+ *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
                                                baum_joint_id joint);
 
 /** Name of an input.
  *  @param mechanism  frozen or not
  *  @param input      one of its inputs
- *  @return  text owned by the mechanism; NULL for other ids */
+ *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
                                                baum_input_id input);
 
 /** How a mechanism can move from its assembled initial configuration. */
 typedef struct baum_mobility {
   size_t struct_size; /**< Set by baum_mechanism_mobility(). */
-  /** [-] nv - rank of J at nearby configurations; -1: cannot be assembled. */
+  /** [-] nv minus the rank of J at nearby configurations; -1 if the mechanism cannot be
+   *  assembled. */
   int32_t degrees_of_freedom;
-  /** [-] rows that depend on others at every nearby configuration. */
+  /** [-] rows that depend on other rows at every nearby configuration. */
   int32_t redundant_rows;
-  int32_t conflicting_rows; /**< [-] rows that contradict the others. */
+  int32_t conflicting_rows; /**< [-] rows that contradict the other rows. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
-  /** The initial configuration is singular: J has a lower rank there than nearby. Also true within
-   *  1e-5 of such a configuration, relative to the scales. */
+  /** True if the initial configuration is singular, which means that J has a lower rank there than
+   *  at nearby configurations. Also true if the initial configuration is within 1e-5 of a singular
+   *  one, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
@@ -637,8 +686,9 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** What an evaluation of the accelerations costs in a run, and which work it skips. The counts
- *  follow from the structure; user functions are not counted. */
+/** What an evaluation of the accelerations costs in a run, and which work it skips because the
+ *  mechanism does not need it. The counts follow from the structure of the mechanism. They do not
+ *  include the cost of user functions. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] bodies without ground. */
@@ -646,12 +696,13 @@ typedef struct baum_report {
   int32_t forces;     /**< [-] forces without gravity. */
   int32_t velocities; /**< [-] nv. */
   int32_t rows;       /**< [-] nc. */
-  /** [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
+  /** [-] nv minus the rank of J; -1 if it is not known, see baum_mechanism_mobility(). */
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
   int32_t constant_rows;  /**< [-] rows that do not depend on time. */
   int32_t islands;        /**< [-] groups of bodies connected by joints, without fixed bodies. */
-  /** [-] bodies welded to ground; solved for only if multipliers are requested. */
+  /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
+   *  requested. */
   int32_t fixed_bodies;
   bool constant_mass;     /**< All masses are constant, so they are inverted only once. */
   bool constant_force;    /**< All forces are constant. */
@@ -666,8 +717,8 @@ typedef struct baum_report {
   char text[2048];
 } baum_report;
 
-/** Report what an evaluation costs, in the assembled initial configuration at t = 0 and with the
- *  solver that a run chooses by default.
+/** Report what an evaluation costs. The report is valid for the assembled initial configuration at
+ *  t = 0 and for the solver that a run chooses by default.
  *  @param      mechanism    if it is not frozen, a frozen copy is examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
@@ -675,15 +726,17 @@ typedef struct baum_report {
 BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                            size_t caller_size);
 
-/** Compare the derivatives that user functions return (jacobian, nu, gamma, force_q, force_v, and
- *  those of laws and curves) with finite differences. Creating a simulation does this by default.
+/** Compare the derivatives that user functions return with finite differences. These derivatives
+ *  are jacobian, nu, gamma, force_q, force_v, and the derivatives of laws and curves. By default,
+ *  baum_simulation_create() makes this check, too.
  *
- *  The check runs in the design configuration at t = 0 and in three configurations near it at t =
- *  0, 0.37 and 1.3. An entry is wrong if its error exceeds 1e-6 of its own size plus 1e-9 of the
- *  size of its row. mass() must be symmetric, without negative numbers on its diagonal in the
- *  design configuration, and constant if constant_mass says so. The check accepts kinks, and skips
- *  configurations and times at which a function fails. If a function fails in all configurations,
- *  the check returns that failure, except for laws of drivers.
+ *  The check evaluates the functions in the design configuration at t = 0, and in three
+ *  configurations near it at t = 0, 0.37 and 1.3. It rejects an entry of a derivative if its error
+ *  exceeds 1e-6 of the entry plus 1e-9 of the size of its row. It also checks mass(): the matrix
+ *  must be symmetric, its diagonal must not contain negative numbers in the design configuration,
+ *  and it must be constant if constant_mass is true. Kinks of a function are allowed. The check
+ *  skips configurations and times at which a function fails. If a function fails in all
+ *  configurations, the check returns this failure; laws of drivers are an exception.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

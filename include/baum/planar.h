@@ -2,21 +2,24 @@
 /** @file
  *  Planar bodies, joints and forces. More joints are in planar_joints.h.
  *
- *  Coordinates: a planar body has three (x, y, angle), a particle two (x, y); velocities likewise.
- *  Positions are of the centre of mass in ground axes. Angles are counter-clockwise and continuous
- *  over revolutions.
+ *  Coordinates: a planar body has three coordinates (x, y, angle), and a particle has two (x, y).
+ *  Their velocities are the time derivatives of these coordinates. x and y are those of the centre
+ *  of mass in ground axes. Angles are counter-clockwise; they grow continuously over several
+ *  revolutions.
  *
- *  Points: give joints and springs either `point` or both `point_a` and `point_b`; NaN means not
- *  given. `point` is one point in ground axes that both bodies share in the design configuration.
- *  `point_a` and `point_b` are in the axes of their bodies, for ground in ground axes. On a
- *  particle the point is the particle itself. Springs and distance joints require point_a and
- *  point_b, because their length would be 0 with `point`.
+ *  Points: give a joint or a spring either `point`, or both `point_a` and `point_b`. NaN means that
+ *  a point is not given. `point` is a single point in ground axes, which both bodies share in the
+ *  design configuration. `point_a` is a point of body_a in the axes of body_a, and `point_b` a
+ *  point of body_b in the axes of body_b. Points of ground are in ground axes. The point of a
+ *  particle is the particle itself. Springs and distance joints require point_a and point_b,
+ *  because with `point` their length would be 0.
  *
- *  Design configuration: the positions and angles of the definitions. Assembly takes them as its
- *  initial guess.
+ *  Design configuration: the positions and angles that the definitions of the bodies give. Assembly
+ *  starts from it.
  *
- *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b. The reaction does not include the effort of a driver of the joint. */
+ *  Reaction of a joint: the force [N] and the moment [N m] that the joint exerts on body_b, in
+ *  ground axes. The moment is about the joint's point on body_b. If a driver acts on the joint, the
+ *  reaction does not include the force or torque of the driver. */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H
 
@@ -28,16 +31,17 @@ extern "C" {
 
 /* ---- rigid body in the plane ----------------------------------------------------------------- */
 
-/** A rigid body. Its body axes have their origin at the centre of mass. */
+/** A rigid body in the plane. The origin of its body axes is the centre of mass. */
 typedef struct baum_planar_body_def {
-  size_t struct_size;      /**< Set by the default. Do not write. */
-  const char *name;        /**< Label in messages. Copied. Default: NULL, "body<k>". */
-  double mass;             /**< [kg] > 0. Default: 1. */
-  double inertia;          /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
-  double position[2];      /**< [m] centre of mass, design configuration. Default: (0, 0). */
-  double angle;            /**< [rad] body axes, design configuration. Default: 0. */
-  double velocity[2];      /**< [m/s] initial, of the centre of mass. Default: NaN, free. */
-  double angular_velocity; /**< [rad/s] initial. Default: NaN, free. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
+  double mass;        /**< [kg] > 0. Default: 1. */
+  double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
+  /** [m] of the centre of mass in the design configuration. Default: (0, 0). */
+  double position[2];
+  double angle;            /**< [rad] of the body axes in the design configuration. Default: 0. */
+  double velocity[2];      /**< [m/s] of the centre of mass at the start. Default: NaN, free. */
+  double angular_velocity; /**< [rad/s] at the start. Default: NaN, free. */
   bool held;               /**< Assembly keeps the design position and angle. Default: false. */
 } baum_planar_body_def;
 
@@ -64,13 +68,13 @@ BAUM_API baum_status baum_mechanism_set_planar_body(baum_mechanism *mechanism, b
 
 /* ---- particle in the plane ------------------------------------------------------------------- */
 
-/** A point mass. It has no angle; joints that need one refuse it. */
+/** A point mass in the plane. It has no angle, so joints that need an angle refuse it. */
 typedef struct baum_planar_particle_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double position[2]; /**< [m] design configuration. Default: (0, 0). */
-  double velocity[2]; /**< [m/s] initial. Default: NaN, free. */
+  double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
+  double velocity[2]; /**< [m/s] at the start. Default: NaN, free. */
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_planar_particle_def;
 
@@ -98,8 +102,8 @@ BAUM_API baum_status baum_mechanism_set_planar_particle(baum_mechanism *mechanis
 
 /* ---- revolute joint (pin) -------------------------------------------------------------------- */
 
-/** A pin (revolute joint): the points of both bodies coincide. Two rows [m]: x and y of body_a's
- *  point minus body_b's point. */
+/** A pin (revolute joint): the points of both bodies coincide. The joint has two rows [m]: x and y
+ *  of the vector from body_b's point to body_a's point. */
 typedef struct baum_planar_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -134,9 +138,10 @@ BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanis
 
 /* ---- translational joint (slider) ------------------------------------------------------------ */
 
-/** A slider (translational joint): body_b slides along an axis fixed in body_a without rotating
- *  relative to it. Two rows: distance of body_b's point from the axis through body_a's point [m],
- *  and angle_b - angle_a - angle [rad]. */
+/** A slider (translational joint): body_b slides along an axis that is fixed in body_a, and does
+ *  not rotate relative to body_a. The axis passes through body_a's point. The joint has two rows.
+ *  The first is the distance of body_b's point from the axis [m], and the second is angle_b -
+ *  angle_a - angle [rad]. */
 typedef struct baum_planar_translational_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -176,9 +181,10 @@ BAUM_API baum_status baum_mechanism_set_planar_translational(
 
 /* ---- distance joint (massless rod) ----------------------------------------------------------- */
 
-/** A massless rod between two points. One row [m]: (d.d - length^2) / (2 length), where d leads
- *  from body_a's point to body_b's point. To first order the row is the change of length; unlike
- *  the length it is smooth everywhere. */
+/** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
+ *  where d is the vector from body_a's point to body_b's point. For a small violation, the value of
+ *  the row is the change of the length of the rod. The row is a smooth function everywhere; the
+ *  length itself is not smooth where it is 0. */
 typedef struct baum_planar_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -214,8 +220,9 @@ BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanis
 
 /* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
-/** A weld (fixed joint): the points coincide and the relative angle is constant. Three rows [m],
- *  [m], [rad]. */
+/** A weld (fixed joint): the points of both bodies coincide, and the relative angle of the bodies
+ *  is constant. The joint has three rows: x and y as in a pin [m], and angle_b - angle_a - angle
+ *  [rad]. */
 typedef struct baum_planar_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -252,7 +259,7 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
 /* ---- spring-damper between two points -------------------------------------------------------- */
 
 /** A linear spring and damper in parallel between two points, or a law of your own. The force acts
- *  along the line through the points; it is zero when they coincide. */
+ *  along the line through the points. It is zero when the points coincide. */
 typedef struct baum_planar_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -263,12 +270,14 @@ typedef struct baum_planar_spring_def {
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
   double stiffness;  /**< [N/m] >= 0. Default: 0. */
   double damping;    /**< [N s/m] >= 0. Default: 0. */
-  /** [m] >= 0, length without force. Default: NaN, the value in the design configuration. */
+  /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
+   *  configuration. */
   double free_length;
-  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
+  /** A law that replaces the three fields above; the spring then has no potential energy. Default:
+   *  NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
+  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
 } baum_planar_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -294,8 +303,9 @@ BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism,
 
 /* ---- torsion spring-damper between two bodies ------------------------------------------------ */
 
-/** A linear torsion spring and damper in parallel on angle_b - angle_a, or a law of your own. The
- *  angle is continuous over revolutions. Both bodies must have an angle; ground has one. */
+/** A linear torsion spring and damper in parallel, or a law of your own, that acts on the relative
+ *  angle angle_b - angle_a. The relative angle grows continuously over several revolutions. Both
+ *  bodies must have an angle, which particles do not have. One of the bodies may be ground. */
 typedef struct baum_planar_torsion_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -303,12 +313,14 @@ typedef struct baum_planar_torsion_spring_def {
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
   double damping;      /**< [N m s/rad] >= 0. Default: 0. */
-  /** [rad] angle without torque. Default: NaN, the value in the design configuration. */
+  /** [rad] relative angle at which the spring exerts no torque. Default: NaN, the value in the
+   *  design configuration. */
   double free_angle;
-  /** Replaces the three fields above; the spring then has no potential energy. Default: NULL. */
+  /** A law that replaces the three fields above; the spring then has no potential energy. Default:
+   *  NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< law reads rate. RATTLE requires false. Default: true. */
+  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
 } baum_planar_torsion_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -335,10 +347,10 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body and a torque on the body, both constant or multiplied by an input.
- *  The point is fixed in the body. The direction of the force is fixed in ground axes or in the
- *  body. A load in ground axes with neither torque nor input has a potential; other loads have
- *  none. */
+/** A force at a point of a body, and a torque on the body. Force and torque are constant, or both
+ *  are multiplied by the value of an input. The point is fixed in the body. The force keeps its
+ *  direction in ground axes, or it rotates with the body. A load in ground axes that has neither a
+ *  torque nor an input has a potential energy; other loads have none. */
 typedef struct baum_planar_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -346,9 +358,9 @@ typedef struct baum_planar_load_def {
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */
   double force[2];    /**< [N] Default: (0, 0). */
   double torque;      /**< [N m] counter-clockwise. Default: 0. */
-  /** The force rotates with the body. Default: false, it is in ground axes. */
+  /** True if the force rotates with the body. Default: false, the force is in ground axes. */
   bool follows_body;
-  baum_input_id input; /**< Its value multiplies force and torque. Default: none. */
+  baum_input_id input; /**< An input whose value multiplies force and torque. Default: none. */
 } baum_planar_load_def;
 
 /** @copydoc baum_coordinates_def_init() */

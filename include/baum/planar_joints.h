@@ -14,10 +14,10 @@ extern "C" {
 
 /* ---- pin in a slot (point on a line) --------------------------------------------------------- */
 
-/** A pin of body_b in a straight slot of body_a; body_b may rotate about the pin. One row [m]:
- *  distance of body_b's point from the axis through body_a's point. The joint's coordinate is the
- *  displacement [m] of body_b's point from body_a's point along the axis. body_a must have an
- *  angle; body_b may be a particle. */
+/** A pin of body_b in a straight slot of body_a; body_b may rotate about the pin. The axis of the
+ *  slot passes through body_a's point. The joint has one row, the distance of body_b's point from
+ *  this axis [m]. The coordinate of the joint is the displacement from body_a's point to body_b's
+ *  point along the axis [m]. body_a must have an angle; body_b may be a particle. */
 typedef struct baum_planar_pin_in_slot_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -57,15 +57,16 @@ BAUM_API baum_status baum_mechanism_set_planar_pin_in_slot(baum_mechanism *mecha
 
 /* ---- rack and pinion ------------------------------------------------------------------------- */
 
-/** A pinion of body_b rolls on a rack of body_a without slipping. One row [m]: displacement -
- *  radius (angle_b - angle_a) - offset. The axis is the direction of the rack. The displacement is
- *  that of body_b's point, the centre of the pinion, from body_a's point along the axis.
+/** Rack and pinion: a pinion that is part of body_b rolls without slipping on a rack that is part
+ *  of body_a. The axis is the direction of the rack, and body_b's point is the centre of the
+ *  pinion. The joint has one row [m]: displacement - radius (angle_b - angle_a) - offset. Here
+ *  displacement is the distance from body_a's point to body_b's point along the axis.
  *
- *  The row enforces rolling only. Another joint, such as a pin in a slot, must keep the centre at
- *  its distance from the rack. A pinion with positive radius moves forward along the axis when it
- *  rotates counter-clockwise: its rack is on its left, looking along the axis. With a negative
- *  radius the rack is on its right, which is below for the axis (1, 0). Both bodies must have an
- *  angle. */
+ *  The row only enforces that the pinion rolls. Another joint, such as a pin in a slot, must keep
+ *  the centre of the pinion at a constant distance from the rack. A pinion with a positive radius
+ *  moves forward along the axis when it rotates counter-clockwise. Its rack is then to the left of
+ *  the pinion, seen in the direction of the axis. With a negative radius, the rack is to the right
+ *  of the pinion; for the axis (1, 0) this means below it. Both bodies must have an angle. */
 typedef struct baum_planar_rack_and_pinion_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -77,7 +78,8 @@ typedef struct baum_planar_rack_and_pinion_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
-  /** [m] radius of the pitch circle, not 0; its sign as described above. Default: 0, must be set.
+  /** [m] radius of the pitch circle, not 0. The comment of this struct explains its sign. Default:
+   *  0, must be set.
    */
   double radius;
   double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
@@ -107,28 +109,33 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
 
 /* ---- gear ------------------------------------------------------------------------------------ */
 
-/** Two wheels, body_a and body_b, roll on each other without slipping; a carrier bears both. One
- *  row [m]: radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) - offset, where angle_c is
- *  the angle of the carrier.
+/** A pair of gears: two wheels, body_a and body_b, roll on each other without slipping. A third
+ *  body, the carrier, carries both wheels. The joint has one row [m]: radius_a (angle_a - angle_c)
+ *  + radius_b (angle_b - angle_c) - offset, where angle_c is the angle of the carrier.
  *
- *  Two positive radii mean external teeth: the wheels rotate in opposite directions. One negative
- *  radius means that this wheel is a ring with internal teeth: both wheels rotate in the same
- *  direction. Only the ratio matters for the motion, so numbers of teeth may replace radii. Other
- *  joints, such as pins, must keep the wheels on the carrier. A planetary gear has one row between
- *  sun and planet and one between planet and ring, with the arm as carrier; a fixed ring is
- *  BAUM_GROUND. All bodies must have an angle.
+ *  If both radii are positive, both wheels have external teeth and rotate in opposite directions
+ *  relative to the carrier. If one radius is negative, this wheel is a ring with internal teeth,
+ *  and both wheels rotate in the same direction. The motion depends only on the ratio of the radii,
+ *  so you may give numbers of teeth instead of radii. Other joints, such as pins, must keep the
+ *  wheels on the carrier. A planetary gear consists of two of these joints, one between sun and
+ *  planet and one between planet and ring. The carrier of both is the arm. If the ring is fixed, it
+ *  is BAUM_GROUND. All bodies must have an angle.
  *
- *  Reaction: the generalized force -J^T lambda on the velocities of body_a, body_b and the carrier,
- *  without ground. Its force components are zero, because the row contains angles only. */
+ *  The reaction of a gear pair is the generalized force -J^T lambda that belongs to the velocities
+ *  of body_a, body_b and the carrier; ground is omitted. It contains only torques: its force
+ *  components are zero, because the row contains only angles. */
 typedef struct baum_planar_gear_def {
-  size_t struct_size;   /**< Set by the default. Do not write. */
-  const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a;  /**< Default: none, must be set. */
-  baum_body_id body_b;  /**< Default: none, must be set; must differ from body_a. */
-  baum_body_id carrier; /**< Neither body_a nor body_b. Default: BAUM_GROUND. */
-  /** [m] radius of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
+  /** The body that carries both wheels; neither body_a nor body_b. Default: BAUM_GROUND. */
+  baum_body_id carrier;
+  /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
+   *  set. */
   double radius_a;
-  /** [m] radius of the pitch circle, not 0; negative: internal teeth. Default: 0, must be set. */
+  /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
+   *  set. */
   double radius_b;
   double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
 } baum_planar_gear_def;
@@ -156,24 +163,27 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 
 /* ---- point on a curve (cam) ------------------------------------------------------------------ */
 
-/** A curve F(x, y) = 0 and the derivatives of F. The derivatives must be exact near the curve, not
- *  only on it. F should change by about 1 per metre across the curve: with |grad F| near 1 the row
- *  is to first order the distance from the curve, and tolerances bound this distance.
- *  @param[in]  xy    (2) [m] x and y from body_a's point, in body_a's axes
- *  @param[out] out   (6) F [m], its first derivatives F_x, F_y [-] and second derivatives F_xx,
- *                    F_xy, F_yy [1/m]; zeroed before the call
+/** The function of a curve F(x, y) = 0: computes F and its derivatives. The derivatives must be
+ *  exact near the curve, too, not only on it. Scale F so that |grad F| is about 1 on the curve.
+ *  Near the curve, F then is about the distance from the curve, and the tolerances of a run bound
+ *  this distance.
+ *  @param[in]  xy    (2) [m] x and y of a point, in the axes of body_a, with body_a's point as
+ *                    origin
+ *  @param[out] out   (6) F [m], its first derivatives F_x, F_y [-] and its second derivatives F_xx,
+ *                    F_xy, F_yy [1/m]; set to zero before the call
  *  @param      user  the definition's `user`
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
 
-/** A point of body_b stays on a curve fixed in body_a: a cam with a pointed follower, or a bead on
- *  a wire. One row [m]: F at body_b's point. For a roller, give the path of its centre. For a cam
- *  whose follower moves along the coordinate of a joint, use a coupling with a law (mechanism.h).
+/** A point of body_b stays on a curve that is fixed in body_a. Examples are a cam with a pointed
+ *  follower, and a bead on a wire. The joint has one row, the value of F at body_b's point [m]. If
+ *  the follower is a roller, give the curve on which the centre of the roller moves. If you know
+ *  the lift of a cam as a function of its angle, use a coupling with a law instead (mechanism.h).
  *
  *  If `point` is given, the origin of the curve is at this point in the design configuration.
  *  body_a must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares
- *  the derivatives with differences. Methods that need third derivatives take differences of the
- *  second. */
+ *  the derivatives of F with differences. Integrators that need third derivatives compute them by
+ *  differences of the second derivatives. */
 typedef struct baum_planar_curve_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -182,7 +192,7 @@ typedef struct baum_planar_curve_def {
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2];    /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2];    /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  baum_curve_fn *curve; /**< F. Default: NULL, must be set. */
+  baum_curve_fn *curve; /**< The function F. Default: NULL, must be set. */
   void *user;           /**< Passed to curve. Not owned. Default: NULL. */
 } baum_planar_curve_def;
 

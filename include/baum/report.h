@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Reports of a study: its entries, front, recommendations and reference, and the machine
- *  that ran it.
+ *  Reports of a study. A report lists the entries of the study, its Pareto front, its
+ *  recommendations and its reference, and describes the machine that ran the study.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
- *  Unknown values, such as figures of failed entries, are a dash in text and page, empty in CSV and
- *  null in JSON. Texts are UTF-8. Numbers have a decimal point in every locale. Writing a report
- *  does not change the study and is possible at any time. */
+ *  Values that are not known, such as the results of failed entries, appear as a dash in text and
+ *  page, as an empty field in CSV, and as null in JSON. Reports are in UTF-8. Numbers have a
+ *  decimal point, whatever the locale is. You can write a report at any time. Writing it does not
+ *  change the study. */
 #ifndef BAUM_REPORT_H
 #define BAUM_REPORT_H
 
@@ -22,23 +23,26 @@ extern "C" {
 /** The form of a report. */
 typedef enum baum_report_form {
   BAUM_REPORT_TEXT = 0, /**< Aligned columns for a screen. */
-  /** The entries only: a header line of keys, then one line for each entry (RFC 4180). */
+  /** Only the entries: one line with the names of the columns, then one line for each entry (RFC
+   *  4180). */
   BAUM_REPORT_CSV = 1,
-  /** Everything; "units" has the unit of every key. Keys are stable. */
+  /** The whole report. The member "units" states the unit of every key. Later versions keep the
+   *  keys. */
   BAUM_REPORT_JSON = 2,
   /** One HTML page with charts, a sortable table and a picture of the mechanism. The page loads no
    *  other files. Drawing the picture calls functions of the mechanism. */
   BAUM_REPORT_PAGE = 3
 } baum_report_form;
 
-/** Write a report into a file and wait until it is on the disk. A complete new file replaces an
- *  older one and keeps its mode; on failure the older one remains. While it is written, the new
- *  file has a temporary name in the same folder (.baum-*.part). Pipes, devices, symbolic links,
- *  files with several hard links and files of another owner cannot be replaced safely. They are
- *  written in place and may be incomplete after a failure.
+/** Write a report into a file and wait until the file is on the disk. If a file of this name
+ *  exists, the function first writes a new file under a temporary name in the same folder
+ *  (.baum-*.part). When the new file is complete, it replaces the older file and takes over its
+ *  permissions. If the function fails, the older file remains. Pipes, devices, symbolic links,
+ *  files with several hard links and files of another owner cannot be replaced safely. The function
+ *  writes to them directly, so they may be incomplete after a failure.
  *  @param     study  the study
  *  @param     form   the form
- *  @param[in] title  of text, JSON and page. NULL: "Study".
+ *  @param[in] title  title of a text, JSON or page. NULL: "Study".
  *  @param[in] path   of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message has the system's reason),
  *           BAUM_ERR_MEMORY */
@@ -48,7 +52,7 @@ BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form 
 /** Write a report into memory.
  *  @param      study     the study
  *  @param      form      the form
- *  @param[in]  title     of text, JSON and page. NULL: "Study".
+ *  @param[in]  title     title of a text, JSON or page. NULL: "Study".
  *  @param[out] text      (capacity) zero-terminated, cut if too long. NULL if capacity is 0.
  *  @param      capacity  [byte]
  *  @param[out] size      [byte] length of the whole report without the final zero. May be NULL.

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  One run of a frozen mechanism: formulation, integrator, motion and results.
+ *  Runs. A run (baum_simulation) computes one motion of a frozen mechanism. This header declares
+ *  the integrators, the options of a run, the functions that advance it, and its results.
  *
- *  Failure: a run that fails keeps its last good step; time, q and v can still be read.
+ *  Failure: a run that fails stays at the end of its last successful step. You can still read time,
+ *  q and v.
  *
- *  Threads: one simulation is used by one thread at a time, except baum_simulation_cancel().
- *  Simulations may share a mechanism.
+ *  Threads: only one thread at a time may use a simulation, except that any thread may call
+ *  baum_simulation_cancel(). Several simulations may share a mechanism.
  */
 #ifndef BAUM_SIMULATION_H
 #define BAUM_SIMULATION_H
@@ -21,18 +23,19 @@
 extern "C" {
 #endif
 
-/** One run. */
+/** A run of a mechanism. */
 typedef struct baum_simulation baum_simulation;
 
 /* ---- integrators ----------------------------------------------------------------------------- */
 
-/* After the integrator itself, each comment lists the formulations that it offers. The first one is
- * its default. The default rule for the gains of BAUMGARTE is in parentheses. */
+/* Each comment ends with the list of formulations that the integrator offers. The first formulation
+ * of the list is the default. If BAUMGARTE is in the list, the rule in parentheses chooses its
+ * gains by default. */
 
 /** @return explicit Euler, order 1, fixed step. BAUMGARTE (dead-beat), UNSTABILIZED, PROJECTION */
 BAUM_API const baum_integrator *baum_euler(void);
-/** @return semi-implicit (symplectic) Euler, order 1, fixed step; it updates the velocities first.
- *  Formulations as baum_euler() */
+/** @return semi-implicit (symplectic) Euler, order 1, fixed step. It updates the velocities first
+ *          and moves the positions with the new velocities. Formulations as baum_euler() */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
 /** @return  explicit midpoint rule, order 2, fixed step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED
  */
@@ -41,60 +44,66 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** @return classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2() */
 BAUM_API const baum_integrator *baum_rk4(void);
-/** For loose tolerances.
- *  @return  Dormand and Prince's pair of orders 5 and 4, explicit, with rtol or with a fixed step.
- *           Six evaluations per step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
+/** A good choice for loose tolerances.
+ *  @return  the embedded Runge-Kutta pair of Dormand and Prince, orders 5 and 4, explicit, with
+ *           rtol or with a fixed step. Six evaluations per step. PROJECTION, BAUMGARTE (auto),
+ *           UNSTABILIZED */
 BAUM_API const baum_integrator *baum_dp5(void);
-/** The first choice for non-stiff forces and rtol <= 1e-5.
- *  @return  DOP853, order 8 with estimates of orders 5 and 3 (Hairer, Norsett, Wanner 1993),
- *           explicit, with rtol or with a fixed step. Twelve evaluations per step, three more if
- *           the step is interpolated. Formulations as baum_dp5() */
+/** The first choice if the forces are not stiff and rtol is 1e-5 or less.
+ *  @return  DOP853 (Hairer, Norsett, Wanner 1993), a Runge-Kutta method of order 8 with error
+ *           estimates of orders 5 and 3, explicit, with rtol or with a fixed step. Twelve
+ *           evaluations per step, and three more if the step is interpolated. Formulations as
+ *           baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** Takes its first steps with a Runge-Kutta method: at the start, after
- *  baum_simulation_set_state(), _set_input() and _set_driver(), after a reversal of time and after
- *  a target off the grid.
+/** A method that uses past steps. Where it has no past steps, it takes its first steps with a
+ *  Runge-Kutta method. This is so at the start, after baum_simulation_set_state(),
+ *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
+ *  in time, and after a requested time that is not on the grid of steps.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
- *           BAUMGARTE (best damping), UNSTABILIZED; not PROJECTION, because its past steps cannot
- *           be projected */
+ *           BAUMGARTE (best damping), UNSTABILIZED. It does not offer PROJECTION, because past
+ *           steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
-/** @return three-step Adams-Bashforth method, order 3; otherwise as baum_ab2() */
+/** @return three-step Adams-Bashforth method, order 3. In all else it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab3(void);
-/** @return four-step Adams-Bashforth method, order 4; otherwise as baum_ab2() */
+/** @return four-step Adams-Bashforth method, order 4. In all else it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab4(void);
-/** For long runs without dissipation: the energy stays in a band of width O(h^2). Also for rigid
- *  bodies in space; the angular momentum of a free body is conserved to rounding. Refuses variable
- *  masses and forces that depend on velocities, such as dampers and gyroscopic moments of user
- *  coordinates. It checks this for user functions at a few states. Phi = 0 and Phi' = 0 hold to
- *  rounding after every step.
+/** For long runs without dissipation. The error of the energy stays within a band of width O(h^2).
+ *  The angular momentum of a free rigid body in space is conserved to rounding. After every step,
+ *  Phi = 0 and Phi' = 0 are satisfied to rounding. The method refuses mass matrices that vary, and
+ *  forces that depend on velocities, such as dampers and gyroscopic moments of user coordinates. To
+ *  find such user functions, a run calls them at a few states when it is created.
  *  @return  RATTLE, order 2, fixed step, symplectic. INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
-/** For stiff forces, and for comparison at index 3. Phi = 0 holds to rounding after every step,
- *  Phi' to second order.
+/** For stiff forces, and for comparisons of methods with index 3. After every step, Phi = 0 is
+ *  satisfied to rounding, and |Phi'| is of second order in the step.
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
  *           INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** Solves the implicit equations of a step by fixed-point iteration, but treats the stiff terms of
- *  the gains by Newton's method. Stiff forces therefore limit the steps, but high gains do not.
- *  CVODE projects only with BDF.
+/** This method solves the implicit equations of a step by fixed-point iteration, except the stiff
+ *  terms of the gains, for which it uses Newton's method. Stiff forces therefore limit its steps,
+ *  but large gains do not. CVODE projects only with BDF.
  *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
-/** For stiff forces. Newton iteration with the true sparse Jacobian, including the derivatives of
- *  all joints and forces. PROJECTION projects inside each step, before the error test.
+/** For stiff forces. This method solves the equations of a step by Newton's method, with a sparse
+ *  Jacobian that contains the derivatives of all joints and forces. PROJECTION projects inside each
+ *  step, before the error test.
  *  @return  SUNDIALS CVODE, BDF, rtol. PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** INDEX3 is offered for comparison only: its error is far above its tolerance.
+/** For stiff forces, and for comparisons. Use INDEX3 only to compare formulations: its error is far
+ *  above its tolerance.
  *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
  *           UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
 /** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
- *  every coordinate; other mechanisms are refused. It computes configurations to rounding at the
- *  requested times, by continuation along the branch of the initial configuration. It takes no
- *  formulation, gains, step, rtol or atol. If the mechanism locks or branches cross, the run stops
- *  with BAUM_ERR_SINGULAR; it never jumps to another branch.
+ *  every coordinate. Other mechanisms are refused. At each requested time, the run solves Phi(q, t)
+ *  = 0 to rounding. It follows the branch of solutions to which the initial configuration belongs,
+ *  and never jumps to another branch. If the mechanism locks, or if branches cross, the run stops
+ *  with BAUM_ERR_SINGULAR. The options formulation, gains, step, rtol and atol must not be given.
  *  @return  kinematics, without integration */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
-/** List the integrators, for bindings and tables. Linking this function links every backend.
+/** List all integrators, for bindings and tables. A program that calls this function is linked with
+ *  all integrators, including SUNDIALS.
  *  @param k  0, 1, ...
  *  @return  NULL past the end */
 BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
@@ -115,16 +124,18 @@ BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
  *  @return  false for NULL */
 BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
 
-/** Form of the equations of motion. docs/notation.md lists the equations (5) and (7). */
+/** Form of the equations of motion and of the constraints. docs/notation.md lists the equations (5)
+ *  and (7). */
 typedef enum baum_formulation {
   BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
-  /** (5): J a = gamma; the constraint violation drifts. */
+  /** (5), with J a = gamma. The constraint violation drifts. */
   BAUM_FORMULATION_UNSTABILIZED = 1,
-  BAUM_FORMULATION_BAUMGARTE = 2,  /**< (7): J a = gamma - 2 alpha Phi' - beta^2 Phi. */
-  BAUM_FORMULATION_PROJECTION = 3, /**< (5); q and v are projected after each step. */
-  BAUM_FORMULATION_INDEX2 = 4,     /**< J v = nu; Phi drifts slowly. */
-  BAUM_FORMULATION_GGL = 5,        /**< J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
-  BAUM_FORMULATION_INDEX3 = 6      /**< Phi = 0. */
+  BAUM_FORMULATION_BAUMGARTE = 2, /**< (7), with J a = gamma - 2 alpha Phi' - beta^2 Phi. */
+  /** (5), and q and v are projected onto the constraints after each step. */
+  BAUM_FORMULATION_PROJECTION = 3,
+  BAUM_FORMULATION_INDEX2 = 4, /**< J v = nu; Phi drifts slowly. */
+  BAUM_FORMULATION_GGL = 5,    /**< J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
+  BAUM_FORMULATION_INDEX3 = 6  /**< Phi = 0. */
 } baum_formulation;
 
 /** Name of a formulation.
@@ -141,35 +152,45 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 
 /** How a run begins from the design configuration. */
 typedef enum baum_start {
-  /** Assemble; refuse displacements above a quarter of the characteristic length, or 1 rad. If
-   *  drivers start away from the design configuration and the displacement is refused, first
-   *  assemble with the drivers in the design configuration, and then move them to their initial
-   *  values in small steps. */
+  /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
+   *  the characteristic length, or by more than 1 rad. An exception applies if the initial values
+   *  of drivers differ from the design configuration: before the run is refused, the mechanism is
+   *  assembled with the drivers as in the design configuration, and then the drivers are moved to
+   *  their initial values in small steps. */
   BAUM_START_ASSEMBLE = 0,
-  /** Refuse a configuration or velocities that violate the constraints. */
+  /** Refuse the run if the design configuration or the initial velocities violate the
+   *  constraints. */
   BAUM_START_EXACT = 1,
-  /** Accept the given configuration and velocities; free velocities are zero. Only bodies that are
-   *  welded to ground move, to the poses that the welds prescribe. */
+  /** Start from the design configuration and the initial velocities as they are. Free velocities
+   *  are zero. The only bodies that are moved are those welded to ground, because the welds
+   *  determine their poses. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
-/** Solver of the equations of motion (7). baum_simulation_explain() states which one is used, and
- *  why. Assembly and the multipliers of redundant rows use KLU and QR in any case. */
+/** Solver of the linear equations of motion (7). baum_simulation_explain() states which solver a
+ *  run uses, and why. The choice does not affect assembly and the multipliers of redundant rows,
+ *  which always use KLU and QR. */
 typedef enum baum_solver {
-  /** BLOCK if it suits the mechanism; KLU and QR where BLOCK is not accurate. */
+  /** BLOCK if it is suitable for the mechanism; KLU or QR in configurations where BLOCK is not
+   *  accurate, and for other mechanisms. */
   BAUM_SOLVER_AUTO = 0,
-  BAUM_SOLVER_KLU = 1, /**< Sparse LU of the whole system, refactored on a fixed pattern. */
-  /** Sparse rank-revealing QR; slow. For comparison and singular configurations. */
+  /** Sparse LU factorization of the whole system. It keeps its pivot order as long as the pivots
+   *  are large enough. */
+  BAUM_SOLVER_KLU = 1,
+  /** Sparse rank-revealing QR factorization. It is slow; use it for comparisons and for singular
+   *  configurations. */
   BAUM_SOLVER_QR = 2,
-  /** Schur complement in blocks of two rows, without a fallback. It is refused if a body has more
-   *  than about 50 joints, if the joints form a dense network, or if the mass matrix is not
-   *  positive definite. Fails with BAUM_ERR_SINGULAR close to singular configurations. */
+  /** Schur complement in blocks of two rows. No other solver takes over where this one is not
+   *  accurate: close to singular configurations the run fails with BAUM_ERR_SINGULAR. The solver is
+   *  refused if a body has more than about 50 joints, if the joints form a dense network, or if the
+   *  mass matrix is not positive definite. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
-/** Called every progress_interval while a call advances a run. The first interval begins with that
- *  call. The function may read the run, also with baum_simulation_get(). Inside it, functions that
- *  change, advance or save the run fail (BAUM_ERR_STATE), and destroying the run does nothing.
+/** A progress function. While a call advances a run, it calls this function repeatedly, at
+ *  intervals of progress_interval. The first interval begins when the call begins. The function may
+ *  read the run, also with baum_simulation_get(). Inside the function, calls that change, advance
+ *  or save the run fail with BAUM_ERR_STATE, and baum_simulation_destroy() does nothing.
  *  @param simulation  the run
  *  @param t           [s] present time
  *  @param user        the option `user`
@@ -178,20 +199,22 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-/** How to run. Variable-step integrators may step over a force or a law that begins late or acts
- *  briefly; set max_step or break times (breaks.h) in this case. */
+/** The options of a run. A variable-step integrator may step over a force or a law that begins late
+ *  or acts only briefly, and thus not notice it. In this case, set max_step or break times
+ *  (breaks.h). */
 typedef struct baum_simulation_options {
   size_t struct_size;                /**< Set by the default. Do not write. */
   const baum_integrator *integrator; /**< Default: NULL, must be set. */
   baum_formulation formulation;      /**< Default: BAUM_FORMULATION_DEFAULT. */
-  baum_gains gains;                  /**< Only for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
+  baum_gains gains;                  /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Accept gains that are known to be unstable. Default: false. */
   double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
-  /** [-] > 0, < 1, tolerance of the local error relative to the scales of q and v. cvode_bdf uses
-   *  1/6.9 and ida 1/3 of rtol and atol, but not less than 1e-13, so that all methods are about
-   *  equally accurate at the same rtol. Default: NaN, not given. */
+  /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v. cvode_bdf
+   *  divides rtol and atol by 6.9, and ida divides them by 3, but not below 1e-13. With these
+   *  factors all methods are about equally accurate at the same rtol. Default: NaN, not given. */
   double rtol;
-  /** [unit of the coordinate] >= 0, added to rtol times the scale. Default: NaN, none. */
+  /** [unit of the coordinate] >= 0, absolute tolerance of the local error, which is added to rtol
+   *  times the scale. Default: NaN, none. */
   double atol;
   /** [s] > 0, longest step of a variable-step integrator. Default: NaN, none. */
   double max_step;
@@ -199,33 +222,37 @@ typedef struct baum_simulation_options {
   baum_start start;       /**< Default: BAUM_START_ASSEMBLE. */
   baum_solver solver;     /**< Default: BAUM_SOLVER_AUTO. */
   bool check_derivatives; /**< See baum_mechanism_check_derivatives(). Default: true. */
-  /** [-] > 0, most steps of a call; a call that needs more fails. Default: 1000000000. */
+  /** [-] > 0, largest number of steps of a call. A call that needs more steps fails. Default:
+   *  1000000000. */
   int64_t max_steps;
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
   void *user;                 /**< Passed to progress, not owned. Default: NULL. */
-  /** [-] > 0, finite, factor on rtol and atol for positions; refused with a fixed step. Default: 1.
+  /** [-] > 0, finite; rtol and atol are multiplied by this factor for positions. Refused with a
+   *  fixed step. Default: 1.
    */
   double tolerance_q;
   double tolerance_v; /**< [-] > 0, finite, the same for velocities. Default: 1. */
-  /** [-] > 0, factor on rtol for multipliers; finite only for IDA with BAUMGARTE or UNSTABILIZED.
-   *  Row i has the tolerance tolerance_lambda rtol E / n_i, where n_i is the norm of row i of J
-   *  after each column j has been multiplied by the scale s_j of its coordinate. E is the largest
-   *  present |lambda_k| n_k, or the largest M_jj s_j^2 r^2 if that is larger, where r [1/s] is the
-   *  rate that baum_simulation_explain() states with the tolerances. Default: infinity, multipliers
-   *  are not tested. */
+  /** [-] > 0; rtol is multiplied by this factor for multipliers. It may be finite only for IDA with
+   *  BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is tolerance_lambda rtol E
+   *  / n_i. Here n_i is the norm of row i of J, with each column j multiplied by the scale s_j of
+   *  its coordinate. E is the larger of two numbers: the largest present |lambda_k| n_k, and the
+   *  largest M_jj s_j^2 r^2. r [1/s] is the rate of the motion, which baum_simulation_explain()
+   *  states with the tolerances. Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
-  /** Record the works of baum_simulation_energy_account(). Not for kinematics. Default: false. */
+  /** Keep the energy account of baum_simulation_energy_account(). Kinematics refuses this option.
+   *  Default: false. */
   bool energy_account;
-  /** [-] (row_gain_count) > 0, factor f_i for each row, whose gains are alpha f_i and beta f_i.
-   *  Copied. Default: NULL, all 1. */
+  /** [-] (row_gain_count) > 0, a factor f_i for each row i. The gains of row i are then alpha f_i
+   *  and beta f_i. Copied. Default: NULL, all 1. */
   const double *row_gains;
   int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
-  /** Estimate the error of the motion from the start by a second integration, and warn if it is
-   *  large; see counters.error_estimate. The second integration is rk8 at rtol 1e-8 for a run with
-   *  a fixed step, and the same method at 0.03 rtol for a run with variable steps; it at least
-   *  doubles the cost. Without this option, a fixed-step run starts such an integration only when
-   *  the sum of its local errors is large enough to matter. Default: false. */
+  /** Estimate the error of the motion by a second integration, from the start on, and warn if the
+   *  error is large; see counters.error_estimate. If the run has a fixed step, the second
+   *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
+   *  same method at 0.03 rtol. The cost of the run at least doubles. Without this option, a
+   *  fixed-step run starts a second integration only if the sum of its local errors becomes large
+   *  enough to matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 
@@ -243,17 +270,19 @@ static inline baum_simulation_options baum_simulation_options_default(void)
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
-/** Create a run: assemble, choose and check gains, set up the integrator.
- *  @param      mechanism  frozen; the simulation keeps it alive
+/** Create a run. This function assembles the mechanism, chooses and checks the gains, and prepares
+ *  the integrator.
+ *  @param      mechanism  frozen; it stays in memory as long as the simulation exists
  *  @param[in]  options    copied
  *  @param[out] out        receives the run, NULL on failure; release it with
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_UNSUPPORTED (the integrator does not offer the formulation, has no gains by
- *           this rule, or is not in this build; kinematics for a mechanism with degrees of freedom
- *           or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle the mechanism),
- *           BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
- *           BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR */
+ *           this rule, or is not in this build; kinematics was requested for a mechanism with
+ *           degrees of freedom or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle
+ *           the mechanism), BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE,
+ *           BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE,
+ *           BAUM_ERR_INTEGRATOR */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
                                             const baum_simulation_options *options,
                                             baum_simulation **out);
@@ -261,71 +290,84 @@ BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
 /** Release a run. @param simulation  may be NULL */
 BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
 
-/** Advance to time t, forward or backward. If t is the present time, nothing happens. A fixed-step
- *  method takes whole steps from the present time; if t is off its grid, one shorter step follows,
- *  which is counted and starts a new grid. A variable-step method steps past t and interpolates, so
- *  that targets do not alter its steps.
+/** Advance the run to time t, forward or backward. If t is the present time, nothing happens. A
+ *  fixed-step method takes whole steps from the present time. If t is not on this grid of steps, a
+ *  shorter last step follows (counters.short_steps counts it), and a new grid begins at t. A
+ *  variable-step method steps past t and interpolates its last step, so the times that you request
+ *  do not alter its steps.
  *  @param simulation  the run
  *  @param t           [s] finite
- *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
- *           BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps is reached, or 10000 variable steps
- *           in a row were shorter than 1e-9 / r on average, where r [1/s] is the rate of the
+ *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_STOP_TIME,
+ *           BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also if max_steps is reached, or if the mean of 10000
+ *           successive variable steps is less than 1e-9 / r, where r [1/s] is the rate of the
  *           motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
  *           BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break),
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
-/** Take whole steps forward, up to the end of the last one.
+/** Take a number of whole steps forward in time.
  *  @param simulation  the run
  *  @param count       [-] > 0
  *  @return  as baum_simulation_advance_to() */
 BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t count);
 
-/** Ask a run to stop after its present step; the next call continues. If no call is advancing the
- *  run, the next call stops at once and the one after continues. May be called from any thread or
- *  signal handler.
+/** Ask a run to stop after its present step. The call that advances the run then returns
+ *  BAUM_STOP_CANCELLED, and the next call continues the run. If no call is advancing the run now,
+ *  the next one stops at once, and the one after it continues the run. This function may be called
+ *  from any thread and from signal handlers.
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
-/** Change the option progress_interval. The progress function may call this, too, for example to be
- *  called after every step from now on.
+/** Change the option progress_interval. The progress function may call this function, too: with an
+ *  interval of 0 it is called after every step from then on.
  *  @param simulation  the run
  *  @param interval    [s] of wall time, >= 0, finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
 
-/** Replace time and state; multistep methods restart. If the state violates the constraints no more
- *  than the run already does, it is taken as it is; otherwise the option `start` decides what
- *  happens.
+/** Limit the wall time of calls that advance the run. A call that takes longer returns
+ *  BAUM_STOP_TIME after the step that it is taking; it takes at least one step. The next call
+ *  continues. The motion and the monitors do not depend on such stops.
+ *  @param simulation  the run
+ *  @param limit       [s] of wall time, > 0; INFINITY, as at the start of a run: none
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
+
+/** Replace the time and the state of a run. Multistep methods restart. If the new state does not
+ *  violate the constraints more than the run already does, it is used as it is. Otherwise the
+ *  option `start` decides whether it is assembled, refused or used as it is.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
- *  @param[in] v           (nv) finite, or NaN where free if `start` is BAUM_START_ASSEMBLE
+ *  @param[in] v           (nv) finite; if `start` is BAUM_START_ASSEMBLE, NaN marks velocities that
+ *                         assembly determines
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR,
  *           BAUM_ERR_CONVERGENCE (IDA), BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
  *           BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
 
-/** Continue from the present state of another run, even one that has failed. Time, state, inputs
- *  and laws of drivers come from that run; options, counters and warnings are those of this run.
- *  Another integrator, formulation, tolerance or solver can thus take over from the last good step.
- *  Unless the option `start` is BAUM_START_AS_GIVEN, q and v change by the least amount that
- *  fulfils the constraints.
+/** Continue with the motion of another run. The present run takes over the time, state, inputs and
+ *  laws of drivers of the other run, and keeps its own options, counters and warnings. A run with
+ *  another integrator, formulation, tolerance or solver can thus continue where the other run has
+ *  failed. q and v are changed by the least amount that satisfies the constraints, unless the
+ *  option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
- *  @param from        of the same mechanism, or of one with the same elements and numbers
+ *  @param from        the other run. Its mechanism must be the same, or one with the same elements
+ *                     and numbers
  *  @return  as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism,
  *           BAUM_ERR_CONVERGENCE also if q and v cannot be moved onto the constraints */
 BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
                                               const baum_simulation *from);
 
-/** Change an input from the present time on. This ends a schedule of the input. The value holds
- *  until it is changed again, also across baum_simulation_set_state(). Setting the present value
- *  does not alter the motion.
+/** Change an input from the present time on. If the input has a schedule, this call ends the
+ *  schedule. The input keeps the value until it is changed again; baum_simulation_set_state() does
+ *  not change it. If the input already has this value, the motion does not change.
  *
- *  Variable-step methods restart with small steps (counters.restarts). For control loops use a
- *  fixed step; for changes known in advance use baum_simulation_schedule_input().
+ *  Variable-step methods restart with small steps (counters.restarts counts this). For control
+ *  loops, use a fixed step. If you know the changes in advance, use
+ *  baum_simulation_schedule_input().
  *  @param simulation  unchanged on failure
  *  @param input       one of the mechanism
  *  @param value       finite
@@ -337,20 +379,28 @@ BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum
 /** Read an input.
  *  @param simulation  may be NULL
  *  @param input       one of the mechanism
- *  @return  its present value; NaN for NULL and other ids */
+ *  @return  present value of the input; NaN for NULL and for ids that are not inputs of the
+ *           mechanism */
 BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
 
 /** Replace the law of a driver in this run. From the present time t0 on, the prescribed coordinate
- *  is s + ds (t - t0) + dds (t - t0)^2 / 2, until it is set again. Variable-step methods restart
- *  (counters.restarts).
+ *  is s + ds (t - t0) + dds (t - t0)^2 / 2, until the next call for this driver. Variable-step
+ *  methods restart (counters.restarts counts this).
  *
- *  The state does not change. If s or ds differ from the present coordinate and velocity, the
- *  difference is a constraint violation, and the formulation decides what happens. With PROJECTION
- *  the state jumps at the end of the next step, with GGL and INDEX3 within it. INDEX2 corrects ds
- *  but keeps the difference in s. With BAUMGARTE the difference decays at the rate of the gains;
- *  after a jump in s, gains of 1/h cause velocities of about s/h. UNSTABILIZED keeps the
- *  difference. Kinematics takes the nearest configuration on its branch and fails if none is near.
- *  To avoid jumps, start s at the present coordinate, and change only dds, or ds.
+ *  The call itself does not change the state. If s differs from the present coordinate, or ds from
+ *  its present velocity, the difference is a constraint violation. The formulation determines what
+ *  happens to it:
+ *  - With PROJECTION the state jumps at the end of the next step, and with GGL and INDEX3 during
+ *    the next step.
+ *  - With INDEX2 the velocity jumps, but the difference in s remains.
+ *  - With BAUMGARTE the gains let the difference decay. If s jumps and the gains are about 1/h,
+ *    this causes velocities of about s/h.
+ *  - With UNSTABILIZED the difference remains.
+ *  - Kinematics moves to the nearest configuration on its branch, and fails if there is none
+ *    nearby.
+ *
+ *  To avoid a jump of the position, let s be the present coordinate. To avoid a jump of the
+ *  velocity, too, let ds be its present velocity, and change only dds.
  *  @param simulation  unchanged on failure
  *  @param driver      one of the mechanism
  *  @param s           [rad or m] finite
@@ -364,42 +414,45 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 
 /* ---- save and restore ------------------------------------------------------------------------ */
 
-/** Save a run into memory: time, q, v, grid of the steps, gains in use, inputs and schedules, laws
- *  of drivers, counters, warnings and energy account.
+/** Save a run into memory. The saved run contains time, q, v, the grid of steps, the gains in use,
+ *  inputs and their schedules, laws of drivers, counters, warnings and the energy account.
  *
- *  Integrator history and pivots are not saved. Saving discards them just as restoring does, so
- *  both runs continue identically, bit for bit. Multistep and variable-step methods therefore
- *  restart here (counters.restarts), and KLU chooses new pivots, which may allocate in the next
- *  step. One-step methods with a fixed step lose nothing; with the block solver, the run continues
- *  as if it had not been saved. Saving allocates nothing.
+ *  Two things are not saved: the past steps that an integrator remembers, and the pivot order of
+ *  KLU. Saving discards both, just as restoring does, so that the run and its restored copy
+ *  continue identically, bit for bit. Multistep and variable-step methods therefore restart when a
+ *  run is saved (counters.restarts counts this). KLU chooses new pivots in the next step, which may
+ *  allocate memory. One-step methods with a fixed step do not remember past steps; with the block
+ *  solver, such a run continues as if it had not been saved. Saving itself allocates no memory.
  *
  *  The buffer contains no pointers. You may copy it, keep it in a file and restore it in another
- *  process. It contains a format version, its size, a checksum, and fingerprints of the mechanism
- *  and the options. Libraries with another format version refuse it.
+ *  process. It also contains a format version, its size, a checksum, and fingerprints of the
+ *  mechanism and of the options. A library with another format version refuses the buffer.
  *  @param      simulation  the run
- *  @param[out] buffer      (capacity) of any alignment. NULL: only size is written, and the run
- *                          does not change.
- *  @param      capacity    [byte] at least the size that a call with NULL writes. This size is
+ *  @param[out] buffer      (capacity) of any alignment. If it is NULL, the function writes only
+ *                          size, and does not change the run.
+ *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that each time of a schedule adds 32
  *                          bytes.
- *  @param[out] size        [byte] number of bytes written; with NULL the largest number needed
+ *  @param[out] size        [byte] number of bytes written; if buffer is NULL, the number of bytes
+ *                          that are sufficient
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
 
-/** Restore a saved run: in the same run, or in a run of the same mechanism and options, also in
- *  another process. With the same library on the same kind of processor it continues bit for bit as
- *  the saved run does.
+/** Restore a saved run. You can restore it in the run that was saved, or in another run with the
+ *  same mechanism and options, which may be in another process. With the same library on the same
+ *  kind of processor, the restored run continues bit for bit as the saved run does.
  *
- *  The library checks that the mechanism has the same elements, order, bodies and numbers, and that
- *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account
- *  are the same. It cannot check user functions: they must be the same, and the state that they
- *  keep is not saved. Gains and redundant rows chosen at the start are those of the saved run.
- *  Restoring allocates memory only if drivers were set in the saved run, or if it has longer
- *  schedules or omits other redundant rows than this run.
+ *  The library checks that both mechanisms have the same elements in the same order, with the same
+ *  numbers, and that both runs have the same integrator, formulation, gains, row_gains, step,
+ *  tolerances, max_step, solver and energy_account. It cannot check user functions. They must be
+ *  the same, and if they keep a state of their own, this state is not saved. The gains and the
+ *  choice of redundant rows come from the saved run. Restoring allocates memory in three cases
+ *  only: drivers were set in the saved run, its schedules are longer than those of this run, or it
+ *  omits other redundant rows than this run.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
- *  @param     size        [byte] at least what baum_simulation_save() wrote
+ *  @param     size        [byte] at least the size that baum_simulation_save() wrote
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (truncated, damaged, not a saved run, or of
  *           another version, mechanism or options; the message says which), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer,
@@ -409,57 +462,64 @@ BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const 
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions.
  *  @param simulation  may be NULL
- *  @return  (nq) owned by the run, which changes them; NULL for NULL */
+ *  @return  (nq) owned by the run; its values change when the run advances. NULL for NULL */
 BAUM_API const double *baum_simulation_q(const baum_simulation *simulation);
 /** Present velocities.
  *  @param simulation  may be NULL
- *  @return  (nv) owned by the run, which changes them; NULL for NULL */
+ *  @return  (nv) owned by the run; its values change when the run advances. NULL for NULL */
 BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
 
-/** What a channel records. The number of columns is in parentheses. Units are m, rad, N, N m and s,
- *  or those of user coordinates and rows; a multiplier has J per unit of its row.
+/** What a channel records. The number of its columns is in parentheses. Units are m, rad, N, N m
+ *  and s. For user coordinates and user constraints, they follow from the units of these. The unit
+ *  of a multiplier is J per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of (5) at the present
- *  state, without stabilization terms. It is computed only if a channel needs it. */
+ *  state, which contains no stabilization terms. The run computes this solution only if a channel
+ *  needs it. */
 typedef enum baum_quantity {
   BAUM_Q = 1,        /**< Positions (nq). */
   BAUM_V = 2,        /**< Velocities (nv). */
   BAUM_A = 3,        /**< Accelerations (nv). */
-  BAUM_LAMBDA = 4,   /**< Multipliers of `joint`, or of all (nc). */
-  BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all (nc). */
-  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of `joint`, or of all (nc). */
+  BAUM_LAMBDA = 4,   /**< Multipliers of `joint`, or of all joints (nc). */
+  BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all joints (nc). */
+  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of `joint`, or of all joints (nc). */
   BAUM_ENERGY = 7,   /**< Kinetic and potential energy [J] (2). */
-  /** Planar body: x, y of `point`, angle (3). Spatial body: x, y, z of `point`, quaternion (7).
-   *  Other bodies: their q. */
+  /** Planar body: x and y of `point`, and the angle (3). Spatial body: x, y and z of `point`, and
+   *  the quaternion (7). Other bodies: their part of q. */
   BAUM_BODY_POSE = 8,
-  /** The velocities of BAUM_BODY_POSE. Spatial body: velocity of `point` and angular velocity, both
-   *  in ground axes (6). */
+  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of `point` and angular
+   *  velocity, both in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
-  /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. User constraints,
-   *  gears, couplings: -J^T lambda on the velocities of their bodies. */
+  /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. For user constraints,
+   *  gears and couplings: the generalized force -J^T lambda that belongs to the velocities of their
+   *  bodies. */
   BAUM_JOINT_REACTION = 10,
-  /** Coordinate of a joint that has one, and its time derivative, the joint velocity (2). */
+  /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
   BAUM_BODY_ACCELERATION = 12, /**< The derivatives of BAUM_BODY_VELOCITY. */
-  /** Force [N] or torque [N m] of the driver `joint` on the coordinate it prescribes (1). Times the
-   *  joint velocity, it is the power of the driver. */
+  /** Force [N] or torque [N m] that the driver `joint` exerts on the coordinate it prescribes (1).
+   *  The power of the driver is this force or torque times the joint velocity. */
   BAUM_DRIVE_EFFORT = 13,
-  /** As in baum_energy_account [J] (12): kinetic, potential, loads, springs, dampers, user_forces,
-   *  bodies, drivers, violation, projection, gains, residual. Requires the option energy_account.
+  /** The fields of baum_energy_account [J] (12): kinetic, potential, loads, springs, dampers,
+   *  user_forces, bodies, drivers, violation, projection, gains, residual. Requires the option
+   *  energy_account.
    */
   BAUM_ENERGY_ACCOUNT = 14
 } baum_quantity;
 
-/** What to record: a group of columns. All channels of an array have the same struct_size. */
+/** A channel: a group of columns that a run records. All channels of an array must have the same
+ *  struct_size. */
 typedef struct baum_channel {
   size_t struct_size;     /**< Set by the default. Do not write. */
   baum_quantity quantity; /**< What it records. Default: 0, must be set. */
-  baum_body_id body;      /**< For BAUM_BODY_*. Default: none. */
-  /** For JOINT_* and DRIVE_EFFORT; optional for LAMBDA, PHI and PHI_RATE. Default: none. */
+  baum_body_id body;      /**< For the quantities BAUM_BODY_*. Default: none. */
+  /** For the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for LAMBDA, PHI and PHI_RATE.
+   *  Default: none. */
   baum_joint_id joint;
-  /** [m] in body axes, for BAUM_BODY_*; z = 0 in the plane. Default: (0, 0, 0), the centre of mass.
+  /** [m] in body axes, for the quantities BAUM_BODY_*; z must be 0 for planar bodies. Default: (0,
+   *  0, 0), the centre of mass.
    */
   double point[3];
   /** [-] For BAUM_JOINT_COORDINATE. Default: BAUM_COORDINATE_FIRST. */
@@ -525,12 +585,13 @@ static inline baum_channel baum_channel_of_joint(baum_quantity quantity, baum_jo
 BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
                                      int32_t count);
 
-/** Determine which multipliers are unique at the present state. With redundant rows, joints can
- *  share forces in more than one way. BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then
- *  report the multipliers of least norm, with lambda_i multiplied by |row i of J M^-1/2|. They
+/** Determine which multipliers are unique at the present state. If there are redundant rows, the
+ *  joints can share the forces in more than one way, and some multipliers are not unique.
+ *  BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then report the multipliers of least
+ *  norm; in this norm, each lambda_i is multiplied by |row i of J M^-1/2|. These multipliers
  *  balance the forces to a relative 1e-9.
  *  @param      simulation  the run
- *  @param[out] unique      (nc) per row, true if its multiplier is unique
+ *  @param[out] unique      (nc) for each row, true if its multiplier is unique
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique);
@@ -546,9 +607,10 @@ BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulat
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
 
-/** Advance through times and record channels at each. A fixed-step method reaches times off its
- *  grid by a shorter step on a copy, so that sampling does not alter the motion. Afterwards the run
- *  is at the last time, as after baum_simulation_advance_to().
+/** Advance through given times and record channels at each of them. If a time is not on the grid of
+ *  a fixed-step method, a copy of the state takes a shorter step to this time, so that sampling
+ *  does not alter the motion. After the call the run is at the last time, as after
+ *  baum_simulation_advance_to().
  *  @param      simulation  the run
  *  @param[in]  times       (n) [s] monotone; the first may be the present time
  *  @param      n           [-] >= 0
@@ -562,18 +624,20 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
                                             int64_t n, const baum_channel *channels, int32_t count,
                                             double *rows, int64_t *done);
 
-/** What a run has cost and how well it kept the constraints since it was created. */
+/** What a run has cost since it was created, and how well it has satisfied the constraints. */
 typedef struct baum_counters {
   size_t struct_size; /**< Set by baum_simulation_counters(). */
   int64_t steps;      /**< [-] accepted. */
-  int64_t rejected;   /**< [-] steps that failed an error test or an iteration. */
-  /** [-] shorter steps of a fixed-step method to a requested time off its grid. */
+  /** [-] steps that were repeated, because an error test or an iteration failed. */
+  int64_t rejected;
+  /** [-] shorter steps that a fixed-step method took to reach a requested time off its grid. */
   int64_t short_steps;
-  /** [-] evaluations of the equations of motion, (7) or the residual of an implicit method. */
+  /** [-] evaluations of the equations of motion: solutions of (7), or residuals of an implicit
+   *  method. */
   int64_t evaluations;
   /** [-] factorizations of the matrix in (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
-  /** [-] the part of factorizations that chose new pivots, which may allocate memory. */
+  /** [-] those of the factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
   int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
   int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
@@ -584,40 +648,43 @@ typedef struct baum_counters {
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  /** [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|. Only for the
-   *  Euler methods with stable gains of at least 0.1/h, otherwise NaN. */
+  /** [m or rad] prediction of the steady |Phi| that the gains leave, (alpha/beta^2) h max
+   *  |gamma_i|. It is known only for the Euler methods with stable gains of at least 0.1/h,
+   *  otherwise it is NaN. */
   double predicted_phi;
-  double predicted_phi_rate; /**< [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|. */
-  /** [J] change of kinetic plus potential energy since the start. It is not only the error of the
-   *  method: the work of drivers, inputs and dampers also changes this energy. */
+  /** [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|. */
+  double predicted_phi_rate;
+  /** [J] change of kinetic plus potential energy since the start. It contains the error of the
+   *  method, but also the work of drivers, inputs and dampers. */
   double energy_change;
-  /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad,
-   *  without the motion of drivers to their initial values. */
+  /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad. It
+   *  does not include the motion of drivers to their initial values. */
   double start_change;
-  double alpha; /**< [1/s] in use. */
-  double beta;  /**< [1/s] in use. */
-  /** [-] factor by which each step multiplies a violation in the long run. NaN without BAUMGARTE
-   *  and with variable steps. */
+  double alpha; /**< [1/s] gain in use. */
+  double beta;  /**< [1/s] gain in use. */
+  /** [-] spectral radius of the gains: the factor by which each step multiplies a violation in the
+   *  long run. NaN without BAUMGARTE and with variable steps. */
   double spectral_radius;
-  /** [1/s] decay rate of violations, -ln(spectral_radius) / h. It equals alpha for small gains with
-   *  alpha = beta, is infinite for dead-beat gains and negative if violations grow. NaN if
-   *  spectral_radius is. */
+  /** [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with alpha = beta it
+   *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
+   *  spectral_radius is NaN. */
   double damping;
   int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
-  /** [-] near-singular intervals after which the motion is or may be on another branch. */
+  /** [-] near-singular intervals after which the motion is on another branch, or may be. */
   int64_t branch_warnings;
-  /** [-] steps of rk8 and dp5 across a singular configuration, taken regardless of their error
-   *  estimate. */
+  /** [-] steps of rk8 and dp5 across a singular configuration. They are accepted although their
+   *  error estimate is above the tolerance. */
   int64_t forced_steps;
-  /** [J] energy that the method itself has added so far, from the energy account. NaN without the
-   *  option energy_account. */
+  /** [J] energy that errors of the method have added so far, according to the energy account. NaN
+   *  without the option energy_account. */
   double energy_residual;
-  int64_t doubts; /**< [-] kinds of warnings that doubt the motion. */
-  /** [-] largest estimated global error of the positions since the start: lengths relative to the
-   *  characteristic length, angles in radians. It is 0 while the local errors of fixed steps are
-   *  negligible. NaN: unknown, because inputs change every few steps, or because the estimate
-   *  failed or would cost too much. With variable steps it is NaN without the option error_check,
-   *  except after a singularity crossing at a loose tolerance. */
+  int64_t doubts; /**< [-] kinds of warnings that put the motion in doubt. */
+  /** [-] estimate of the largest global error of the positions since the start. Errors of lengths
+   *  are relative to the characteristic length, and errors of angles are in radians. With a fixed
+   *  step, it is 0 as long as the local errors are negligible. It is NaN, which means unknown, if
+   *  inputs change every few steps, or if the estimate failed or would cost too much. With variable
+   *  steps it is known only with the option error_check, or after a singularity crossing at a loose
+   *  tolerance; otherwise it is NaN. */
   double error_estimate;
 } baum_counters;
 
@@ -629,17 +696,19 @@ typedef struct baum_counters {
 BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                               size_t caller_size);
 
-/** Where the energy of the mechanism came from since the start of the run or the last
- *  baum_simulation_set_state(); setting inputs and drivers does not reset the account. Positive
- *  work adds energy to the mechanism.
+/** The energy account of a run: where the energy of the mechanism came from. The account begins at
+ *  the start of the run, and begins again at each call of baum_simulation_set_state(). Setting
+ *  inputs and drivers does not reset it. Work is positive if it adds energy to the mechanism.
  *
- *  The residual is the energy error of the method. It falls with the step at the order of the
- *  method, or with the tolerance. If an evaluation fails, the account ends with a warning, and
- *  works and residual are NaN from then on. The account does not change the motion.
+ *  The residual is the part of the energy that no work explains; it is the energy error of the
+ *  method. It decreases with the step at the order of the method, or with the tolerance. If an
+ *  evaluation for the account fails, the account ends with a warning, and its works and the
+ *  residual are NaN from then on. The account does not change the motion.
  *
- *  The account costs additional evaluations of (7) or (5) in each step: 3 with a fixed step, but 18
- *  with dp5 and 48 with rk8, which subdivide the step for the account; 4 with variable steps, but 7
- *  with rk8, including its interpolant. BAUMGARTE adds 2 to 4. */
+ *  The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
+ *  3 evaluations; dp5 needs 18 and rk8 needs 48, because they subdivide the step for the account.
+ *  With variable steps they are 4; rk8 needs 7, including those of its interpolant. With BAUMGARTE
+ *  there are 2 to 4 more. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
@@ -647,22 +716,24 @@ typedef struct baum_energy_account {
    *  potentials. */
   double potential;
   double start; /**< [J] kinetic plus potential energy at the start. */
-  /** [J] work of loads with an input or a torque, and of loads that follow their body. */
+  /** [J] work of the loads that have an input or a torque, or that follow their body. */
   double loads;
   double springs;     /**< [J] work of springs with a user law. */
   double dampers;     /**< [J] work of the dampers of linear springs. */
   double user_forces; /**< [J] work of user forces, without the change of their potential. */
   /** [J] work of the forces of user coordinates, without the change of their potential, plus the
-   *  integral of v^T M' v / 2. The velocity terms of Lagrange's equations add nothing to this
-   *  sum. */
+   *  integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel. */
   double bodies;
-  double drivers; /**< [J] work of drivers and other rows that depend on time, from -nu^T lambda. */
-  double violation;  /**< [J] work of violated constraints, from -Phi'^T lambda. */
+  /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda. */
+  double drivers;
+  double violation;  /**< [J] work of violated constraints: the integral of -Phi'^T lambda. */
   double projection; /**< [J] change of kinetic and potential energy by projections. */
-  /** [J] work of the gains. It is part of drivers and violation, so do not add it. */
+  /** [J] work of the gains. It is already contained in drivers and violation, so do not add it to
+   *  them. */
   double gains;
-  double residual; /**< [J] kinetic + potential - start - all works except gains. */
-  /** [-] evaluations of (5) and (7) for the account, which the counters exclude. */
+  double residual; /**< [J] kinetic + potential - start, minus the sum of all works except gains. */
+  /** [-] evaluations of (5) and (7) for the account. The counters of the run do not include
+   *  them. */
   int64_t evaluations;
 } baum_energy_account;
 
@@ -683,20 +754,22 @@ typedef enum baum_branch {
   BAUM_BRANCH_UNKNOWN = 3 /**< The steps do not allow a decision. */
 } baum_branch;
 
-/** An interval in which a run was near a singular configuration. The pivot of a state is the
- *  smallest pivot of the equations of motion, relative to the largest such value of the run so far.
- *  It falls with the square of the distance from a singular configuration. In the interval the
- *  pivot is below 0.02, possibly only inside one step. After leaving the interval, the run lists it
- *  if the pivot fell below 1e-3, or stayed above only because of the constraint violation. */
+/** A near-singular interval: an interval of time in which a run was near a singular configuration.
+ *  To detect it, a run monitors the smallest pivot of the equations of motion, relative to the
+ *  largest such value of the run so far. Close to a singular configuration, this number is
+ *  proportional to the square of the distance from it. The interval is where the number is below
+ *  0.02; it may lie inside one step. When the run has left the interval, it adds the interval to
+ *  its list if the number has fallen below 1e-3, or if only the constraint violation has prevented
+ *  this. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] smallest pivot, relative to the largest of the run so far. */
+  /** [-] the smallest pivot in the interval, relative to the largest of the run so far. */
   double pivot;
-  /** [-] difference between the velocity after the interval and the smooth continuation of the
-   *  motion before it, relative to the size of the velocity. NaN: unknown. */
+  /** [-] by how much the velocity after the interval differs from a smooth continuation of the
+   *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
   double jump;
   double jump_error;   /**< [-] estimated error of jump; NaN: unknown. */
   baum_branch branch;  /**< How the motion continues. */
@@ -712,16 +785,18 @@ typedef struct baum_near_singular {
 BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simulation, int64_t k,
                                                    baum_near_singular *out, size_t caller_size);
 
-/** Kinds of warnings. Kinds from 100 on doubt the motion: the result may be wrong by far more than
- *  its tolerance. The others are notes on a correct result. */
+/** Kinds of warnings. A warning with a code of 100 or more puts the motion in doubt: the result may
+ *  be wrong by far more than its tolerance. Warnings with smaller codes are notes on a correct
+ *  result. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1,    /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2,             /**< The stability of the gains is not known. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3, /**< rtol is below the error of difference quotients. */
   BAUM_WARNING_INDEX3 = 4,            /**< IDA at index 3: for comparison only. */
-  BAUM_WARNING_LOOSE_VELOCITIES = 5,  /**< Ill-conditioned rows hardly determine the velocities. */
-  BAUM_WARNING_ENERGY_ACCOUNT = 6,    /**< The energy account has ended. */
-  BAUM_WARNING_ILL_CONDITIONED = 7,   /**< The equations of motion are close to singular. */
+  /** Ill-conditioned rows determine the velocities only inaccurately. */
+  BAUM_WARNING_LOOSE_VELOCITIES = 5,
+  BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
+  BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
   BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
@@ -739,12 +814,12 @@ BAUM_API const char *baum_warning_name(baum_warning_code code);
 typedef struct baum_warning {
   size_t struct_size;     /**< Set by baum_simulation_warning(). */
   baum_warning_code code; /**< Kind. */
-  bool doubts_motion;     /**< The result may be wrong: code >= 100. */
+  bool doubts_motion;     /**< True if the result may be wrong: code >= 100. */
   baum_joint_id joint;    /**< Joint of the first warning; all-zero: none. */
   double first;           /**< [s] time of the first warning. */
   double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
-  char text[400];         /**< Message of the first warning, and the count. */
+  char text[400];         /**< Message of the first warning, and the number of warnings. */
 } baum_warning;
 
 /** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
@@ -757,8 +832,8 @@ typedef struct baum_warning {
 BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k,
                                              baum_warning *out, size_t caller_size);
 
-/** Explain a run: formulation, integrator, gains and why, stability, solver, redundancy,
- *  tolerances.
+/** Explain a run in words: its formulation, its integrator, its gains and the reason for them,
+ *  their stability, the solver, redundant rows and tolerances.
  *  @param simulation  may be NULL
  *  @return  text owned by the run; NULL for NULL */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);

@@ -2,17 +2,19 @@
 /** @file
  *  Bodies and forces in space.
  *
- *  Axes are right-handed. A spatial body has seven positions: its centre of mass r in ground axes,
- *  and a unit quaternion p (Hamilton's convention, w first) that rotates vectors from body axes
- *  into ground axes. It has six velocities: r' in ground axes and the angular velocity in body
- *  axes. A particle has three positions and three velocities.
+ *  Coordinates: axes are right-handed. A spatial body has seven positions. The first three are its
+ *  centre of mass r in ground axes. The other four are a unit quaternion p (Hamilton's convention,
+ *  w first), which rotates vectors from body axes into ground axes. A spatial body has six
+ *  velocities: the velocity r' of its centre of mass in ground axes, and its angular velocity in
+ *  body axes. A particle has three positions and three velocities.
  *
- *  Points: joints and springs are placed as in planar.h, by `point` in ground axes, or by `point_a`
- *  and `point_b` in the axes of the bodies. Spatial joints and springs also connect planar bodies
- *  and particles, which stay in the plane z = 0.
+ *  Points: as in planar.h, the place of a joint or a spring is given either by `point` in ground
+ *  axes, or by `point_a` and `point_b` in the axes of the bodies. Spatial joints and springs may
+ *  also connect planar bodies and planar particles, which stay in the plane z = 0.
  *
- *  Reaction of a joint: force [N] and moment [N m] on body_b, in ground axes, about the joint's
- *  point on body_b. The reaction does not include the effort of a driver of the joint.
+ *  Reaction of a joint: the force [N] and the moment [N m] that the joint exerts on body_b, in
+ *  ground axes. The moment is about the joint's point on body_b. If a driver acts on the joint, the
+ *  reaction does not include the force or torque of the driver.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H
@@ -26,22 +28,25 @@ extern "C" {
 
 /* ---- rigid body in space --------------------------------------------------------------------- */
 
-/** A rigid body. The origin of its axes is the centre of mass. */
+/** A rigid body in space. The origin of its body axes is the centre of mass. */
 typedef struct baum_spatial_body_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  /** [kg m^2] about the centre of mass, body axes: xx, yy, zz, xy, xz, yz, with the sign of the
-   *  tensor (xy = - integral of x y dm). Principal moments must be >= 0, and none may
-   *  exceed the sum of the two others. One may be 0, as for a slender rod; the library raises
-   *  moments below 1e-10 of the largest one to this value. Default: (1, 1, 1, 0, 0, 0). */
+  /** [kg m^2] inertia tensor about the centre of mass in body axes, in the order xx, yy, zz, xy,
+   *  xz, yz. The last three have the sign of the tensor: xy = - integral of x y dm. The principal
+   *  moments must be >= 0, and none may exceed the sum of the two others. One of them may be 0, as
+   *  for a slender rod. The library raises principal moments that are below 1e-10 of the largest
+   *  one to this value. Default: (1, 1, 1, 0, 0, 0). */
   double inertia[6];
-  double position[3]; /**< [m] of the centre of mass, design configuration. Default: (0, 0, 0). */
-  /** [-] unit quaternion w, x, y, z, design configuration; its norm may differ from 1 by 1e-6.
-   *  Default: (1, 0, 0, 0). */
+  /** [m] of the centre of mass in the design configuration. Default: (0, 0, 0). */
+  double position[3];
+  /** [-] unit quaternion w, x, y, z in the design configuration; its norm may differ from 1 by at
+   *  most 1e-6. Default: (1, 0, 0, 0). */
   double orientation[4];
-  double velocity[3]; /**< [m/s] of the centre of mass at start, ground axes. Default: NaN, free. */
-  double angular_velocity[3]; /**< [rad/s] at start, body axes. Default: NaN, free. */
+  /** [m/s] of the centre of mass at the start, in ground axes. Default: NaN, free. */
+  double velocity[3];
+  double angular_velocity[3]; /**< [rad/s] at the start, in body axes. Default: NaN, free. */
   bool held; /**< Assembly keeps the design position and orientation. Default: false. */
 } baum_spatial_body_def;
 
@@ -68,13 +73,13 @@ BAUM_API baum_status baum_mechanism_set_spatial_body(baum_mechanism *mechanism, 
 
 /* ---- particle in space ----------------------------------------------------------------------- */
 
-/** A point mass. */
+/** A point mass in space. */
 typedef struct baum_spatial_particle_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double position[3]; /**< [m] design configuration. Default: (0, 0, 0). */
-  double velocity[3]; /**< [m/s] at start. Default: NaN, free. */
+  double position[3]; /**< [m] in the design configuration. Default: (0, 0, 0). */
+  double velocity[3]; /**< [m/s] at the start. Default: NaN, free. */
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_spatial_particle_def;
 
@@ -102,9 +107,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechani
 
 /* ---- spring and damper ----------------------------------------------------------------------- */
 
-/** A spring and a damper in parallel between two points. Tension (positive pulls the points
- *  together): stiffness (length - free_length) + damping (d/dt length), or a law of your own.
- *  The force is zero where the length is 0. */
+/** A linear spring and damper in parallel between two points, or a law of your own. The tension is
+ *  stiffness (length - free_length) + damping (d/dt length); a positive tension pulls the points
+ *  together. The force is zero when the points coincide. */
 typedef struct baum_spatial_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -112,14 +117,17 @@ typedef struct baum_spatial_spring_def {
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point[3];
-  double point_a[3];   /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3];   /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  double stiffness;    /**< [N/m] >= 0. Default: 0. */
-  double damping;      /**< [N s/m] >= 0. Default: 0. */
-  double free_length;  /**< [m] >= 0. Default: NaN, the value in the design configuration. */
-  baum_spring_fn *law; /**< Tension [N]; replaces the three numbers above. Default: NULL. */
-  void *user;          /**< For law. Default: NULL. */
-  /** false: the law ignores the rate of the length; rattle requires this. Default: true. */
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double stiffness;  /**< [N/m] >= 0. Default: 0. */
+  double damping;    /**< [N s/m] >= 0. Default: 0. */
+  /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
+   *  configuration. */
+  double free_length;
+  /** A law for the tension [N], which replaces the three numbers above. Default: NULL. */
+  baum_spring_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads rate. RATTLE requires false. Default: true. */
   bool depends_on_velocity;
 } baum_spatial_spring_def;
 
@@ -147,17 +155,18 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body and a moment on it. The value of `input`, if set, multiplies
+/** A force at a point of a body, and a moment on the body. If `input` is set, its value multiplies
  *  both. */
 typedef struct baum_spatial_load_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;   /**< Default: none, must be set; must not be ground. */
-  double point[3];     /**< [m] in the axes of the body. Default: (0, 0, 0). */
+  double point[3];     /**< [m] where the force acts, in body axes. Default: (0, 0, 0). */
   double force[3];     /**< [N]. Default: (0, 0, 0). */
-  double moment[3];    /**< [N m] about the point; zero on a particle. Default: (0, 0, 0). */
+  double moment[3];    /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
   baum_input_id input; /**< Default: none. */
-  /** True: force and moment are in body axes. False: in ground axes. Default: false. */
+  /** True if force and moment are in body axes and rotate with the body, false if they are in
+   *  ground axes. Default: false. */
   bool follows_body;
 } baum_spatial_load_def;
 

@@ -2,12 +2,15 @@
 /** @file
  *  Joints in space. spatial.h explains points and reactions.
  *
- *  `axis` is an axis of the joint on body_a, and `axis_b` the corresponding axis on body_b. If
- *  `point` is given, both axes are in ground axes, for the design configuration; otherwise each is
- *  in the axes of its body. By default, `axis_b` coincides with `axis` in the design configuration.
- *  Assembly refuses parallel axes that point in opposite directions.
+ *  Axes: `axis` is an axis of the joint that is fixed in body_a, and `axis_b` is the corresponding
+ *  axis that is fixed in body_b. If `point` is given, both vectors are in ground axes and describe
+ *  the design configuration. Otherwise `axis` is in the axes of body_a, and `axis_b` in the axes of
+ *  body_b. By default, `axis_b` coincides with `axis` in the design configuration. The constraints
+ *  would also be satisfied if the two axes pointed in opposite directions, but assembly refuses
+ *  this.
  *
- *  Runs count the revolutions of angles. Workspaces use angles between -pi and pi.
+ *  Angles: a run counts the revolutions of the angles of joints. A workspace does not know the past
+ *  of the motion and uses angles between -pi and pi.
  */
 #ifndef BAUM_SPATIAL_JOINTS_H
 #define BAUM_SPATIAL_JOINTS_H
@@ -20,7 +23,8 @@ extern "C" {
 
 /* ---- spherical joint ------------------------------------------------------------------------- */
 
-/** A ball joint: the points of both bodies coincide. Three rows [m]. */
+/** A ball joint (spherical joint): the points of both bodies coincide. The joint has three rows
+ *  [m]. */
 typedef struct baum_spatial_spherical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -57,8 +61,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
 
 /* ---- revolute joint -------------------------------------------------------------------------- */
 
-/** A hinge about an axis. Five rows: points coincide [m], axes are parallel [-]. Its coordinate is
- *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration. */
+/** A hinge (revolute joint): body_b rotates about an axis of body_a. The joint has five rows: three
+ *  let the points of both bodies coincide [m], and two make their axes parallel [-]. The coordinate
+ *  of the joint is the angle of body_b relative to body_a about the axis [rad]. It is 0 in the
+ *  design configuration. */
 typedef struct baum_spatial_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -71,8 +77,8 @@ typedef struct baum_spatial_revolute_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, coincides with `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
+   *  NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_revolute_def;
 
@@ -101,10 +107,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
 
 /* ---- universal joint ------------------------------------------------------------------------- */
 
-/** Hooke's joint: points coincide [m], and `axis` of body_a and `axis_b` of body_b stay
- *  perpendicular [-]. Four rows. The axes must not be parallel in the design configuration. Its
- *  coordinates are the angle of the cross about the axis of body_a, and angle_b of body_b relative
- *  to the cross about axis_b [rad], both 0 in the design configuration. */
+/** A universal joint (Hooke's joint): a cross connects the bodies; it rotates about `axis` on
+ *  body_a, and body_b rotates relative to it about `axis_b`. The joint has four rows: three let the
+ *  points of both bodies coincide [m], and one keeps the two axes perpendicular [-]. The axes must
+ *  not be parallel in the design configuration. The coordinates of the joint are two angles [rad],
+ *  which are both 0 in the design configuration: ANGLE is the angle of the cross relative to body_a
+ *  about `axis`, and ANGLE_B is the angle of body_b relative to the cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -147,10 +155,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
 
 /* ---- cylindrical joint ----------------------------------------------------------------------- */
 
-/** body_b slides along an axis of body_a and rotates about it. Four rows: axes are parallel [-],
- *  both points are on one line parallel to the axis [m]. Its coordinates are the displacement of
- *  body_b's point along the axis [m] and the angle about the axis [rad], 0 in the design
- *  configuration. */
+/** A cylindrical joint: body_b slides along an axis of body_a and rotates about this axis. The
+ *  joint has four rows: two make the axes of both bodies parallel [-], and two keep body_b's point
+ *  on the line through body_a's point along the axis [m]. The coordinates of the joint are the
+ *  displacement from body_a's point to body_b's point along the axis [m], and the angle about the
+ *  axis [rad]. The angle is 0 in the design configuration. */
 typedef struct baum_spatial_cylindrical_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -163,8 +172,8 @@ typedef struct baum_spatial_cylindrical_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, coincides with `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
+   *  NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_cylindrical_def;
 
@@ -193,9 +202,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
 
 /* ---- prismatic joint ------------------------------------------------------------------------- */
 
-/** body_b slides along an axis of body_a and does not rotate relative to body_a. Five rows: axes
- *  are parallel [-], both points are on one line parallel to the axis [m], no rotation about the
- *  axis [-]. Its coordinate is the displacement of body_b's point along the axis [m]. */
+/** A prismatic joint: body_b slides along an axis of body_a and does not rotate relative to body_a.
+ *  The joint has five rows: two make the axes of both bodies parallel [-], two keep body_b's point
+ *  on the line through body_a's point along the axis [m], and one prevents a rotation about the
+ *  axis [-]. The coordinate of the joint is the displacement from body_a's point to body_b's point
+ *  along the axis [m]. */
 typedef struct baum_spatial_prismatic_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -208,8 +219,8 @@ typedef struct baum_spatial_prismatic_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, coincides with `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
+   *  NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_prismatic_def;
 
@@ -238,10 +249,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
 
 /* ---- planar joint ---------------------------------------------------------------------------- */
 
-/** body_b moves in a plane of body_a, whose normal is the axis. Three rows: normals are parallel
- *  [-], body_b's point is in the plane [m]. Its coordinates are the displacements x and y of
- *  body_b's point in the plane [m] and the angle about the normal [rad], 0 in the design
- *  configuration. The direction of y is the cross product of normal and x. */
+/** A planar joint: body_b moves in a plane of body_a. The axis is the normal of the plane. The
+ *  joint has three rows: two make the normals of both bodies parallel [-], and one keeps body_b's
+ *  point in the plane [m]. The coordinates of the joint are the displacements x and y from body_a's
+ *  point to body_b's point in the plane [m], and the angle about the normal [rad]. The angle is 0
+ *  in the design configuration. The direction of y is the cross product of the normal and the
+ *  direction of x. */
 typedef struct baum_spatial_planar_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -254,8 +267,8 @@ typedef struct baum_spatial_planar_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, coincides with `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
+   *  NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
   /** [-] direction of x; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: NaN, along the ground x axis in the design configuration, or along the ground y axis
@@ -287,8 +300,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
 
 /* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
-/** The points coincide, and the relative orientation is that of the design configuration. Six rows:
- *  three [m], three [-]. */
+/** A weld (fixed joint): the points of both bodies coincide, and the bodies keep the relative
+ *  orientation of the design configuration. The joint has six rows: three for the points [m] and
+ *  three for the orientation [-]. */
 typedef struct baum_spatial_fixed_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -323,8 +337,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 
 /* ---- distance joint (massless rod) ----------------------------------------------------------- */
 
-/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length), where d is
- *  the vector from body_a's point to body_b's point. */
+/** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
+ *  where d is the vector from body_a's point to body_b's point. */
 typedef struct baum_spatial_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -362,8 +376,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechani
 
 /* ---- point on a line ------------------------------------------------------------------------- */
 
-/** body_b's point stays on a line that is fixed in body_a and passes through body_a's point. Two
- *  rows [m]. Its coordinate is the displacement along the line [m]. body_b may be a particle. */
+/** A point of body_b stays on a line of body_a, which passes through body_a's point along the axis.
+ *  The joint has two rows [m]. The coordinate of the joint is the displacement from body_a's point
+ *  to body_b's point along the line [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_line_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -402,8 +417,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
 
 /* ---- point on a plane ------------------------------------------------------------------------ */
 
-/** body_b's point stays in a plane that is fixed in body_a and contains body_a's point; axis is the
- *  normal. One row [m]. body_b may be a particle. */
+/** A point of body_b stays in a plane of body_a. The plane contains body_a's point, and the axis is
+ *  its normal. The joint has one row [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_plane_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Drivers that follow a spline.
+ *  Drivers whose law s(t) is a spline.
  */
 #ifndef BAUM_SPLINE_H
 #define BAUM_SPLINE_H
@@ -13,18 +13,20 @@ extern "C" {
 
 /* ---- driver along a spline ------------------------------------------------------------------- */
 
-/** A driver like baum_driver_def, whose s(t) is a cubic spline through given values with continuous
- *  second derivative. A natural spline continues as a straight line before the first and after the
- *  last time. A periodic spline repeats. */
+/** A driver that prescribes a joint coordinate, as baum_driver_def does. Its law s(t) is a cubic
+ *  spline through given values, and the second derivative of the spline is continuous. Before the
+ *  first and after the last of the given times, a natural spline continues as a straight line. A
+ *  periodic spline repeats. */
 typedef struct baum_spline_driver_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
   const double *times; /**< (count) [s] rising. Copied. Default: NULL, must be set. */
-  /** (count) [rad or m] s at `times`. Copied. Default: NULL, must be set. */
+  /** (count) [rad or m] values of s at the times. Copied. Default: NULL, must be set. */
   const double *values;
   int32_t count; /**< [-] >= 3. Default: 0, must be set. */
-  bool periodic; /**< Repeats; first and last value must be equal. Default: false, natural. */
+  /** The spline repeats; the first and the last value must be equal. Default: false, natural. */
+  bool periodic;
   baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
 } baum_spline_driver_def;
 

@@ -3,16 +3,18 @@
  *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and their stability
  *  with each integrator.
  *
- *  Gains make constraint violations follow Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6), which the
- *  integrator solves together with the motion. A violation is a sum of modes, and each step h
- *  multiplies a mode by z, a root of the characteristic equation of the method. The *spectral
- *  radius* is the largest |z|; violations decay if it is below 1. It depends on the method and on
- *  the point (alpha h, beta^2 h^2). The points where violations decay are the *region of stability*
- *  of the method. The functions below compute it. They need no mechanism, allocate nothing and may
- *  be called from any thread.
+ *  With the gains alpha and beta, the constraint violation Phi follows the equation Phi'' + 2 alpha
+ *  Phi' + beta^2 Phi = 0 (6). The integrator solves this equation together with the motion. A
+ *  violation is a sum of modes. In each step of length h, each mode is multiplied by a number z,
+ *  which is a root of the characteristic equation of the integrator. The *spectral radius* is the
+ *  largest |z|; violations decay if it is below 1. The spectral radius depends on the integrator
+ *  and on the two products alpha h and beta^2 h^2, which are a point in a plane. The points where
+ *  violations decay form the *region of stability* of the integrator. The functions below compute
+ *  spectral radii and regions. They need no mechanism, allocate no memory and may be called from
+ *  any thread.
  *
- *  "No region" below means that the method has no such region: it always chooses its step (CVODE
- *  and IDA), or it needs no gains. */
+ *  Two kinds of integrators have no region of stability: those that always choose their step
+ *  themselves (CVODE and IDA), and those that need no gains. "No region" refers to them below. */
 #ifndef BAUM_STABILIZATION_H
 #define BAUM_STABILIZATION_H
 
@@ -29,130 +31,153 @@ extern "C" {
 /** An integration method; simulation.h lists them. */
 typedef struct baum_integrator baum_integrator;
 
-/** How gains are chosen. */
+/** Rules that choose the gains. */
 typedef enum baum_gain_rule {
   /** DEADBEAT for the Euler methods, BEST_DAMPING for AB2 to AB4, otherwise AUTO. */
   BAUM_GAINS_DEFAULT = 0,
-  BAUM_GAINS_FIXED = 1,     /**< alpha, beta [1/s]. */
-  BAUM_GAINS_SCALED = 2,    /**< alpha h, beta^2 h^2 [-]; fixed step only. */
+  BAUM_GAINS_FIXED = 1,     /**< alpha and beta are given [1/s]. */
+  BAUM_GAINS_SCALED = 2,    /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
-  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots z are zero; fixed step only. */
+  BAUM_GAINS_DEADBEAT = 5,  /**< Gains for which both roots z are zero; fixed step only. */
   /** alpha = beta in proportion to the angular velocity of the motion, up to a limit. */
   BAUM_GAINS_AUTO = 6,
-  BAUM_GAINS_BEST_DAMPING = 7 /**< Least spectral radius; fixed step only. */
+  BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
 } baum_gain_rule;
 
-/** A rule with its numbers. The functions below return it. All-zero is BAUM_GAINS_DEFAULT. */
+/** A gain rule and its numbers. The functions below make one. If all bytes are zero, the rule is
+ *  BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
 } baum_gains;
 
-/* The comment of each rule states where it is stable, which violation it leaves, and its effect on
- * accuracy and cost. The figures were measured with a pendulum of length 1 m that is released from
- * the horizontal and runs for 1 s with h = 0.0025 s; docs/theory/gain_rules.md has more. */
+/* The comment of each rule states for which steps its gains are stable, how large a violation they
+ * leave, and what they do to accuracy and cost. The numbers were measured with a pendulum of length
+ * 1 m that is released from the horizontal and runs for 1 s with h = 0.0025 s.
+ * docs/theory/gain_rules.md has more measurements. */
 
-/** Given gains. A fixed-step method is stable if (alpha h, beta^2 h^2) lies in its region, a
- *  variable-step method if alpha >= 0.618 beta. With alpha = beta a violation decays as exp(-alpha
- *  t). Each step adds a new violation. With the Euler methods, |Phi'| remains at about h |gamma| /
- *  2 and |Phi| at about h |gamma| / alpha; with other methods violations fall with h at the order
- *  of the method. The method keeps its order, because the gains do not grow as h shrinks. Up to
- *  alpha h = 0.3 the gains cost nothing; above, the cost of an explicit variable-step method grows
- *  in proportion to alpha.
+/** Gains that you choose. They are stable with a fixed-step method if the point (alpha h, beta^2
+ *  h^2) lies in its region, and with a variable-step method if alpha >= 0.618 beta.
+ *
+ *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
+ *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
+ *  and the steady |Phi| is about h |gamma| / alpha. With other methods the violation decreases with
+ *  h at the order of the method.
+ *
+ *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
+ *  alpha h = 0.3 the gains cause no additional cost. Above, the cost of an explicit variable-step
+ *  method grows in proportion to alpha.
  *  @param alpha,beta  [1/s] >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
-/** Gains given by the products alpha h and (beta h)^2. They are stable if these lie in the
- *  stability region of the method. With the two Euler methods,
- *  |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma| remain. Runge-Kutta
- *  methods lose order as with baum_gains_deadbeat(), for the same reason.
+/** Gains given by the products alpha h and (beta h)^2. They are stable if the point (alpha h, (beta
+ *  h)^2) lies in the region of stability of the method. With the two Euler methods, the steady
+ *  violations are |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|.
+ *  Runge-Kutta methods lose order, because the gains grow when the step is reduced;
+ *  baum_gains_deadbeat() gives the orders.
  *  @param alpha_h   [-] alpha h >= 0
  *  @param beta2_h2  [-] (beta h)^2 >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 
-/** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With
- *  explicit Euler the roots lie on the unit circle (marginal: violations remain), with
- *  semi-implicit Euler and AB2 to AB4 outside (refused). With RK2 these gains are dead-beat; with
- *  RK3 and RK4 the spectral radius is 0.47 and 0.37. The accuracy is that of baum_gains_deadbeat().
+/** Gains that follow from a Taylor expansion, equations (10) and (11): alpha = 1/h, beta =
+ *  sqrt(2)/h. With explicit Euler the spectral radius is 1, so violations do not decay. With
+ *  semi-implicit Euler and AB2 to AB4 it is greater than 1, so the gains are unstable and refused.
+ *  With RK2 these gains are dead-beat. With RK3 the spectral radius is 0.47, and with RK4 0.37. The
+ *  accuracy is the same as with baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
-/** Gains given by the natural frequency and the damping ratio of (6); otherwise as
- *  baum_gains_fixed(). With damping ratios below 0.618, CVODE BDF and IDA may not damp violations.
+/** Gains given by the natural frequency and the damping ratio of equation (6). Stability, accuracy
+ *  and cost are those of baum_gains_fixed(). With a damping ratio below 0.618, violations may grow
+ *  with CVODE BDF and IDA.
  *  @param hertz          [Hz] > 0, natural frequency
  *  @param damping_ratio  [-] > 0, 1 is critical
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Gains for which both roots z are zero. This is the fastest possible decay: a violation vanishes
- *  after at most two steps. Explicit Euler: alpha = beta = 1/h. Semi-implicit Euler: alpha =
- *  1/(2h), beta = 1/h. RK2: alpha = 1/h, beta = sqrt(2)/h. Other Runge-Kutta methods: a zero of
- *  their stability polynomial. With the two Euler methods, |Phi'| = h |gamma| / 2 and |Phi| = h^2
- *  |gamma| remain (semi-implicit Euler: half of this |Phi|).
+/** Dead-beat gains, for which both roots z are zero. No gains decay faster: a violation vanishes
+ *  after at most two steps. For explicit Euler these gains are alpha = beta = 1/h, for
+ *  semi-implicit Euler alpha = 1/(2h) and beta = 1/h, and for RK2 alpha = 1/h and beta = sqrt(2)/h.
+ *  For other Runge-Kutta methods they follow from a zero of the stability polynomial. With explicit
+ *  Euler, the steady violations are |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma|. With
+ *  semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
  *
- *  Runge-Kutta methods lose their order, because the gains grow as the step shrinks: orders 2, 3,
- *  4, 5, 8 become 1, 2, 2, 3, 2, and errors are 800 times (RK2) to 4000 times (RK4) as large as
- *  without gains. The Euler methods remain of order 1. Fixed step only. Multistep methods have no
- *  dead-beat point and refuse the rule.
+ *  With these gains Runge-Kutta methods lose order, because the gains grow when the step is
+ *  reduced: the orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2. Errors are larger than without gains, by
+ *  a factor between 800 (RK2) and 4000 (RK4). The Euler methods remain of order 1. The rule is for
+ *  fixed steps only. Multistep methods have no dead-beat point and refuse the rule.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
-/** Gains alpha = beta, constant during a run, in proportion to the mean angular velocity max(|v|/L,
- *  sqrt(|a|/L)) over the first radians of the motion. L is the characteristic length.
+/** Gains that suit the speed of the motion. alpha and beta are equal and constant during a run.
+ *  They are proportional to the mean angular velocity of the first radians of the motion. This
+ *  angular velocity is max(|v|/L, sqrt(|a|/L)), where L is the characteristic length.
  *
- *  The gains are this angular velocity times a factor. At a fixed step the factor is 0.35 for
- *  Runge-Kutta methods, but 0.05 for RK2, so that it keeps its order, and 0.2 for Euler and
- *  Adams-Bashforth methods. At variable steps it is 0.25 for CVODE and IDA, and 0.1 for explicit
- *  methods, whose steps are longer. If drivers prescribe the whole motion, the factor is 0.6 at a
- *  fixed step, 40 for CVODE and IDA, whose matrices include the gains, and 2 for explicit methods
- *  at variable steps.
+ *  The gains are this angular velocity times a factor:
  *
- *  Limit: alpha h is at most 0.3 and at most half of the method's stability limit, so the gains are
- *  stable. Violations stay at about the local error of a step and decay over some radians. The
- *  method keeps its order, and the cost is that of a run without gains.
+ *  - With a fixed step, the factor is 0.35 for Runge-Kutta methods and 0.2 for Euler and
+ *    Adams-Bashforth methods. For RK2 it is only 0.05, because RK2 would otherwise lose order. If
+ *    drivers prescribe the whole motion, it is 0.6 for all of these methods.
  *
- *  The angular velocity comes from a pilot run of 5 steps and 14 evaluations when the run is
- *  created; the counters include it. If the pilot run fails, the part before the failure is used.
- *  For mechanisms with degrees of freedom, and for those at rest in equilibrium, the angular
- *  velocity is at least sqrt(g/L), the angular frequency of a pendulum of length L. At rest in
- *  equilibrium without gravity, alpha is 0.01/h, or 1 1/s at variable steps, which only suits
- *  machines with time scales of seconds. docs/theory/gain_rules.md compares other factors.
+ *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
+ *    matrices of these methods include the gains, so large gains do not limit their steps.
+ *
+ *  - With explicit methods at variable steps the factor is 0.1, because their steps are longer. If
+ *    drivers prescribe the whole motion, it is 2.
+ *
+ *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
+ *  method. The gains are therefore always stable. The steady violation is about the local error of
+ *  a step, and violations decay over some radians of the motion. The method keeps its order, and
+ *  the run costs as much as a run without gains.
+ *
+ *  When a run is created, a short pilot run determines the angular velocity. It takes 5 steps and
+ *  14 evaluations, which the counters of the run include. If the pilot run fails, the library uses
+ *  the part before the failure. For two groups of mechanisms the angular velocity is at least
+ *  sqrt(g/L), the angular frequency of a pendulum of length L: those with degrees of freedom, and
+ *  those at rest in equilibrium. For a mechanism at rest in equilibrium without gravity, alpha is
+ *  0.01/h at a fixed step. At variable steps it is 1 1/s, which only suits machines with time
+ *  scales of seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
-/** Gains of least spectral radius: the dead-beat point if the method has one. AB2 to AB4 have none.
- *  For AB2 these gains are alpha = beta = 2/(3h), with spectral radius 0.58; AB3 and AB4 have the
- *  radii 0.69 and 0.81. The rule is the default for AB2 to AB4. It makes their violations 10 to 100
- *  times smaller than auto does. AB2 to AB4 keep their order, because they have no stages between
- *  steps; their errors are 1.3 times (AB3) to 8 times (AB2, AB4) as large as without gains. Other
- *  methods above order 1 lose order, see baum_gains_deadbeat(). Fixed step only.
+/** Gains of least spectral radius. If a method has a dead-beat point, these are the dead-beat
+ *  gains. AB2 to AB4 have no such point, and for them this rule is the default. For AB2 the gains
+ *  are alpha = beta = 2/(3h) with the spectral radius 0.58. For AB3 the least spectral radius is
+ *  0.69, and for AB4 it is 0.81. Violations are 10 to 100 times smaller than with
+ *  baum_gains_auto(). AB2 to AB4 keep their order, because they evaluate accelerations only at the
+ *  ends of steps. Their errors are larger than without gains: 1.3 times with AB3, and 8 times with
+ *  AB2 and AB4. Other methods above order 1 lose order, see baum_gains_deadbeat(). The rule is for
+ *  fixed steps only.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_best_damping(void);
 
-/** What happens to a violation in the long run. */
+/** What happens to a constraint violation in the long run. */
 typedef enum baum_stability {
   BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
   /** Some violation neither decays nor grows exponentially: radius = 1. */
   BAUM_MARGINAL = 1,
   BAUM_UNSTABLE = 2, /**< Some violation grows exponentially: radius > 1. */
-  /** No region: the method chooses its step. See baum_stability_statement(). */
+  /** The method has no region, because it always chooses its step. See
+   *  baum_stability_statement(). */
   BAUM_VARIABLE_STEP = 3,
-  BAUM_WITHOUT_GAINS = 4 /**< No region: the method keeps the constraints without gains. */
+  /** The method has no region, because it keeps the constraints without gains. */
+  BAUM_WITHOUT_GAINS = 4
 } baum_stability;
 
-/** Amplification of a violation by one step. */
+/** How one step changes a violation. */
 typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
-  baum_stability stability; /**< Class. */
+  baum_stability stability; /**< Whether violations decay. */
   double spectral_radius;   /**< [-] largest |z|; NaN without a region. */
-  /** [-] largest root z of each of the two modes, as real and imaginary part; the mode with the
+  /** [-] the largest root z of each of the two modes, as real and imaginary part. The mode with the
    *  larger |z| comes first. NaN without a region. */
   double z[2][2];
-  /** [-] 1 - spectral_radius, computed without cancellation: the fraction of the slowest violation
-   *  that a step removes. Negative if violations grow; NaN without a region. */
+  /** [-] 1 - spectral_radius, computed without cancellation. This is the fraction of a violation
+   *  that one step removes, for the mode that decays most slowly. Negative if violations grow; NaN
+   *  without a region. */
   double damping;
 } baum_amplification;
 
@@ -167,23 +192,25 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
-/** Describe the effect of gains with a method in words, also for a method without a region.
+/** Describe in words what gains do with a method. Methods without a region have such a text, too.
  *  @param integrator  may be NULL
  *  @return  static text; NULL for NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
-/** Find the largest alpha h up to which alpha = damping_ratio x beta is stable.
+/** Find the stability limit for gains of a given damping ratio, alpha = damping_ratio x beta: they
+ *  are stable from alpha h = 0 up to this limit.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
- *  @param[out] alpha_h        [-] the first instability from 0 on; 0 if small gains are unstable.
- *                             baum_stability_intervals() finds stable intervals beyond it.
+ *  @param[out] alpha_h        [-] the limit; 0 if even small gains are unstable. Beyond the limit
+ *                             there may be further stable intervals, see
+ *                             baum_stability_intervals().
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
 
-/** Find all intervals of alpha h in which alpha = damping_ratio x beta is stable. Most methods have
- *  one interval, which begins at 0. Intervals, and gaps between them, may be missed if they are
- *  narrower than 1 % of their alpha h.
+/** Find all intervals of alpha h in which gains of a given damping ratio, alpha = damping_ratio x
+ *  beta, are stable. Most methods have one interval, which begins at 0. The function may miss
+ *  intervals, and gaps between intervals, that are narrower than 1 % of their alpha h.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] of the arrays; >= 0
@@ -195,17 +222,19 @@ BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
                                               double damping_ratio, int32_t capacity, double *from,
                                               double *to, int32_t *count);
 
-/** Find the alpha h of fastest decay for alpha = damping_ratio x beta.
+/** Find the alpha h at which violations decay fastest, among all gains of a given damping ratio,
+ *  alpha = damping_ratio x beta.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
- *  @param[out] alpha_h        [-] 0 if nothing is stable
+ *  @param[out] alpha_h        [-] the best alpha h; 0 if no gains of this damping ratio are stable
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrator,
                                                 double damping_ratio, double *alpha_h);
 
-/** Find the point of fastest decay with alpha h > 0: the dead-beat point if there is one. If
- *  several points are equally good, it is the one with the smallest gains. Takes tens of
- *  milliseconds for Adams-Bashforth methods.
+/** Find the point at which violations decay fastest, among all points with alpha h > 0. This is the
+ *  dead-beat point if the method has one. If several points are equally good, the function returns
+ *  the one with the smallest gains. The search takes tens of milliseconds for Adams-Bashforth
+ *  methods.
  *  @param      integrator        the method
  *  @param[out] alpha_h,beta2_h2  [-] the point
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
@@ -220,11 +249,12 @@ BAUM_API baum_status baum_stability_best(const baum_integrator *integrator, doub
 BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
                                              double *beta2_h2);
 
-/** Find the nearest point with spectral radius <= 0.9 in the plane of (alpha h, beta^2 h^2). Its
- *  distance is within 1 % of the least.
+/** Find the point with a spectral radius of at most 0.9 that is nearest to a given point in the
+ *  plane of (alpha h, beta^2 h^2). The distance to the point found is at most 1 % larger than the
+ *  least distance.
  *  @param      integrator                  the method
  *  @param      alpha_h,beta2_h2            [-] finite, the requested point
- *  @param[out] good_alpha_h,good_beta2_h2  [-] the nearest such point; the requested point if its
+ *  @param[out] good_alpha_h,good_beta2_h2  [-] the point found; the requested point itself if its
  *                                          spectral radius is <= 0.9
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
@@ -236,7 +266,7 @@ BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, d
  *  @param      alpha_h       [-] (2) alpha h of the first and last column, finite
  *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and last row, finite
  *  @param      columns,rows  [-] >= 1; a single column or row is at the first value
- *  @param[out] radius        [-] (rows x columns) row-major; infinite if it overflows
+ *  @param[out] radius        [-] (rows x columns) row-major; infinite where a value overflows
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],
                                          const double beta2_h2[2], int32_t columns, int32_t rows,
@@ -246,10 +276,12 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  most a given number. The number 1 gives the region of stability; a smaller number gives the
  *  region where violations decay at least that fast.
  *
- *  A closed curve, which repeats its first point, bounds each part of the region and each hole in
- *  it. The region is on the right of the curve. One point of NaNs separates curves. The points lie
- *  where the spectral radius has the given value, or on an axis where the axis bounds the region.
- *  Parts smaller than about a hundredth of the whole may be missed. Uses 30 kB of stack.
+ *  The outline consists of closed curves: one around each part of the region, and one around each
+ *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from
+ *  point to point, the region is to the right. Between two curves there is one point of NaNs. The
+ *  points of the outline lie where the spectral radius has the given value; where an axis bounds
+ *  the region, they lie on the axis. The function may miss parts that are smaller than about a
+ *  hundredth of the whole region. It uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
  *  @param      capacity          [-] of the arrays; >= 0. 2000 is enough for every method here.

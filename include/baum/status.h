@@ -2,11 +2,14 @@
 /** @file
  *  Statuses and messages.
  *
- *  Every call that can fail returns a baum_status; results come through pointers. 0: done. 1 to 9:
- *  stopped as asked. 10 and up: reached the end with warnings. Below 0: failed.
+ *  Every call that can fail returns a baum_status and writes its results through pointers. The
+ *  status 0 means that the call has succeeded. A status from 1 to 9 means that a run has stopped
+ *  before its end because your program asked for it. A status of 10 or more means that the call has
+ *  reached its end with warnings. A negative status means that the call has failed.
  *
- *  On failure, outputs are NULL or not written and the object is unchanged. A run keeps its last
- *  good step. The library never prints, exits or aborts.
+ *  If a call fails, it leaves its object unchanged and does not write its outputs, except that it
+ *  sets pointers to new objects to NULL. A run that fails keeps the state after its last good step.
+ *  The library never prints, exits or aborts.
  *
  *  Threads: each thread has its own message. All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
@@ -23,6 +26,7 @@ extern "C" {
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
   X(BAUM_STOP_EVENT, 2, "an event function changed sign")                                   \
+  X(BAUM_STOP_TIME, 3, "the time limit of the call has passed")                             \
   X(BAUM_WARNED, 10, "reached the end with warnings")                                       \
   X(BAUM_ERR_ARGUMENT, -1, "an argument is NULL, out of range or not finite")               \
   X(BAUM_ERR_STATE, -2, "the call is not allowed at this stage")                            \
@@ -56,14 +60,14 @@ BAUM_API const char *baum_status_name(baum_status status);
 /** General meaning of a status. @param status  any value @return static text, never NULL */
 BAUM_API const char *baum_status_text(baum_status status);
 
-/** Message of this thread's last call that returned a non-zero status. It names element, field,
- *  value and unit, and for a run the time.
+/** Message of the last call in this thread that returned a status other than 0. It names the
+ *  element, the field, its value and its unit. The message of a run also names the time.
  *  @return  text owned by the library, never NULL, initially ""; valid until this thread's next
  *           failing call */
 BAUM_API const char *baum_message(void);
 
-/** Set this thread's message. For libraries on top of this one, and for user functions that fail:
- *  the library appends their message to its own.
+/** Set the message of this thread. This function is for libraries that are built on this one, and
+ *  for user functions that fail: the library appends the message of the user function to its own.
  *  @param     status   returned unchanged
  *  @param[in] message  copied, cut if very long; NULL: the general meaning of the status
  *  @return  status, so that you can write `return baum_fail(...)` */

@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Studies: accuracy against cost, measured. A study runs one mechanism over one time span with
- *  many settings. It measures the error and the cost of each and recommends a setting.
+ *  Studies measure accuracy against cost. A study runs one mechanism over one time span with many
+ *  settings, which are integrators with their options. It measures the error and the cost of each
+ *  setting, and recommends one of them.
  *
  *    baum_study_create(mechanism, 0.0, 2.0, &study);
  *    baum_study_add_standard(study, NULL);
  *    baum_study_run(study);
  *    baum_study_recommend(study, 1e-6, BAUM_STUDY_WORK, &options, sizeof options, why, sizeof why);
  *
- *  An *entry* is one setting. A *method* is the set of entries with the same integrator,
- *  formulation and gains, which differ in step or rtol. Errors are differences from a *reference*
- *  at the samples t0 + k (t1 - t0) / n, k = 1 to n. The study computes its own reference or uses
- *  one that you give. No error is reported below the uncertainty of the reference.
- *  docs/theory/work-precision.md explains the details.
+ *  An *entry* is one setting with its results. A *method* is the set of entries with the same
+ *  integrator, formulation and gains; its entries differ only in step or rtol. Errors are
+ *  differences from a *reference*, which is a very accurate motion. They are measured at n samples,
+ *  at the times t0 + k (t1 - t0) / n with k = 1 to n. The study computes its own reference, or uses
+ *  one that you give. The study never reports an error that is smaller than the uncertainty of the
+ *  reference. docs/theory/work-precision.md explains the details.
  *
- *  Threads: one study is used by one thread at a time, except baum_study_cancel(). baum_study_run()
- *  uses as many threads as the options say and calls user functions, including those of the
- *  mechanism, from each of them. The progress function may cancel the study and, with one thread,
- *  read it. Functions that change the study fail inside the progress function with BAUM_ERR_STATE,
- *  and destroying the study does nothing.
+ *  Threads: only one thread at a time may use a study, except that any thread may call
+ *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls user
+ *  functions, including those of the mechanism, from each of these threads. The progress function
+ *  may cancel the study. If the study uses one thread only, the progress function may also read the
+ *  study. Inside the progress function, functions that change the study fail with BAUM_ERR_STATE,
+ *  and baum_study_destroy() does nothing.
  *
- *  Texts are owned by the study. They are valid until the next call that changes it.
+ *  The study owns all texts that its functions return. They are valid until the next call that
+ *  changes the study.
  */
 #ifndef BAUM_STUDY_H
 #define BAUM_STUDY_H
@@ -36,15 +40,16 @@
 extern "C" {
 #endif
 
-/** Many runs of one mechanism. */
+/** A study: many runs of one mechanism with different settings. */
 typedef struct baum_study baum_study;
 
 /* ---- making one ------------------------------------------------------------------------------ */
 
 /** Create a study without entries.
- *  @param      mechanism  frozen; the study keeps it alive
+ *  @param      mechanism  frozen; it stays in memory as long as the study exists
  *  @param      t0         [s] finite, start of all runs
- *  @param      t1         [s] finite, end of all runs, not t0; before t0 for runs backward in time
+ *  @param      t1         [s] finite, end of all runs; must differ from t0. If t1 < t0, the runs go
+ *                         backward in time
  *  @param[out] out        receives the study, NULL on failure; release it with baum_study_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double t1,
@@ -53,40 +58,43 @@ BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t
 /** Release a study. @param study  may be NULL */
 BAUM_API void baum_study_destroy(baum_study *study);
 
-/** Called after each entry and during the reference, by one thread at a time, which may differ from
- *  the calling thread.
+/** A progress function. A study calls it after each entry and while it computes the reference. Only
+ *  one thread at a time calls it, but this thread may differ from the one that called
+ *  baum_study_run().
  *  @param study  the study
- *  @param done   number of entries whose error is known plus number of those whose time is known
+ *  @param done   number of entries whose error is known, plus number of entries whose time is known
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
 typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_t total,
                                    void *user);
 
-/** How to study. */
+/** The options of a study. */
 typedef struct baum_study_options {
   size_t struct_size; /**< Set by the default. Do not write. */
-  /** [-] 2 to 1e6, at most 1e8 / (nq + nv + nc); number of samples of the error. Default: 100. */
+  /** [-] number of samples at which the error is measured; 2 to 1e6, and at most 1e8 / (nq + nv +
+   *  nc). Default: 100. */
   int32_t samples;
-  /** [-] 1 to 1024, threads that compute errors; times are measured one by one. Default: 1. */
+  /** [-] 1 to 1024, number of threads that compute errors. Times are measured afterwards, in one
+   *  thread. Default: 1. */
   int32_t threads;
-  /** [-] 1 to 1e6, largest number of runs that measure the time of an entry; long runs are repeated
-   *  less often. Default: 5. */
+  /** [-] 1 to 1e6, largest number of runs that measure the time of an entry. Entries with long runs
+   *  are measured by fewer runs. Default: 5. */
   int32_t repeats;
   /** [s] > 0, largest CPU time of a run; may be infinite. A run of the reference may take five
    *  times this limit. Default: 10. */
   double entry_limit;
   /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
   double time_budget;
-  /** Measure the work of the stabilization. This takes the additional evaluations that
-   *  baum_energy_account states. Default: true. */
+  /** Measure the work that stabilization and projection do on the mechanism. This needs additional
+   *  evaluations; baum_energy_account states how many. Default: true. */
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress. Not owned. Default: NULL. */
-  /** Before an entry is recommended, run it over twice the span and from perturbed starts, too, so
-   *  that the recommendation holds there. Default: true. */
+  /** Validate entries before one is recommended: run them over twice the span and from perturbed
+   *  starts, too. The recommendation is then also valid for such runs. Default: true. */
   bool validate;
 } baum_study_options;
 
@@ -102,7 +110,8 @@ static inline baum_study_options baum_study_options_default(void)
   return options;
 }
 
-/** Set the options. After the first run, samples, energy_account and file must stay the same.
+/** Set the options of a study. After the first baum_study_run(), the options samples,
+ *  energy_account and file must not change.
  *  @param     study    unchanged on failure
  *  @param[in] options  copied
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
@@ -110,33 +119,36 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
 
 /* ---- settings -------------------------------------------------------------------------------- */
 
-/** Add one setting. A setting is only checked when it runs; if it cannot run, its entry is marked
- *  as refused.
+/** Add one setting. The setting is not checked before it runs. If it cannot run, its entry is
+ *  marked as refused.
  *  @param     study    unchanged on failure
  *  @param[in] options  copied; start_time, progress and user are ignored
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
-/** Contents of the standard grid. */
+/** Which settings the standard grid contains. */
 typedef struct baum_study_grid {
-  size_t struct_size;                /**< Set by the default. Do not write. */
-  const baum_integrator *integrator; /**< Only this one. Default: NULL, all in this build. */
-  baum_formulation formulation;      /**< Only this one. Default: BAUM_FORMULATION_DEFAULT, all. */
-  int32_t settings; /**< [-] 1 to 64, steps or tolerances of each method. Default: 8. */
-  /** [-] 0 to 4, number of constant gains alpha = beta in addition to the integrator's default rule
-   *  and auto: 1, 10, 100, 1000 times the angular velocity of the motion. Default: 2. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  /** Only this integrator. Default: NULL, all integrators of this build. */
+  const baum_integrator *integrator;
+  /** Only this formulation. Default: BAUM_FORMULATION_DEFAULT, all. */
+  baum_formulation formulation;
+  int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
+  /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
+   *  integrator's default rule and to automatic gains. The first is the angular velocity of the
+   *  motion; each further one is ten times larger. Default: 2. */
   int32_t constants;
   /** [s] > 0, longest step of methods of order 2 and above. Default: NaN, from the time scale of
    *  the motion. */
   double coarsest;
-  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN: 1e-13, or 1e-11 if a user
-   *  constraint has neither jacobian nor gamma, because finite differences are not more accurate
-   *  than this. */
+  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13, or 1e-11
+   *  if a user constraint has neither jacobian nor gamma, because finite differences are not more
+   *  accurate than this. */
   double finest;
-  /** A first answer for about a 25th of the cost: every integrator with its default formulation (or
-   *  the one above) and its default gains, at most 5 settings; `constants` is ignored.
-   *  Default: false. */
+  /** A smaller grid, which costs about a 25th and gives a first answer. It contains every
+   *  integrator with its default gains, and with its default formulation or the one given above.
+   *  Each has at most 5 settings, and `constants` is ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -152,9 +164,10 @@ static inline baum_study_grid baum_study_grid_default(void)
   return grid;
 }
 
-/** Add the standard grid: every integrator of the build with each of its formulations, its default
- *  gains, auto gains and some constant gains, each with steps or tolerances from coarse to fine.
- *  The steps follow from the time scale of the motion, which a trial run determines.
+/** Add the standard grid of settings. It contains every integrator of the build with each of its
+ *  formulations. BAUMGARTE is included with its default gains, with automatic gains and with some
+ *  constant gains. Each of these methods gets steps or tolerances from coarse to fine. The steps
+ *  follow from the time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
  *  @param[in] grid   NULL: the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build has no such integrator with that
@@ -162,13 +175,13 @@ static inline baum_study_grid baum_study_grid_default(void)
  *           the mechanism cannot be started, the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
-/** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, and rtol of 1e-2 to 1e-14.
- *  BAUMGARTE also gets gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a
- *  period or at rtol 1e-7. Every entry should either be as accurate as its setting suggests or have
- *  a message or warning that explains why not. The entry limit bounds the CPU time of entries with
- *  tiny steps.
+/** Add stress settings, which are extreme on purpose. Steps range from 1e-1 to 1e-9 of a period of
+ *  the motion, and rtol from 1e-2 to 1e-14. For BAUMGARTE there are also gains alpha = beta of 0
+ *  and of 1e-6 to 1e12 1/s, with a step of 1e-3 of a period or with rtol 1e-7. Every entry should
+ *  be as accurate as its setting suggests, or have a message or a warning that says why it is not.
+ *  The option entry_limit bounds the CPU time of entries with tiny steps.
  *  @param study       unchanged on failure
- *  @param integrator  NULL: all in this build that take a step or a tolerance
+ *  @param integrator  NULL: all integrators of this build that take a step or a tolerance
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
  *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
  *           baum_simulation_create() */
@@ -176,9 +189,10 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
 
 /* ---- what error means ------------------------------------------------------------------------ */
 
-/** Define the error: the largest |difference from the reference| / unit over all columns of some
- *  channels. Without this call it is the largest error of all positions, with lengths relative to
- *  the characteristic length and angles in radians. Call it before the first run.
+/** Define what the study reports as error. After this call, it is the largest |difference from the
+ *  reference| / unit of all columns of the given channels. Without this call, it is the largest
+ *  error of all positions, with lengths relative to the characteristic length and angles in
+ *  radians. Call this function before the first baum_study_run().
  *  @param     study     unchanged on failure
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
@@ -188,51 +202,58 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
 BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel *channels,
                                           int32_t count, double unit);
 
-/** Give a reference as samples. The option samples is then ignored. NaN entries are not compared.
- *  Call it before the first run. Revolutions of angles in space are counted from sample to sample;
- *  where samples are too far apart for that, energies and the channels of baum_study_set_error()
- *  are not compared.
+/** Give a reference as samples. Errors are then measured at the times of these samples, and the
+ *  option samples is ignored. Values that are NaN are not compared. Call this function before the
+ *  first baum_study_run(). The study counts the revolutions of angles in space from sample to
+ *  sample. Where samples are too far apart for that, it does not compare energies and the channels
+ *  of baum_study_set_error().
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
  *  @param[in] q       (n x nq) copied
  *  @param[in] v       (n x nv) copied. NULL: unknown.
  *  @param[in] lambda  (n x nc) copied. NULL: unknown.
- *  @param     digits  [-] > 0, trusted digits: errors below 10^-digits are not distinguished
+ *  @param     digits  [-] > 0, number of digits of the reference that can be trusted. The study
+ *                     does not distinguish errors below 10^-digits
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_set_reference(baum_study *study, const double *times, int32_t n,
                                               const double *q, const double *v,
                                               const double *lambda, double digits);
 
-/** A solution given by formulas.
+/** A function that computes the exact motion, for baum_study_set_solution().
  *  @param      t       [s]
  *  @param[out] q       (nq)
  *  @param[out] v       (nv)
- *  @param[out] lambda  (nc) NaN at the call; leave it if unknown
+ *  @param[out] lambda  (nc) set to NaN before the call; leave it so if the multipliers are not
+ *                      known
  *  @param      user    as given to baum_study_set_solution()
  *  @return  0 on success */
 typedef int baum_study_solution_fn(double t, double *q, double *v, double *lambda, void *user);
 
-/** Give a reference as a function. Otherwise like baum_study_set_reference().
+/** Give a reference as a function. The study calls the function at its samples. Call
+ *  baum_study_set_solution() before the first baum_study_run().
  *  @param study     unchanged on failure
- *  @param solution  called from the thread of baum_study_run()
- *  @param user      passed to it. Not owned. May be NULL.
- *  @param digits    [-] > 0, trusted digits
+ *  @param solution  the function; only the thread that calls baum_study_run() calls it
+ *  @param user      passed to the function. Not owned. May be NULL.
+ *  @param digits    [-] > 0, number of digits that can be trusted
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE */
 BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *solution,
                                              void *user, double digits);
 
 /* ---- running --------------------------------------------------------------------------------- */
 
-/** Compute the reference and run the entries that are not done. First come all errors, by several
- *  threads, coarse settings first; then all times, one by one. Entries that fail, are refused or
- *  reach the limit stay in the study. If a setting reaches the entry limit, finer settings of its
- *  method are skipped. Another call continues after a stop and runs entries added since.
+/** Run a study: compute the reference, and then run the entries that are not done. The study first
+ *  determines the errors of all entries, in several threads, beginning with coarse settings. Then
+ *  it measures the times of all entries, one by one. Entries that fail, are refused or reach the
+ *  entry limit stay in the study. If a setting reaches the entry limit, the finer settings of its
+ *  method are skipped. If a study has been stopped, or if you have added entries, another call runs
+ *  the entries that are not done.
  *
- *  With the option file, every result is appended to the file as a line of text as soon as it is
- *  known, and all results are on the disk when this function returns. A study of the same
- *  mechanism, span, samples, error and reference reads its entries from the file, even if a line is
- *  cut off. User functions are not compared. Only one process may use the file at a time.
+ *  If the option file is set, the study appends every result to this file as a line of text as soon
+ *  as the result is known. When this function returns, all results are on the disk. Another study
+ *  can continue with this file if it has the same mechanism, span, samples, error and reference. It
+ *  then reads the results of its entries from the file; a last line that is cut off does no harm.
+ *  The study does not compare user functions. Only one process at a time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -241,8 +262,9 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *           the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop; it discards entries that are not finished. A call that is adding
- *  entries then adds none. May be called from any thread or signal handler.
+/** Ask baum_study_run() to stop. It then discards the results of entries that are not finished. If
+ *  a call is adding entries at this time, it stops, too, and adds none. This function may be called
+ *  from any thread and from signal handlers.
  *  @param study  may be NULL */
 BAUM_API void baum_study_cancel(baum_study *study);
 
@@ -261,10 +283,11 @@ typedef enum baum_study_state {
 /** Name of a state. @param state  any value @return such as "done"; NULL for unknown values */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** The results of an entry: X(type, name, known, unit, meaning). The struct below, the study file,
- *  CSV, JSON and Python are generated from this list. Results marked DONE are known for entries
- *  that are done. Errors are the largest over all samples; names with `final` mean the error at the
- *  last sample. Errors are never below the uncertainty of the reference. */
+/** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The
+ *  struct below, the study file, CSV, JSON and Python are generated from this list. Results marked
+ *  DONE are known only if the entry is done. An error is the largest one over all samples; if its
+ *  name contains `final`, it is the error at the last sample. An error is never smaller than the
+ *  uncertainty of the reference. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
   X(baum_status, status, ALWAYS, "", "status of its run")                                          \
@@ -307,16 +330,18 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(int64_t, branch_warnings, DONE, "1", "intervals after which the branch is in doubt")           \
   X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
 
-/** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.
- *  NaN: unknown. error_validated is infinite if the setting fails in the validation, and NaN for
- *  entries that are not validated because they cost far more than others of the same accuracy. */
+/** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
+ *  those of BAUM_STUDY_ENTRY_LIST. A result that is not known is NaN. error_validated is infinite
+ *  if the setting fails in the validation. It is NaN for entries that are not validated because
+ *  they cost far more than other entries of the same accuracy. */
 typedef struct baum_study_entry {
-  size_t struct_size;  /**< Set by baum_study_entry_at(). */
-  const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
-  const char *message; /**< Why it is refused or failed, or its first warning, or "". */
-  const baum_integrator *integrator; /**< Of the options. */
-  baum_formulation formulation;      /**< The actual one, never DEFAULT. */
-  baum_gains gains;                  /**< Of the options. */
+  size_t struct_size; /**< Set by baum_study_entry_at(). */
+  const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
+  /** Why the entry was refused or failed; otherwise its first warning; "" if there is none. */
+  const char *message;
+  const baum_integrator *integrator; /**< Its integrator. */
+  baum_formulation formulation;      /**< Its formulation; never BAUM_FORMULATION_DEFAULT. */
+  baum_gains gains;                  /**< Its gain rule, as given in the options. */
   double step;                       /**< [s] NaN for entries with rtol. */
   double rtol;                       /**< [-] NaN for entries with a step. */
   int32_t method;                    /**< [-] see baum_study_method_at(). */
@@ -338,7 +363,8 @@ BAUM_API int32_t baum_study_entry_count(const baum_study *study);
 BAUM_API baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_entry *out,
                                          size_t caller_size);
 
-/** Read the options of an entry, ready for baum_simulation_create(). The study owns row_gains.
+/** Read the options of an entry. You can pass them to baum_simulation_create(). The study owns the
+ *  array row_gains.
  *  @param      study        the study
  *  @param      k            0 to baum_study_entry_count() - 1
  *  @param[out] out          filled
@@ -360,21 +386,24 @@ typedef enum baum_study_origin {
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
   baum_study_origin origin; /**< Where it comes from. */
-  /** False if the study's own reference runs agree to fewer than three digits or met a singular
-   *  configuration. */
+  /** False if the study has computed the reference itself, and its reference runs agree to fewer
+   *  than three digits or have met a singular configuration. */
   bool trusted;
-  double digits;        /**< [-] trusted digits, -log10(uncertainty); NaN before it is computed. */
-  double uncertainty;   /**< [-] of error. */
-  double uncertainty_q; /**< [-] of error_q. */
-  double uncertainty_v; /**< [-] of error_v. */
-  double uncertainty_lambda; /**< [-] of error_lambda. */
-  double uncertainty_energy; /**< [J] of energy_error. */
+  /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is
+   *  computed. */
+  double digits;
+  double uncertainty;        /**< [-] uncertainty of `error`. */
+  double uncertainty_q;      /**< [-] uncertainty of error_q. */
+  double uncertainty_v;      /**< [-] uncertainty of error_v. */
+  double uncertainty_lambda; /**< [-] uncertainty of error_lambda. */
+  double uncertainty_energy; /**< [J] uncertainty of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  /** Which runs agree to how many digits, or why the reference is not trusted. */
+  /** A text that says which reference runs agree to how many digits, or why the reference is not
+   *  trusted. */
   const char *text;
 } baum_study_reference;
 
-/** Read how far the reference can be trusted; known after baum_study_run().
+/** Read how far the reference can be trusted. This is known after baum_study_run().
  *  @param      study        the study
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
@@ -389,12 +418,12 @@ BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_stu
  *  @param[out] q       (nq) May be NULL.
  *  @param[out] v       (nv) NaN if unknown. May be NULL.
  *  @param[out] lambda  (nc) NaN if unknown. May be NULL.
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not computed; a study that finds all
- *           entries in its file does not compute the reference again) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (the reference has not been computed; a
+ *           study that finds the results of all entries in its file does not compute it) */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
                                                  double *q, double *v, double *lambda);
 
-/** Read what the study was given.
+/** Read the time span and the options of a study.
  *  @param      study        the study
  *  @param[out] t0,t1        [s] Each may be NULL.
  *  @param[out] options      as set. May be NULL.
@@ -413,26 +442,31 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /** How cost is measured. */
 typedef enum baum_study_cost {
-  /** [-] evaluations plus factorizations and iterations of implicit methods, each counted as one;
-   *  the same on every machine. */
+  /** [-] number of evaluations, plus the number of factorizations and iterations of implicit
+   *  methods. It is the same on every machine. */
   BAUM_STUDY_WORK = 0,
   BAUM_STUDY_CPU = 1 /**< [s] measured CPU time. */
 } baum_study_cost;
 
-/** Entries with the same integrator, formulation and gains, which differ in step or in rtol. */
+/** A method: the entries with the same integrator, formulation and gains. They differ only in step
+ *  or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size;                /**< Set by baum_study_method_at(). */
   const char *name;                  /**< Such as "rk8 projection". */
-  const baum_integrator *integrator; /**< Of its entries. */
-  baum_formulation formulation;      /**< Of its entries. */
-  baum_gains gains;                  /**< Of its entries. */
+  const baum_integrator *integrator; /**< Integrator of its entries. */
+  baum_formulation formulation;      /**< Formulation of its entries. */
+  baum_gains gains;                  /**< Gain rule of its entries. */
   bool fixed_step;                   /**< True if entries differ in step, false if in rtol. */
   int32_t entries;                   /**< [-] number of entries. */
   int32_t usable;                    /**< [-] entries that are done and not `off`. */
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
-  double slope;       /**< [-] d log error / d log step, or rtol in place of step; NaN: unknown. */
-  double work_per_digit; /**< [-] factor on work for one more digit; NaN: unknown. */
-  double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN: unknown. */
+  /** [-] slope of the error curve, d log error / d log step, or with rtol instead of step. NaN:
+   *  unknown. */
+  double slope;
+  /** [-] factor by which the work grows for one more digit; NaN: unknown. */
+  double work_per_digit;
+  /** [-] factor by which the CPU time grows for one more digit; NaN: unknown. */
+  double cpu_per_digit;
   /** [-] geometric mean of error_validated / error over its entries; NaN if none was validated to
    *  the end. */
   double growth;
@@ -455,19 +489,22 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
  *  @param      study     the study
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] of `entries`; >= 0
- *  @param[out] entries   (capacity) the first ones, from cheap to accurate. NULL if capacity is 0.
+ *  @param[out] entries   (capacity) numbers of the entries on the front, from the cheapest to the
+ *                        most accurate; only the first ones if there are more than capacity. NULL
+ *                        if capacity is 0.
  *  @param[out] count     [-] number of entries on the front, which may exceed the capacity
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
-/** Interpolate the cost of a method at an error, linearly in the logarithms of error and cost.
- *  Beyond the first and last entry it extrapolates by at most the distance of two entries.
+/** Compute what a method costs for a given error. The cost is interpolated between entries,
+ *  linearly in the logarithms of error and cost. Beyond the first and the last entry it is
+ *  extrapolated, but not farther than the distance of two neighbouring entries.
  *  @param      study   the study
  *  @param      method  0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0
  *  @param      cost    how cost is measured
- *  @param[out] out     [- or s]
+ *  @param[out] out     [- or s] the cost
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method does not reach that error; the message
  *           states its smallest error) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
@@ -483,12 +520,13 @@ BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method,
 BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                         baum_study_cost cost, double *ratio);
 
-/** Find the cheapest setting for an error. Its step or rtol may lie between those of entries. The
- *  choice includes a margin and the errors of the validation (error_validated), so that it holds
- *  for similar starts and for twice the span. If no entry reaches the error with that margin, the
- *  result is a setting whose measured error is small enough, and `why` says that no margin is left.
+/** Recommend a setting: find the cheapest setting whose error is small enough. Its step or rtol may
+ *  lie between those of two entries. The function uses a safety margin and the errors of the
+ *  validation (error_validated), so that the setting is also accurate enough for similar starts and
+ *  for twice the span. If no entry is accurate enough with this margin, the result is a setting
+ *  whose measured error is small enough without it, and `why` says so.
  *  @param      study        after baum_study_run(); unchanged
- *  @param      error        [-] > 0, wanted; see baum_study_set_error()
+ *  @param      error        [-] > 0, largest error that you accept; see baum_study_set_error()
  *  @param      cost         how cost is measured
  *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
@@ -496,15 +534,17 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *                           NULL.
  *  @param      size         [byte] of why
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
- *           entry is accurate enough, or if the uncertainty of the reference is larger),
- *           BAUM_ERR_STATE (no entry is timed) */
+ *           entry is accurate enough, or if the uncertainty of the reference is larger than the
+ *           error), BAUM_ERR_STATE (no entry is timed) */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);
 
-/** Find the most accurate setting for a CPU time. Otherwise like baum_study_recommend().
+/** Recommend a setting: find the most accurate setting that takes at most a given CPU time. In all
+ *  else this function is like baum_study_recommend().
  *  @param      study        after baum_study_run(); unchanged
- *  @param      seconds      [s] > 0, finite, for a run over the span of the study on this machine
+ *  @param      seconds      [s] > 0, finite, CPU time of a run over the span of the study on this
+ *                           machine
  *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a message with the measured figures, cut if too long. May be

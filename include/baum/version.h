@@ -18,7 +18,8 @@ extern "C" {
 #define BAUM_VERSION_PATCH 0       /**< Corrections. */
 #define BAUM_VERSION       "0.1.0" /**< The three as text. */
 
-/** Version of the running library, which may differ from that of the headers.
+/** Version of the library that the program has loaded. It may differ from the version of the
+ *  headers with which the program was compiled.
  *  @return  static text such as "0.1.0" */
 BAUM_API const char *baum_version(void);
 

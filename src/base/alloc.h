@@ -14,8 +14,8 @@ void *baum_i_alloc(size_t count, size_t size);
 void *baum_i_grow(void *old, size_t count, size_t size);
 
 /* Grow an array by one element to count elements. The array must come from this function or from
- * baum_i_grow(); NULL stands for an empty array. The array moves only when it outgrows a power of
- * two. */
+ * baum_i_grow(). NULL stands for an empty array. The array moves in memory only when its length
+ * exceeds a power of two. */
 void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
 /* Copy count elements. Returns NULL when out of memory. */
@@ -24,11 +24,12 @@ void *baum_i_copy(const void *source, size_t count, size_t size);
 /* Copy a string. Returns NULL when out of memory. */
 char *baum_i_copy_text(const char *text);
 
-/* Free memory; NULL is allowed. The argument is const because an owner may hold its memory as
- * const. */
+/* Free memory. NULL is allowed. The argument is const because an owner may hold its memory through
+ * a const pointer. */
 void baum_i_free(const void *memory);
 
-/* Remove const. Used for the few members of constant objects that change. */
+/* Return the pointer without const. The library uses this only for the few members of constant
+ * objects that change. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length that are built in parts, and numbers as text. */
+/* Texts of any length that are built in parts, and the conversion of numbers to text. */
 #include "base/buffer.h"
 
 #include <locale.h>
@@ -33,7 +33,7 @@ static char *make_room(baum_i_buffer *buffer, size_t more)
   return buffer->failed ? NULL : buffer->text + buffer->used;
 }
 
-static void put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
+void baum_i_put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
 {
   char *to = make_room(buffer, count);
   if (to) {
@@ -45,7 +45,7 @@ static void put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
 
 void baum_i_put(baum_i_buffer *buffer, const char *text)
 {
-  put_bytes(buffer, text, strlen(text));
+  baum_i_put_bytes(buffer, text, strlen(text));
 }
 
 void baum_i_putf(baum_i_buffer *buffer, const char *format, ...)
@@ -93,6 +93,16 @@ static size_t character(const unsigned char *s)
            : count;
 }
 
+bool baum_i_is_utf8(const char *text)
+{
+  size_t count = 1;
+  while (*text && count > 0) {
+    count = character((const unsigned char *)text);
+    text += count;
+  }
+  return count > 0;
+}
+
 int baum_i_length(const char *text)
 {
   int count = 0;
@@ -102,7 +112,7 @@ int baum_i_length(const char *text)
   return count;
 }
 
-/* Returns the escape sequence of a character, or NULL if the character needs none. */
+/* Returns the escape sequence of a character, or NULL if the character needs no escape sequence. */
 static const char *escape(char c, baum_i_quoting quoting)
 {
   if (quoting == BAUM_I_PLAIN) {
@@ -117,7 +127,7 @@ static const char *escape(char c, baum_i_quoting quoting)
   switch (c) {
   case '"': return "\\\"";
   case '\\': return "\\\\";
-  case '<': return "\\u003c"; /* so that a text cannot end the script element that contains it */
+  case '<': return "\\u003c"; /* otherwise a text could end the script element that contains it */
   default: return NULL;
   }
 }
@@ -132,7 +142,7 @@ void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quotin
     if (instead) {
       baum_i_put(buffer, instead);
     } else {
-      put_bytes(buffer, text, count);
+      baum_i_put_bytes(buffer, text, count);
     }
     text += count ? count : 1;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length that are built in parts, and numbers as text. */
+/* Texts of any length that are built in parts, and the conversion of numbers to text. */
 #ifndef BAUM_I_BASE_BUFFER_H
 #define BAUM_I_BASE_BUFFER_H
 
@@ -8,8 +8,8 @@
 
 #include "base/message.h"
 
-/* A text that grows. A zeroed buffer is empty. After running out of memory nothing more is
- * added. */
+/* A text that grows. A zeroed buffer is empty. If memory runs out, functions that append to the
+ * buffer do nothing from then on. */
 typedef struct baum_i_buffer {
   char *text; /* (used), zero-terminated; NULL while empty */
   size_t used;
@@ -19,6 +19,7 @@ typedef struct baum_i_buffer {
 
 void baum_i_buffer_clear(baum_i_buffer *buffer);
 void baum_i_put(baum_i_buffer *buffer, const char *text);
+void baum_i_put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count);
 void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2, 3);
 /* Appends a text, left-aligned in a column of `width` characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
@@ -28,22 +29,25 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV, BAUM_I_XML } baum_i_quoting;
 void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
-/* A number as text. A text such as baum_i_short(x, 3).text is valid until the end of the full
- * expression. */
+/* A number as text. The text of a number that a function returns, such as baum_i_short(x, 3).text,
+ * is valid until the end of the full expression that contains the call. */
 typedef struct baum_i_number {
   char text[40];
 } baum_i_number;
 
-/* Converts a number to text with this many digits. Magnitudes from 1e3 to 1e7 are rounded to whole
+/* Converts a number to text with `digits` digits. Magnitudes from 1e3 to 1e7 are rounded to whole
  * numbers. NaN becomes "-". */
 baum_i_number baum_i_short(double x, int digits);
-/* Converts a number to the shortest text that is read as the same number. NaN and infinities become
- * `otherwise`.
+/* Converts a number to the shortest text from which the same number is read again. NaN and
+ * infinities are converted to the text `otherwise`.
  */
 baum_i_number baum_i_exact(double x, const char *otherwise);
-/* Reads a number that baum_i_exact() has written, up to a blank. Returns the end of the number, or
- * NULL if there is none. */
+/* Reads a number that baum_i_exact() has written. The number ends at a blank. Returns the end of
+ * the number, or NULL if there is none. */
 const char *baum_i_read_number(const char *text, double *out);
+
+/* Tells whether a text is UTF-8. */
+bool baum_i_is_utf8(const char *text);
 
 /* Returns the number of characters of a UTF-8 text. */
 int baum_i_length(const char *text);

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic splines. On the interval of length h_i from t_i to t_i+1, with d = t - t_i,
+/* Cubic splines. With d = t - t_i, the spline s on the interval of length h_i from t_i to t_i+1 is
  *
  *   s = y_i + b_i d + c_i d^2 + (c_i+1 - c_i) / (3 h_i) d^3,
  *   b_i = (y_i+1 - y_i) / h_i - h_i (2 c_i + c_i+1) / 3.
  *
- * s' is continuous at t_i where
+ * The first derivative s' is continuous at t_i if the coefficients c satisfy
  *
  *   h_i-1 c_i-1 + 2 (h_i-1 + h_i) c_i + h_i c_i+1
  *     = 3 ((y_i+1 - y_i) / h_i - (y_i - y_i-1) / h_i-1),
  *
- * These equations are diagonally dominant and need no pivoting. A natural spline has c = 0 at both
- * ends. A periodic spline adds p z, where z solves the homogeneous equations with z = 1 at both
- * ends. p is chosen so that the equation also holds where the two ends meet.
+ * Such equations at all inner points form a diagonally dominant system, which needs no pivoting. A
+ * natural spline has c = 0 at both ends. A periodic spline has the coefficients c + p z, where c is
+ * the solution of the natural spline and z solves the homogeneous equations with z = 1 at both
+ * ends. The number p is chosen so that the equation above also holds at the point where the two
+ * ends meet.
  *
  *   C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV
  */
@@ -29,7 +31,8 @@ static double slope_after(const baum_i_cubic_spline *spline, int32_t i)
   return (spline->values[i + 1] - spline->values[i]) / length_after(spline, i);
 }
 
-/* Find c of the natural spline, and z (count). upper (count) is zeroed scratch memory. */
+/* Find the coefficients c of the natural spline, and z (count). `upper` (count) is zeroed scratch
+ * memory. */
 static void solve_natural(const baum_i_cubic_spline *spline, double *upper, double *z)
 {
   double *c = spline->bends;

@@ -4,7 +4,7 @@
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *
  * Both steps are bijections, so a change of a single word always changes the hash. The hash does
- * not protect against deliberate collisions.
+ * not protect against collisions that somebody constructs on purpose.
  */
 #ifndef BAUM_I_BASE_DIGEST_H
 #define BAUM_I_BASE_DIGEST_H
@@ -16,7 +16,7 @@ typedef struct baum_i_digest {
   uint64_t value; /* 0 at first */
 } baum_i_digest;
 
-/* Add bytes; the last word is padded with zeros. */
+/* Add bytes to the hash. The last group of eight is padded with zeros. */
 void baum_i_digest_add(baum_i_digest *digest, const void *bytes, size_t size);
 
 /* Add a text and its length. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a file completely or not at all: writes a new file in the same folder and then replaces
- * the old file by it.
+/* Reads whole files, and writes a file completely or not at all. The functions that write make a
+ * new file in the same folder first, and then replace the old file by the new one.
  */
 #include "base/file.h"
 
@@ -19,7 +19,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Writes bytes and closes the file in every case. Returns errno of the first failure, or 0. */
+/* Writes bytes and closes the file, even if writing fails. Returns errno of the first failure, or 0
+ * if there was none. */
 static int write_bytes(FILE *file, const char *bytes, size_t size)
 {
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
@@ -59,8 +60,8 @@ static FILE *create_part(const char *path, unsigned permissions, char *part, siz
   return file;
 }
 
-/* Writes the new file and replaces the old one. `old` are the permissions of the old file, or NULL
- * if there is none. `part` is memory for the name of the new file. */
+/* Writes the new file and replaces the old one. `old` points to the permissions of the old file, or
+ * is NULL if there is no old file. `part` is memory for the name of the new file. */
 static baum_status replace_file(const char *path, const unsigned *old, const char *bytes,
                                 size_t size, char *part, size_t capacity)
 {
@@ -98,6 +99,34 @@ baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
   baum_status status =
     replace_file(path, kind == BAUM_I_PATH_FREE ? NULL : &permissions, bytes, size, part, capacity);
   baum_i_free(part);
+  return status;
+}
+
+/* ---- reading ---- */
+
+baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *out)
+{
+  if (!path || !path[0]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: path is NULL or empty", call);
+  }
+  FILE *file = baum_i_file_open(path, "rb");
+  if (!file) {
+    return fail(path, "read", errno);
+  }
+  char bytes[4096];
+  size_t count = 0;
+  errno = 0;
+  do {
+    count = fread(bytes, 1, sizeof bytes, file);
+    baum_i_put_bytes(out, bytes, count);
+  } while (count > 0 && !out->failed);
+  baum_status status = ferror(file)  ? fail(path, "read", errno)
+                       : out->failed ? baum_i_fail_memory()
+                                     : BAUM_OK;
+  (void)fclose(file);
+  if (status != BAUM_OK) {
+    baum_i_buffer_clear(out);
+  }
   return status;
 }
 

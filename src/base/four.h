@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Four numbers in two halves: one vector if the processor has vectors of this size, otherwise two
- * pairs. Moving numbers between the halves is slow, so only the functions that join or split halves
- * do so. All other operations take one instruction.
+/* Four numbers in two halves. They are one vector if the processor has vectors of this size, and
+ * otherwise two pairs. Moving numbers between the halves is slow, so only the functions that join
+ * or split halves do so. All other operations take one instruction.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H
@@ -21,13 +21,13 @@ BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *
   return _mm256_loadu2_m128d(high, low);
 }
 
-/* Return (x, y, x, y). */
+/* Return the vector (x, y, x, y). */
 BAUM_I_INLINE baum_i_four baum_i_four_in_turns(double x, double y)
 {
   return _mm256_setr_pd(x, y, x, y);
 }
 
-/* Return (*low, *low, *high, *high). */
+/* Return the vector (*low, *low, *high, *high). */
 BAUM_I_INLINE baum_i_four baum_i_four_spread(const double *low, const double *high)
 {
   return _mm256_blend_pd(_mm256_broadcast_sd(low), _mm256_broadcast_sd(high), 0xc);
@@ -63,21 +63,22 @@ BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
   return x * y;
 }
 
-/* Return the product rounded to double, so that the compiler cannot fuse it with an addition. */
+/* Return `product` rounded to double. The compiler then cannot fuse the multiplication with an
+ * addition that follows. */
 BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
 {
   __asm__("" : "+x"(product));
   return product;
 }
 
-/* (x_0 - y_0, x_1 + y_1) in each half. With y = baum_i_four_exchanged(z) this is the sum of x and
- * of z rotated by +90 degrees. */
+/* Return (x_0 - y_0, x_1 + y_1) for each half. If y = baum_i_four_exchanged(z), the result is the
+ * sum of x and of z rotated by +90 degrees. */
 BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
 {
   return _mm256_addsub_pd(x, y);
 }
 
-/* (x_1, x_0) in each half */
+/* Return each half with its two numbers exchanged: (x_1, x_0). */
 BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
 {
   return _mm256_permute_pd(x, 0x5);

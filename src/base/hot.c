@@ -20,7 +20,8 @@ bool baum_i_hot_is_wide(void)
 
 #include <cpuid.h>
 
-/* Written once, when the library is loaded, because CPUID takes 100 us on virtual machines. */
+/* The flag is written only once, when the library is loaded, because the CPUID instruction takes
+ * 100 us on virtual machines. */
 static bool is_wide;
 
 /* Tell whether the system saves the registers of wide vectors (bits 1 and 2 of XCR0). */

@@ -2,7 +2,7 @@
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
  * functions, named by BAUM_I_HOT(). Each object chooses one of the two tables when it is created.
- * The results of the two tables differ in the last digits.
+ * Because of fused operations, results of the two tables may differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H
@@ -18,7 +18,7 @@
 /* Always inline, so that the compiler can use the values of constant arguments. */
 #define BAUM_I_INLINE static inline __attribute__((always_inline))
 
-/* Tell whether this build has the tables for wide vectors and this processor can run them. */
+/* Tell whether this build contains the tables for wide vectors and this processor can run them. */
 bool baum_i_hot_is_wide(void);
 
 /* Return the table for this processor. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum of a function of one variable by Brent's method. A step goes to the vertex of the
- * parabola through the three lowest points so far. If this step would be longer than half of the
- * step before the last one, the search takes a golden section of the larger side instead.
+/* This file finds the minimum of a function of one variable by Brent's method. A step goes to the
+ * vertex of the parabola through the three lowest points found so far. If this step is longer than
+ * half of the step before the last one, the search divides the larger side by the golden section
+ * instead.
  *
  * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. If the function
  * resembles a parabola near its minimum, about eight evaluations locate the minimum to a millionth
@@ -20,10 +21,10 @@ typedef struct place {
 } place;
 
 typedef struct search {
-  double ends[2];   /* of the interval that contains the minimum */
+  double ends[2];   /* the ends of the interval that contains the minimum */
   place least[3];   /* the three lowest points, the lowest first; some may coincide */
-  double tolerance; /* of t */
-  double step;      /* the last one */
+  double tolerance; /* by how much the found t may be wrong */
+  double step;      /* the last step */
   double before;    /* the step before the last one */
 } search;
 
@@ -38,7 +39,7 @@ static double to_vertex(const place p[3])
   return -0.5 * (w * q - u * r) / (q - r);
 }
 
-/* False if t is so close to an end that its value gives no new information. */
+/* Return whether t is far enough from both ends for its value to give new information. */
 static bool is_inside(const search *s, double t)
 {
   return t - s->ends[0] >= 2.0 * s->tolerance && s->ends[1] - t >= 2.0 * s->tolerance;

@@ -18,8 +18,8 @@ enum { BAUM_I_MESSAGE_SIZE = 1024 };
 /* Set this thread's message and return the status, as in `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Return from the calling function if a call fails. Only for places where the function owns nothing
- * that it must free. */
+/* Return from the calling function if a call fails. The macro may be used only where the calling
+ * function owns nothing that it must free. */
 #define BAUM_I_TRY(call)                     \
   do {                                       \
     const baum_status baum_i_tried = (call); \
@@ -28,21 +28,24 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
     }                                        \
   } while (0)
 
-/* Messages of user functions. Call baum_i_listen() before the user function and baum_i_heard()
- * after it. baum_i_heard() returns the message, or NULL if the user function set none. */
+/* These two functions handle messages that user functions set. Call baum_i_listen() before the user
+ * function and baum_i_heard() after it. baum_i_heard() returns the message, or NULL if the user
+ * function set none. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
 
 /* Set the message of BAUM_ERR_MEMORY and return this status. */
 baum_status baum_i_fail_memory(void);
 
-/* BAUM_OK if memory was obtained, else baum_i_fail_memory(). */
+/* Return BAUM_OK if `memory` is not NULL, otherwise set the message of BAUM_ERR_MEMORY and return
+ * this status. */
 static inline baum_status baum_i_check_memory(const void *memory)
 {
   return memory ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A saved message. It is restored after calls whose failure does not matter. */
+/* A saved message. The library saves the present message before a call whose failure does not
+ * matter, and restores the message after it. */
 typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
 } baum_i_kept_message;
@@ -50,7 +53,7 @@ typedef struct baum_i_kept_message {
 /* Save this thread's message. */
 baum_i_kept_message baum_i_message_keep(void);
 
-/* Return the status. If it is BAUM_OK, restore the saved message. */
+/* Return `status`. If `status` is BAUM_OK, first restore the saved message. */
 baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept);
 
 #endif

@@ -24,31 +24,33 @@ static inline baum_i_pair baum_i_both(double x)
   return (baum_i_pair){x, x};
 }
 
-/* (-y, x): p rotated by a right angle, which is k x p for the unit vector k along z. */
+/* Return (-y, x), which is p rotated by a right angle. This is the cross product k x p with the
+ * unit vector k along z. */
 static inline baum_i_pair baum_i_turned(baum_i_pair p)
 {
   return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
 }
 
-/* (y, x) */
+/* Return (y, x). */
 static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
 {
   return (baum_i_pair){p[1], p[0]};
 }
 
-/* |x| */
+/* Return |x|. */
 static inline baum_i_pair baum_i_magnitude(baum_i_pair x)
 {
   return (baum_i_pair){__builtin_fabs(x[0]), __builtin_fabs(x[1])};
 }
 
-/* The larger numbers, or those of y where x is NaN. */
+/* Return the larger numbers, or those of y where x is NaN. */
 static inline baum_i_pair baum_i_larger(baum_i_pair x, baum_i_pair y)
 {
   return (baum_i_pair){x[0] > y[0] ? x[0] : y[0], x[1] > y[1] ? x[1] : y[1]};
 }
 
-/* The sum remains in a vector register, because extracting single numbers is slow. */
+/* Return the scalar product of x and y. The sum stays in a vector register, because it is slow to
+ * extract single numbers. */
 static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
 {
   baum_i_pair product = x * y;
@@ -71,15 +73,15 @@ static inline void baum_i_store_square(double *to, baum_i_square m)
   baum_i_store(to + 2, m.column[1]);
 }
 
-/* m + x I. The products with zeros and ones replace an instruction that sets half a vector, which
- * valgrind misreports. */
+/* Return m + x I. Products with zeros and ones add x to the diagonal here. An instruction that sets
+ * half a vector would do the same, but valgrind misreports it. */
 static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
 {
   return (baum_i_square){
     {m.column[0] + x * (baum_i_pair){1.0, 0.0}, m.column[1] + x * (baum_i_pair){0.0, 1.0}}};
 }
 
-/* m x */
+/* Return the product m x. */
 static inline baum_i_pair baum_i_times(baum_i_square m, baum_i_pair x)
 {
   return m.column[0] * x[0] + m.column[1] * x[1];
@@ -90,27 +92,27 @@ static inline baum_i_square baum_i_transposed(baum_i_square m)
   return (baum_i_square){{{m.column[0][0], m.column[1][0]}, {m.column[0][1], m.column[1][1]}}};
 }
 
-/* m^T x */
+/* Return the product m^T x. */
 static inline baum_i_pair baum_i_transposed_times(baum_i_square m, baum_i_pair x)
 {
   baum_i_square products = baum_i_transposed((baum_i_square){{m.column[0] * x, m.column[1] * x}});
   return products.column[0] + products.column[1];
 }
 
-/* m n */
+/* Return the product m n. */
 static inline baum_i_square baum_i_product(baum_i_square m, baum_i_square n)
 {
   return (baum_i_square){{baum_i_times(m, n.column[0]), baum_i_times(m, n.column[1])}};
 }
 
-/* m n^T */
+/* Return the product m n^T. */
 static inline baum_i_square baum_i_times_transposed(baum_i_square m, baum_i_square n)
 {
   return (baum_i_square){{m.column[0] * n.column[0][0] + m.column[1] * n.column[1][0],
                           m.column[0] * n.column[0][1] + m.column[1] * n.column[1][1]}};
 }
 
-/* x y^T */
+/* Return the matrix x y^T. */
 static inline baum_i_square baum_i_outer_product(baum_i_pair x, baum_i_pair y)
 {
   return (baum_i_square){{x * y[0], x * y[1]}};

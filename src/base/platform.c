@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* POSIX, with the two systems that differ: Windows, where mingw provides POSIX's clocks and threads
- * but files are named by UTF-16, and WASI, which has one thread in one process of one user. */
+/* Functions of the operating system. Most code is for POSIX. Two systems differ: Windows has the
+ * clocks and threads of POSIX by mingw, but its files have UTF-16 names. WASI has one thread in one
+ * process of one user. */
 #include "base/platform.h"
 
 #include <errno.h>
@@ -63,7 +64,7 @@ void baum_i_date_read(char *text, size_t size)
 
 int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
 {
-  _locale_t plain = _create_locale(LC_ALL, "C"); /* NULL: the locale of the program */
+  _locale_t plain = _create_locale(LC_ALL, "C"); /* if NULL, the program's locale is used */
   int length = __stdio_common_vsprintf(_CRT_INTERNAL_PRINTF_STANDARD_SNPRINTF_BEHAVIOR, text, size,
                                        format, plain, arguments);
   _free_locale(plain);
@@ -74,8 +75,8 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 
 int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
 {
-  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* NULL when out of memory; the
-                                                                program's locale is then used */
+  /* NULL when out of memory; then the program's locale is used */
+  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
   locale_t before = plain ? uselocale(plain) : (locale_t)0;
   int length = vsnprintf(text, size, format, arguments);
   if (plain) {
@@ -91,7 +92,7 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 
 #ifdef _WIN32
 
-/* Returns the path in UTF-16, or NULL with errno. */
+/* Returns the path in UTF-16. On failure returns NULL and sets errno. */
 static wchar_t *widen(const char *path)
 {
   int size = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, NULL, 0);
@@ -155,7 +156,8 @@ int baum_i_file_permit(FILE *file, unsigned permissions)
 
 int baum_i_file_sync(FILE *file)
 {
-  bool done = _commit(_fileno(file)) == 0 || errno == EINVAL || errno == EBADF; /* devices, pipes */
+  /* EINVAL or EBADF: a device or a pipe */
+  bool done = _commit(_fileno(file)) == 0 || errno == EINVAL || errno == EBADF;
   return done ? 0 : errno;
 }
 
@@ -184,7 +186,7 @@ void baum_i_file_remove(const char *path)
 
 void baum_i_folder_sync(const char *folder)
 {
-  (void)folder; /* MOVEFILE_WRITE_THROUGH has done it */
+  (void)folder; /* MOVEFILE_WRITE_THROUGH has already written the folder to the disk */
 }
 
 long baum_i_process_number(void)
@@ -225,8 +227,7 @@ FILE *baum_i_file_open(const char *path, const char *mode)
 
 FILE *baum_i_file_create(const char *path, unsigned permissions)
 {
-  int descriptor =
-    open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)permissions); /* obeys the umask */
+  int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, (mode_t)permissions);
   FILE *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
   if (descriptor >= 0 && !file) { /* out of memory */
     (void)close(descriptor);
@@ -243,7 +244,8 @@ int baum_i_file_permit(FILE *file, unsigned permissions)
 
 int baum_i_file_sync(FILE *file)
 {
-  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* devices, pipes */
+  /* EINVAL or EROFS: a device or a pipe */
+  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
   return done ? 0 : errno;
 }
 

@@ -4,7 +4,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Below this angle sin(x) / x is 1 to rounding, and the quotient could be 0 / 0. */
+/* For angles x below this, sin(x) / x is 1 up to rounding. The quotient is not computed then,
+ * because it could be 0 / 0. */
 static const double TINY = 1e-12;
 
 void baum_i_quaternion_exp(const double rotation[3], double p[4])
@@ -17,7 +18,8 @@ void baum_i_quaternion_exp(const double rotation[3], double p[4])
   }
 }
 
-/* p and -p are the same rotation; with w >= 0 its angle is at most pi. */
+/* p and -p represent the same rotation. Of the two, the one with w >= 0 is used, whose angle is at
+ * most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3])
 {
   double sine = sqrt(baum_i_dot3(p + 1, p + 1));
@@ -27,7 +29,8 @@ void baum_i_quaternion_log(const double p[4], double rotation[3])
   }
 }
 
-/* Set x to c x + s y, and y to c y - s x. Each has three numbers, at the distance `stride`. */
+/* Set x to c x + s y, and y to c y - s x. Each of the two vectors has three numbers, which are
+ * `stride` apart in memory. */
 static void rotate_pair(double c, double s, int stride, double *x, double *y)
 {
   for (int k = 0; k < 3 * stride; k += stride) {
@@ -37,8 +40,8 @@ static void rotate_pair(double c, double s, int stride, double *x, double *y)
   }
 }
 
-/* Six sweeps of Jacobi's rotations (1846); about three sweeps reduce the off-diagonal entries to
- * rounding errors. Each rotation puts the smaller moment first. */
+/* Make six sweeps of Jacobi's rotations (1846). About three sweeps already reduce the off-diagonal
+ * entries to rounding errors. Each rotation puts the smaller moment first. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9])
 {
   static const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};

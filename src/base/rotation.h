@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors in space, rotation matrices A (row-major) and unit quaternions p in Hamilton's
- * convention, w first. A and p transform body axes into ground axes: x = A s. Results must not
- * share memory with arguments.
+/* Vectors in space, rotation matrices A (row-major), and unit quaternions p in Hamilton's
+ * convention with w as the first number. A and p transform body axes into ground axes: x = A s. The
+ * memory for a result must not overlap with arguments.
  */
 #ifndef BAUM_I_BASE_ROTATION_H
 #define BAUM_I_BASE_ROTATION_H
@@ -23,7 +23,7 @@ static inline void baum_i_cross(const double a[3], const double b[3], double out
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* y += h x */
+/* Add h x to y. */
 static inline void baum_i_add_scaled3(double h, const double x[3], double y[3])
 {
   for (int i = 0; i < 3; i++) {
@@ -31,7 +31,7 @@ static inline void baum_i_add_scaled3(double h, const double x[3], double y[3])
   }
 }
 
-/* out = A s */
+/* Set out = A s, which transforms s to ground axes. */
 static inline void baum_i_turn(const double axes[9], const double s[3], double out[3])
 {
   for (int i = 0; i < 3; i++) {
@@ -39,7 +39,7 @@ static inline void baum_i_turn(const double axes[9], const double s[3], double o
   }
 }
 
-/* out = A^T x */
+/* Set out = A^T x, which transforms x to body axes. */
 static inline void baum_i_turn_back(const double axes[9], const double x[3], double out[3])
 {
   for (int i = 0; i < 3; i++) {
@@ -47,7 +47,7 @@ static inline void baum_i_turn_back(const double axes[9], const double x[3], dou
   }
 }
 
-/* a o b */
+/* Set `out` to the product of the quaternions a and b. */
 static inline void baum_i_quaternion_product(const double a[4], const double b[4], double out[4])
 {
   out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
@@ -61,8 +61,8 @@ static inline double baum_i_quaternion_length(const double p[4])
   return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
 }
 
-/* A quaternion whose length is 1 up to rounding is not changed, so that reading a state and setting
- * it again changes nothing. */
+/* Make the length of a quaternion 1. A quaternion whose length is already 1 up to rounding is not
+ * changed, so that reading a state and setting it again changes nothing. */
 static inline void baum_i_quaternion_normalize(double p[4])
 {
   double length = baum_i_quaternion_length(p);
@@ -74,7 +74,7 @@ static inline void baum_i_quaternion_normalize(double p[4])
   }
 }
 
-/* The rotation matrix A of a unit quaternion. */
+/* Compute the rotation matrix A of a unit quaternion. */
 static inline void baum_i_rotation_of(const double p[4], double axes[9])
 {
   const double w = p[0], x = p[1], y = p[2], z = p[3];
@@ -89,15 +89,15 @@ static inline void baum_i_rotation_of(const double p[4], double axes[9])
   axes[8] = 1.0 - 2.0 * (x * x + y * y);
 }
 
-/* The unit quaternion of a rotation vector, whose direction is the axis and whose length is the
- * angle. */
+/* Compute the unit quaternion of a rotation vector. The direction of this vector is the axis of the
+ * rotation, and its length is the angle. */
 void baum_i_quaternion_exp(const double rotation[3], double p[4]);
 
-/* The rotation vector of a unit quaternion; its length is at most pi. */
+/* Compute the rotation vector of a unit quaternion. The length of this vector is at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3]);
 
-/* Principal moments of a symmetric matrix in ascending order. Their axes are the rows of `axes`, a
- * rotation matrix except for the signs of rows. */
+/* Find the principal moments of a symmetric matrix, in ascending order. The rows of `axes` are the
+ * principal axes. `axes` is a rotation matrix except for the signs of its rows. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
 
 /* Set x to a unit vector orthogonal to the unit vector z, and y to the cross product of z and x. */

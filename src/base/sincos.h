@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sine and cosine of one angle without branches or tables, so that compilers vectorize loops over
- * angles. The error is below 1 ulp up to 1e6 rad. For larger angles callers use the C library.
+ * angles. The error is below 1 ulp (unit in the last place) for angles up to 1e6 rad. For larger
+ * angles callers use the C library.
  *
- *   x = n pi/2 + r + y,  |r| <= pi/4,  y the part of the remainder that r cannot represent
+ * x = n pi/2 + r + y,  |r| <= pi/4,  y is the part of the remainder that r cannot represent
  *
- * pi/2 is the sum of four parts. The first three have 33 bits, so that their products with n (at
- * most 20 bits) are exact (W. J. Cody, W. Waite, 1980). The rounding errors of the differences are
- * computed and included in r and y (D. E. Knuth, 1969). The polynomials are those of fdlibm (K. C.
- * Ng, Sun Microsystems, 1993).
+ * The number pi/2 is represented as a sum of four parts. The first three have 33 bits, so that
+ * their products with n (at most 20 bits) are exact (W. J. Cody, W. Waite, 1980). The rounding
+ * errors of the differences are computed and included in r and y (D. E. Knuth, 1969). The
+ * polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
  */
 #ifndef BAUM_I_BASE_SINCOS_H
 #define BAUM_I_BASE_SINCOS_H
@@ -56,11 +57,12 @@ static inline double baum_i_cosine_kernel(double r, double y)
   return w + (((1.0 - w) - half) + (z * tail - r * y));
 }
 
-/* Valid for |x| up to the limit above; for larger x the results are meaningless. */
+/* Compute sine and cosine of x for |x| up to baum_i_sincos_limit. For larger x the results are
+ * meaningless. */
 static inline void baum_i_sincos(double x, double *sine, double *cosine)
 {
   static const double two_over_pi = 0x1.45f306dc9c883p-1;
-  /* adding this constant leaves the rounded integer in the last bits */
+  /* After this constant is added, the last bits contain the rounded integer. */
   static const double to_integer = 0x1.8p52;
   static const double part1 = 1.57079632673412561417e+00;
   static const double part2 = 6.07710050630396597660e-11;

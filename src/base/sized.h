@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Structs that begin with `size_t struct_size`. A caller built with older headers has a shorter
- * struct. The library fills only the fields that fit, and struct_size is their size in bytes. */
+/* Public structs begin with the member `size_t struct_size`. A caller built with older headers has
+ * a shorter struct. The library fills only the fields that fit into the caller's struct, and
+ * struct_size tells how many bytes these are. */
 #ifndef BAUM_I_BASE_SIZED_H
 #define BAUM_I_BASE_SIZED_H
 
@@ -13,27 +14,28 @@
 /* Tell whether the caller's struct is large enough to hold struct_size. */
 bool baum_i_takes_sized(const void *out, size_t caller_size);
 
-/* Fail with BAUM_ERR_ARGUMENT if the caller's struct is smaller; the message names the call. */
+/* Fail with BAUM_ERR_ARGUMENT if the caller's struct is too small to hold struct_size. The message
+ * names the call. */
 baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call);
 
 /* Fail with BAUM_ERR_ARGUMENT unless first <= k < count. `first` is the oldest entry that is still
  * stored. */
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call);
 
-/* Check `size`, the struct_size of a caller's struct, which must be that of this version
- * (`present`) or of an older one: a multiple of sizeof(size_t), and room for at least two fields.
- * The message names the struct by `of` (" of the options", or "") and the call to start from by
- * `start`. */
+/* Check `size`, the struct_size of a caller's struct. It must be `present`, the size in this
+ * version, or the size in an older version, which is a multiple of sizeof(size_t) with room for at
+ * least two fields. Messages name the struct by `of`, which is " of the options" or "". They name
+ * the call that sets the defaults by `start`. */
 baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
                                      const char *start);
 
-/* Check a caller's struct and copy it to `to`, which contains defaults. Fields that an older
- * version does not have keep their defaults. */
+/* Check a caller's struct and copy it to `to`. The caller of this function has filled `to` with the
+ * defaults. Fields that the struct of an older version does not have keep their defaults. */
 baum_status baum_i_take_sized(void *to, size_t size, const void *from, const char *call,
                               const char *of, const char *start);
 
 /* Copy as many bytes of a whole struct as fit into the caller's struct, and set its struct_size.
- * Does nothing if the caller's struct cannot hold struct_size. */
+ * Does nothing if the caller's struct is too small to hold struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

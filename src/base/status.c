@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names and texts of statuses, from the one list in status.h. */
+/* Names and texts of statuses, generated from the list of statuses in status.h. */
 #include <baum/status.h>
 
 const char *baum_status_name(baum_status status)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Formatted texts. Numbers have a decimal point in every locale. */
+/* Formats texts. Numbers have a decimal point in every locale. */
 #ifndef BAUM_I_BASE_TEXT_H
 #define BAUM_I_BASE_TEXT_H
 
@@ -8,20 +8,20 @@
 /* Like snprintf(), but in the "C" locale. */
 int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
-/* A short text, such as a name in a message, that functions return by value. With a larger size,
+/* A short text, such as a name in a message, which functions return by value. With a larger size,
  * the compiler would no longer inline functions that use such texts in their messages. */
 typedef struct baum_i_text {
   char text[208];
 } baum_i_text;
 
-/* Format a short text, and cut what does not fit. */
+/* Format a short text. What does not fit is cut. */
 baum_i_text baum_i_text_of(const char *format, ...) BAUM_I_PRINTF(1, 2);
 
-/* Refuse names that break messages: empty names and names with control characters. NULL is allowed
- * and stands for the default name. */
+/* Refuse names that would make messages unreadable: empty names and names with control characters.
+ * NULL is allowed and stands for the default name. */
 baum_status baum_i_check_name(const char *family, int number, const char *name);
 
-/* Append to a zero-terminated text in a buffer of `size` characters, and cut what does not fit. */
+/* Append to the zero-terminated text in a buffer of `size` characters. What does not fit is cut. */
 void baum_i_append(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Data of Andrews' squeezing mechanism in SI units, with the values of the Bari test set
- * (andrews.f), and a function that computes its angles. */
+/* The data of Andrews' squeezing mechanism in SI units, and a function that computes its angles.
+ * The values are taken from the Bari test set (andrews.f). */
 #ifndef BAUM_I_CATALOG_ANDREWS_H
 #define BAUM_I_CATALOG_ANDREWS_H
 
-/* The bodies K1 to K7 of the test set have the indices 0 to 6. */
+/* These arrays have one entry for each of the bodies K1 to K7 of the test set, in this order. */
 static const double ANDREWS_MASS[7] = {.04325, .00365, .02373, .00706, .07050, .00706, .05498};
 static const double ANDREWS_INERTIA[7] = {2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7,
                                           1.169e-5, 5.667e-7, 1.912e-5};
@@ -14,7 +14,7 @@ static const double ANDREWS_A[2] = {-.06934, -.00227};
 static const double ANDREWS_B[2] = {-.03635, .03273};
 static const double ANDREWS_C[2] = {.014, .072};
 
-#define ANDREWS_START  -0.0617138900142764496 /* value of beta for which Theta = 0 */
+#define ANDREWS_START  -0.0617138900142764496 /* the value of beta at which Theta = 0 */
 #define ANDREWS_C0     4530.0                 /* [N/m] stiffness of the spring */
 #define ANDREWS_L0     .07785                 /* [m] free length of the spring */
 #define ANDREWS_MOMENT .033
@@ -48,8 +48,9 @@ static const double ANDREWS_C[2] = {.014, .072};
 
 enum { ANDREWS_ANGLES = 7 };
 
-/* Computes the angles beta, Theta, gamma, Phi, delta, Omega, epsilon for a given beta, on the same
- * branch as the initial configuration of the test set. */
+/* Computes the angles beta, Theta, gamma, Phi, delta, Omega and epsilon for a given beta. Of
+ * several solutions, it finds the one that is continuous with the initial configuration of the test
+ * set. */
 void baum_i_andrews_pose(double beta, double angles[ANDREWS_ANGLES]);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism in 7 angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), as
- * in the Bari test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II,
- * p. 530 ff).
- * mass(), force() and phi() have the same terms as M, f and g of the test set, where
- * M a + G^T lambda = f with G = dg/dq. */
+/* Andrews' squeezing mechanism in 7 angles, q = (beta, Theta, gamma, Phi, delta, Omega, epsilon).
+ * It is a problem of the Bari test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving
+ * ODEs II, p. 530 ff).
+ * The functions mass(), force() and phi() compute M, f and g of the test set with the same terms.
+ * Its equation of motion is M a + G^T lambda = f with G = dg/dq. */
 #include "catalog/andrews.h"
 
 #include <math.h>
@@ -57,7 +57,8 @@ static int mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Computes the vector from C, the fixed end of the spring, to D, the end of the spring on K3. */
+/* Computes the vector along the spring. The spring extends from the fixed point C to the point D on
+ * K3. */
 static void along_spring(double gamma, double out[2])
 {
   out[0] = ANDREWS_SD * cos(gamma) + ANDREWS_SC * sin(gamma) + ANDREWS_B[0] - ANDREWS_C[0];
@@ -102,8 +103,8 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Bodies K2, K3, K4 and K6 meet at the point F: computes the position of F on K2 minus that on
- * each of the others. */
+/* Bodies K2, K3, K4 and K6 meet at the point F. This function computes where F is on K2, and
+ * subtracts where it is on each of the other three bodies. */
 static int phi(double t, const double *q, double *out, void *user)
 {
   (void)t;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, derived from the equations of
- * the Bari test set, where a is the angle of the body in each line:
+/* Andrews' squeezing mechanism as seven rigid bodies. The geometry below is derived from the
+ * equations of the Bari test set. In each line, a is the angle of the body.
  *
  *   K1 pivots at O = (0, 0), a = beta.                E = rr (cos a, sin a)
  *   K2 pivots at E, a = beta + Theta.                 F = E - d (cos a, sin a)
@@ -11,10 +11,10 @@
  *   K7 pivots at A, a = epsilon.                      H = A + u (sin a, -cos a)
  *   K6 pivots at H, a = Omega + epsilon.              F = H + zf (cos a, sin a)
  *
- * The mass matrix determines the centres of mass: K1 at ra from O, K2 at da from E towards F, K4 at
- * e - ea from G towards F, K6 at zf - fa from H towards F. Those of K3, K5 and K7 are
- * sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2), sqrt(ua^2 + ub^2) from the pivots; without gravity, their
- * directions from the pivots do not affect the motion.
+ * The mass matrix of the test set determines the centres of mass: K1 has its centre at ra from O,
+ * K2 at da from E towards F, K4 at e - ea from G towards F, and K6 at zf - fa from H towards F. The
+ * centres of K3, K5 and K7 are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and sqrt(ua^2 + ub^2) from the
+ * pivots. Without gravity, the directions of these three do not affect the motion.
  */
 #include "catalog/andrews.h"
 #include "catalog/catalog.h"
@@ -23,7 +23,7 @@
 
 enum { BETA, MOMENT, STIFFNESS, FREE_LENGTH, COUNT };
 
-/* Centres of mass, in the axes of the body, relative to its pivot. */
+/* The centre of mass of each body relative to its pivot, in the axes of the body. */
 static const double CENTRE[7][2] = {
   {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
   {ANDREWS_SB, -ANDREWS_SA}, {0, -(ANDREWS_E - ANDREWS_EA)},
@@ -31,7 +31,8 @@ static const double CENTRE[7][2] = {
   {ANDREWS_UA, -ANDREWS_UB},
 };
 
-/* Returns the angle of body k, or its angular velocity if `angles` are joint velocities. */
+/* Returns the angle of body k. If `angles` contains joint velocities, returns the angular velocity
+ * of body k. */
 static double turned(const double *angles, int k)
 {
   static const int added[7][2] = {{0, -1}, {0, 1}, {2, -1}, {3, 4}, {4, -1}, {5, 6}, {6, -1}};
@@ -39,7 +40,8 @@ static double turned(const double *angles, int k)
   return added[k][1] < 0 ? angle : angle + angles[added[k][1]];
 }
 
-/* Computes the pivot of body k: a fixed point, or a point of the body that carries it. */
+/* Computes the position and the velocity of the pivot of body k. The pivot is a fixed point, or a
+ * point of the body that carries body k. */
 static baum_i_mover find_pivot(const double *angles, const double *rates, int k)
 {
   static const double *const fixed[7] = {ANDREWS_O, ANDREWS_O, ANDREWS_B, ANDREWS_A,
@@ -77,7 +79,7 @@ static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7]
   }
 }
 
-/* Returns the point of body k at (x, y) from its pivot, in the axes of the body. */
+/* Returns a point of body k. Its distance from the pivot is (x, y) in the axes of the body. */
 static baum_i_spot on(const baum_body_id ids[7], int k, double x, double y)
 {
   return (baum_i_spot){ids[k], {x - CENTRE[k][0], y - CENTRE[k][1]}};

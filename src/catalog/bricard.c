@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bricard's mechanism: five rods along the edges of a cube and six revolute joints; the axes of
- * consecutive joints are perpendicular. The first five joints have the angles a, b, a, b, a, where
- * b follows from a:
+/* Bricard's mechanism has five rods along the edges of a cube and six revolute joints. The axes of
+ * consecutive joints are perpendicular. The first five joints have the angles a, b, a, b, a. The
+ * angle b follows from a by the equation
  *
  *   sin a + sin b + sin a sin b = 0
  *
@@ -26,13 +26,13 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the first rod at start", BAUM_I_ANY},
 };
 
-/* Directions of the rods, and numbers of the joint axes (0: x, 1: y, 2: z), in the axes of the
- * rods. Where all angles are 0, these axes are parallel to the ground axes. */
+/* For each rod its direction, and for each joint the number of its axis (0: x, 1: y, 2: z), in the
+ * axes of the rods. When all angles are 0, the axes of the rods are parallel to the ground axes. */
 static const double EDGE[RODS][3] = {
   {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 static const int AXIS[RODS + 1] = {1, 2, 0, 1, 2, 0};
 
-/* Computes the axes of a rod, with their origin at its first joint. */
+/* Computes axes that are fixed in a rod. Their origin is at the first joint of the rod. */
 static baum_i_axes axes_of(const double *p, const double *q, const double *v, int rod)
 {
   double b = asin(-sin(q[0]) / (1.0 + sin(q[0])));

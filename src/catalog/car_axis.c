@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): the ends of the axis,
- * q = (xl, yl, xr, yr), stand on springs, the left one on the ground at (0, 0) and the right one on
- * a moving bump at (xb, yb), yb = r sin(w t), xb = sqrt(L^2 - yb^2). With k = eps^2 M / 2:
+/* The car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini). Its coordinates are
+ * the positions of the two ends of the axis, q = (xl, yl, xr, yr). The ends stand on springs. The
+ * left spring stands on the ground at (0, 0), and the right one on a moving bump at (xb, yb), with
+ * yb = r sin(w t) and xb = sqrt(L^2 - yb^2). With k = eps^2 M / 2, the equations are
  *
  *   k xl'' = (L0 - Ll) xl / Ll              + multipliers          Ll = |(xl, yl)|
  *   k yl'' = (L0 - Ll) yl / Ll - k g        + multipliers

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of mechanisms: reads entries and parameters, and builds mechanisms. */
+/* The list of all mechanisms. This file finds entries of the list, reads parameters, and builds
+ * mechanisms. */
 #include "catalog/catalog.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)
   return baum_fail(status, text);
 }
 
-/* Appends ", " and a name; truncates the name if the text is full. */
+/* Appends ", " and a name. If the text becomes too long, the name is cut. */
 static void append_name(char text[MESSAGE], const char *name)
 {
   size_t used = strlen(text);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chain of uniform rods: the first link starts at the origin, every other link at the tip of the
- * link before it. Angles are measured from the x axis. */
+/* A chain of uniform rods. The first link starts at the origin, and every other link starts at the
+ * end of the link before it. Angles are measured from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "catalog/catalog.h"
 #include "catalog/data/chain.h"
 
-/* The angles are 90, 90 and 45 degrees from the downward vertical. */
+/* The three angles below are 90, 90 and 45 degrees from the downward vertical. */
 static const double MASS_3[3] = {2.0, 1.0, 0.5};
 static const double LENGTH_3[3] = {1.0, 0.8, 0.6};
 static const double ANGLE_3[3] = {0.0, 0.0, -0.78539816339744831};
@@ -16,10 +16,10 @@ static const double ANGLE_3[3] = {0.0, 0.0, -0.78539816339744831};
 const baum_i_chain baum_i_chain_3 = {
   .links = 3, .mass = MASS_3, .length = LENGTH_3, .angle = ANGLE_3, .all = {.rate = 0.0}};
 
-/* The point where a link begins. */
+/* The point where the next link begins. */
 typedef struct tip {
   baum_body_id body;
-  double length; /* of that body */
+  double length; /* length of this body */
   baum_i_mover at;
 } tip;
 

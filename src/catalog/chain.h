@@ -8,8 +8,8 @@
 typedef struct baum_i_link {
   double mass;   /* [kg] */
   double length; /* [m] */
-  double angle;  /* [rad] at start */
-  double rate;   /* [rad/s] at start */
+  double angle;  /* [rad] angle at the start */
+  double rate;   /* [rad/s] angular velocity at the start */
 } baum_i_link;
 
 /* A chain of uniform rods that hangs from the origin. If an array is NULL, every link has the value
@@ -23,7 +23,7 @@ typedef struct baum_i_chain {
   baum_i_link all;
 } baum_i_chain;
 
-/* Three links of different lengths and masses, with a known motion. */
+/* A chain of three links with different lengths and masses, whose motion is known. */
 extern const baum_i_chain baum_i_chain_3;
 
 void baum_i_chain_add(baum_i_parts *parts, const baum_i_chain *data);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Flyball governor: a shaft about z, a slider on it at height s, and two arms on pins beside the
- * top of the shaft, at an angle b below the horizontal. Each arm is a rod with a ball at its end. A
- * spring and a damper connect the slider with the centre of each rod. Rods and shaft measure 1 m x
- * 0.01 m x 0.01 m, the slider is a cube of 0.1 m. Their density is 3000 kg/m^3.
+/* Flyball governor. A shaft rotates about z and carries a slider at the height s. Two arms are on
+ * pins beside the top of the shaft, at an angle b below the horizontal. Each arm is a rod with a
+ * ball at its end. A spring and a damper connect the slider with the centre of each rod. The rods
+ * and the shaft measure 1 m x 0.01 m x 0.01 m, and the slider is a cube with edges of 0.1 m. The
+ * density of rods, shaft and slider is 3000 kg/m^3.
  */
 #include <math.h>
 
@@ -23,20 +24,20 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of all bodies about z at start", BAUM_I_ANY},
 };
 
-static const double PIN = 0.05; /* [m] from the axis of the shaft */
+static const double PIN = 0.05; /* [m] distance from the axis of the shaft */
 static const double TOP = 1.0;  /* [m] height of the pins above the foot of the shaft */
 static const double ROD = 0.3;  /* [kg] mass of a rod */
 static const double AXIAL = 0.3 * 2e-4 / 12;
 static const double ACROSS = 0.3 * (1 + 1e-4) / 12;
 
-/* Returns the distance from the pin to the common centre of mass of rod and ball [m]. */
+/* Returns the distance [m] from the pin to the centre of mass of a rod and its ball together. */
 static double reach(const double *p)
 {
   return (ROD * 0.5 + p[BALL]) / (ROD + p[BALL]);
 }
 
-/* The columns q are the angle of the shaft, the height of the slider, and the angle of the arms
- * below the horizontal. */
+/* Computes the state of a body from the columns q. These are the angle of the shaft, the height of
+ * the slider, and the angle of the arms below the horizontal. */
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   baum_i_axes at = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
@@ -82,7 +83,8 @@ static void build(baum_i_parts *parts, const double *p)
   static const double up[3] = {0.0, 0.0, 1.0};
   const double columns[3] = {0.0, 0.5, p[BELOW]};
   const double rates[3] = {p[SPEED], 0.0, 0.0};
-  double arm = ACROSS + ROD * p[BALL] / (ROD + p[BALL]) * 0.25; /* rod and ball 0.5 m apart */
+  /* The centres of rod and ball are 0.5 m apart. */
+  double arm = ACROSS + ROD * p[BALL] / (ROD + p[BALL]) * 0.25;
   const double mass[BODIES] = {ROD, 3.0, ROD + p[BALL], ROD + p[BALL]};
   const double inertia[BODIES][3] = {
     {ACROSS, ACROSS, AXIAL}, {0.005, 0.005, 0.005}, {AXIAL, arm, arm}, {AXIAL, arm, arm}};

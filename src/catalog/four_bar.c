@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crank-rocker of uniform rods. Crank, coupler and rocker have the lengths a, b, c and the angles
- * th1, th2, th3 from the x axis; the pins of the frame are at (0, 0) and (d, 0).
+/* A crank-rocker four-bar of uniform rods. Crank, coupler and rocker have the lengths a, b, c and
+ * the angles th1, th2, th3 from the x axis. The pins of the frame are at (0, 0) and (d, 0), so that
  *
  *   a (cos th1, sin th1) + b (cos th2, sin th2) - c (cos th3, sin th3) - (d, 0) = 0
  */

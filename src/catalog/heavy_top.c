@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Heavy top: a disc on an axis through a fixed point; the axis is the y axis of the body. Angles
- * are the precession a about z, the elevation b of the axis above the horizontal, and the spin c
- * about the axis. A and C are the moments of inertia about the fixed point, across and along the
- * axis; n is the angular velocity along it.
+/* A heavy top: a disc on an axis through a fixed point. The axis is the y axis of the body. Its
+ * angles are the precession a about z, the elevation b of the axis above the horizontal, and the
+ * spin c about the axis. A and C are the moments of inertia about the fixed point: A across the
+ * axis, and C along it. The component of the angular velocity along the axis is n. Then
  *
  *   A a' cos(b)^2 + C n sin b = const,  C n = C (c' + a' sin b) = const
  *   A b'' = -A a'^2 sin b cos b + C n a' cos b - m g l cos b
@@ -36,7 +36,7 @@ static baum_i_body_state state(const double *p, const double *q, const double *v
 static void build(baum_i_parts *parts, const double *p)
 {
   const double rates[3] = {p[PRECESSION], 0.0, p[SPIN]};
-  double across = p[MASS] * p[RADIUS] * p[RADIUS] / 4; /* of a thin disc */
+  double across = p[MASS] * p[RADIUS] * p[RADIUS] / 4; /* moment of a thin disc about a diameter */
   const double inertia[3] = {across, 2 * across, across};
   baum_i_parts_gravity_z(parts, p[GRAVITY]);
   baum_body_id top =

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* N-four-bar: N + 1 cranks with pins at (k l, 0), k = 0 to N, and N couplers between the tips of
- * neighbouring cranks. All are uniform rods of length l; a and b are the masses of a crank and of a
- * coupler. While all cranks are parallel at the angle th,
+/* The N-four-bar has N + 1 cranks with pins at (k l, 0), k = 0 to N, and N couplers between the
+ * tips of neighbouring cranks. All of them are uniform rods of length l. The mass of a crank is a,
+ * and the mass of a coupler is b. As long as all cranks are parallel at the angle th, the equation
+ * of motion is
  *
  *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
  *
- * This is the pendulum equation for th + pi / 2. When the cranks lie on the x axis, the cranks of
- * each window (two cranks and a coupler) may change from parallel to crossed, and the rank of J is
- * lower by N.
+ * This is the pendulum equation for th + pi / 2. When the cranks lie on the x axis, the two cranks
+ * of each window (two cranks and a coupler) may change from parallel to crossed. In this
+ * configuration the rank of J is lower by N.
  */
 #include "catalog/catalog.h"
 
@@ -16,7 +17,7 @@
 
 #include "catalog/swing.h"
 
-#define QUARTER 1.5707963267948966 /* of a revolution */
+#define QUARTER 1.5707963267948966 /* [rad] a quarter of a revolution */
 
 enum { WINDOWS, ANGLE, RATE, LENGTH, CRANK_MASS, COUPLER_MASS, GRAVITY, COUNT };
 
@@ -47,7 +48,8 @@ static double solution(const double *p, double t, double *q, double *v)
   return off;
 }
 
-/* The bodies are in the order crank 0, coupler 0, crank 1, ..., crank N. */
+/* Computes the state of a body. The order of the bodies is crank 0, coupler 0, crank 1, ..., crank
+ * N. */
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   bool crank = body % 2 == 0;

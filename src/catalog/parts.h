@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Builds a mechanism from parts. After the first failure nothing more is added, and
- * baum_i_parts_finish() returns that failure. */
+/* Functions that build a mechanism from parts. After the first failure they add nothing more, and
+ * baum_i_parts_finish() returns the status of this failure. */
 #ifndef BAUM_I_CATALOG_PARTS_H
 #define BAUM_I_CATALOG_PARTS_H
 
@@ -19,10 +19,10 @@ typedef struct baum_i_body_state {
   double v[BAUM_I_BODY_WIDTH];
 } baum_i_body_state;
 
-/* Velocities that the definition of a body gives. */
+/* Tells which velocities the definition of a body gives. */
 typedef enum baum_i_given {
   BAUM_I_GIVE_ALL,
-  BAUM_I_GIVE_ROTATION, /* the angular velocity, which is held */
+  BAUM_I_GIVE_ROTATION, /* only the angular velocity, which assembly must keep */
   BAUM_I_GIVE_NONE
 } baum_i_given;
 
@@ -36,21 +36,22 @@ typedef struct baum_i_spot {
   double point[2];
 } baum_i_spot;
 
-/* A moving point, in ground axes. */
+/* A moving point, with position and velocity in ground axes. */
 typedef struct baum_i_mover {
   double r[2];
   double v[2];
 } baum_i_mover;
 
-/* Moves by the vector (x, y), given in axes that are at `angle` to the ground and rotate at
- * `rate`. */
+/* Moves the point by the vector (x, y). This vector is given in axes that are at `angle` to the
+ * ground axes and rotate with the angular velocity `rate`. */
 void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, double y);
 
-/* Returns the state of a body with this centre of mass. */
+/* Returns the state of a body whose centre of mass is this moving point. */
 baum_i_body_state baum_i_mover_state(const baum_i_mover *centre, double angle, double rate);
 
-/* Finds an intersection of the circles of radius ra about a and rb about b: the one to the left of
- * the line from a to b, or to the right if side is -1. NaN if they do not intersect. */
+/* Finds an intersection of two circles, one with radius ra about a, the other with radius rb about
+ * b. If side is -1, it is the intersection to the right of the line from a to b, otherwise the one
+ * to the left. Returns NaN if the circles do not intersect. */
 void baum_i_meet(const double a[2], double ra, const double b[2], double rb, double side,
                  double out[2]);
 
@@ -61,20 +62,21 @@ baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *
 baum_body_id baum_i_parts_body_at(baum_i_parts *parts, const char *name, double mass,
                                   double inertia, baum_i_body_state at, baum_i_given given);
 baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b);
-/* A pin at (xa, 0) of body a and (xb, 0) of body b. */
+/* Adds a pin. It is at (xa, 0) on body a and at (xb, 0) on body b. */
 baum_joint_id baum_i_parts_hinge(baum_i_parts *parts, const char *name, baum_body_id a, double xa,
                                  baum_body_id b, double xb);
-/* Guides a slider along the line y = height of the ground, through the slider's centre of mass.
- * `along` shifts both points of the guide along this line. */
+/* Adds a guide that keeps the centre of mass of a slider on the line y = height of the ground. Both
+ * points of the guide are shifted by `along` in the direction of this line. */
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,
                         double along);
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,
                       double length);
-/* Adds a driver at a constant rate. */
+/* Adds a driver that moves a joint at a constant rate. */
 void baum_i_parts_motor(baum_i_parts *parts, baum_joint_id joint, double value, double rate);
-/* Adds the constraint of `def` with its name, row count and functions, on one body. */
+/* Adds a constraint on one body. Its name, its number of rows and its functions are those of
+ * `def`. */
 void baum_i_parts_constraint(baum_i_parts *parts, baum_body_id body, baum_user_constraint_def def);
-/* Freezes the mechanism. On failure *out is NULL. */
+/* Freezes the mechanism. If this or an earlier call failed, *out is NULL. */
 baum_status baum_i_parts_finish(baum_i_parts *parts, baum_mechanism **out);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point on a circle. It is a particle on a massless rod. The test problem of the MEBDF codes uses
- * the constraint (x^2 + y^2 - 1) / 2 instead of a rod, so that the multipliers agree with the
- * published ones. With the angle a from the downward vertical,
+/* A point on a circle. It is a particle on a massless rod. In the test problem of the MEBDF codes,
+ * the constraint (x^2 + y^2 - 1) / 2 replaces the rod, so that the multipliers agree with the
+ * published ones. If a is the angle from the downward vertical,
  *
  *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
  */
@@ -140,7 +140,7 @@ const baum_i_catalog_mechanism baum_i_pendulum_a01 = {
 };
 
 const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
-  ON_ROD(41), /* samples every 0.75 s, so that not all are at the ends of the swing */
+  ON_ROD(41), /* one sample every 0.75 s, so that not all samples are at the ends of the swing */
   .name = "pendulum_sundials",
   .title = "simple pendulum with a period of exactly 2 s, from level at the right",
   .source = "LLNL/sundials, examples/cvode/serial/cvPendulum_dns.c",

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* References of motions, and errors of runs against them. */
+/* Reference solutions of motions, and the errors of runs relative to them. */
 #include "catalog/catalog.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A mechanism, its parameters, and its reference at one time. */
+/* A mechanism, its parameters, and its reference solution at one time. */
 typedef struct sample {
   const baum_i_catalog_mechanism *of;
   double p[BAUM_I_CATALOG_PARAMETERS];
@@ -43,7 +43,7 @@ baum_status baum_catalog_times(const char *name, double *times)
   return BAUM_OK;
 }
 
-/* Stored samples are valid only for the default parameters. */
+/* Checks that the parameters have their default values. Stored samples are valid only for these. */
 static baum_status check_parameters(const sample *at)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -65,8 +65,8 @@ static baum_status resolve(const baum_catalog_choice *choice, sample *at)
   return check_parameters(at);
 }
 
-/* Formulas have rounding errors, too. If the bound of these errors is large, the formula cannot
- * serve as a reference. */
+/* Computes the reference by a formula. Formulas also have rounding errors. If the bound of these
+ * errors is large, the formula cannot be used as a reference. */
 static baum_status evaluate_formula(sample *at, double t)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -110,7 +110,8 @@ static int width(const baum_i_catalog_mechanism *of)
   return (int)strlen(of->units);
 }
 
-/* A spatial body has one velocity fewer than coordinates, because of its quaternion ('q'). */
+/* Tells whether the mechanism has spatial bodies, which have quaternions ('q'). Such a body has one
+ * velocity fewer than positions. */
 static bool is_spatial(const baum_i_catalog_mechanism *of)
 {
   return strchr(of->units, 'q') != NULL;
@@ -133,7 +134,8 @@ static baum_i_body_state state_of(const sample *at, int body)
   return out;
 }
 
-/* Formulas may have no value, for example if the rod of a driven crank is too short. */
+/* Checks that the reference is finite. A formula may have no value, for example if the rod of a
+ * driven crank is too short. */
 static baum_status check_finite(const sample *at, double t)
 {
   for (int body = 0; body < baum_i_catalog_bodies(at->of, at->p); body++) {
@@ -185,8 +187,8 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* Largest values over the coordinates of a state: scaled differences, scaled sizes, and the
- * uncertainty of the reference. */
+/* The largest values over the coordinates of a state. They are differences and sizes, both divided
+ * by the scales, and the uncertainty of the reference. */
 typedef struct measure {
   double q;
   double v;
@@ -202,7 +204,7 @@ static double most(double a, double b)
 }
 
 /* Finds the displacement of a body between two poses. The displacement of a quaternion is the
- * rotation vector in body axes, to first order; the signs of the quaternions do not matter. */
+ * rotation vector in body axes, to first order. The signs of the quaternions do not matter. */
 static void subtract(const baum_i_catalog_mechanism *of, const double *from, const double *to,
                      double d[BAUM_I_BODY_WIDTH])
 {
@@ -222,7 +224,8 @@ static void subtract(const baum_i_catalog_mechanism *of, const double *from, con
   }
 }
 
-/* q and v contain all bodies; either may be NULL. */
+/* Compares a state with the reference. q and v contain the numbers of all bodies, and either of
+ * them may be NULL. */
 static measure measure_state(const sample *at, double scale, const double *q, const double *v)
 {
   measure out = {0};
@@ -246,8 +249,8 @@ static measure measure_state(const sample *at, double scale, const double *q, co
   return out;
 }
 
-/* Finds, over all samples, the largest velocity, by which errors of velocities are divided, and the
- * largest uncertainties (floors). */
+/* Finds the largest velocity over all samples, by which errors of velocities are divided. It also
+ * finds the largest uncertainties of the reference, which are called floors. */
 static baum_status measure_reference(sample *at, double scale, measure *out)
 {
   *out = (measure){0};
@@ -258,7 +261,7 @@ static baum_status measure_reference(sample *at, double scale, measure *out)
     out->floor_q = most(out->floor_q, one.floor_q);
     out->floor_v = most(out->floor_v, one.floor_v);
   }
-  /* If nothing moves, errors of velocities are divided by `scale` per second and 1 rad/s. */
+  /* If nothing moves, errors of velocities are divided by `scale` per second and by 1 rad/s. */
   out->size_v = out->size_v > 0.0 ? out->size_v : 1.0;
   return BAUM_OK;
 }

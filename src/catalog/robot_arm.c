@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Robot arm of six revolute joints about z, y, y, x, y, x, stretched along x where all angles are
- * 0. Angle k is driven by A_k sin w_k t. */
+/* A robot arm with six revolute joints, about z, y, y, x, y and x. When all angles are 0, it is
+ * stretched along x.
+ * 0. A driver sets the angle of joint k to A_k sin w_k t. */
 #include <float.h>
 #include <math.h>
 
@@ -19,8 +20,9 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 static const int AXIS[JOINTS] = {2, 1, 1, 0, 1, 0};
 static const double AMPLITUDE[JOINTS] = {1.5, 0.8, 1.2, 2.0, 1.0, 3.0}; /* [rad] */
 static const double RATE[JOINTS] = {2.0, 3.0, 2.5, 4.0, 3.5, 5.0};      /* [rad/s] */
-static const double SHARE[JOINTS] = {0.4, 0.45, 0.2, 0.2, 0.1, 0.05}; /* length of a link / reach */
-static const double MASS[JOINTS - 1] = {20.0, 12.0, 5.0, 3.0, 1.5};   /* [kg] */
+/* Length of each link, divided by the reach. */
+static const double SHARE[JOINTS] = {0.4, 0.45, 0.2, 0.2, 0.1, 0.05};
+static const double MASS[JOINTS - 1] = {20.0, 12.0, 5.0, 3.0, 1.5}; /* [kg] */
 
 static int drive(int k, double t, double s[3])
 {
@@ -56,8 +58,8 @@ static double solution(const double *p, double t, double *q, double *v)
   return DBL_EPSILON * (1.0 + RATE[JOINTS - 1] * fabs(t)) * AMPLITUDE[JOINTS - 1];
 }
 
-/* Moves the axes by the fraction `part` of a link's length along this link. With all angles at 0,
- * the first link points up, the others along x. */
+/* Moves the axes by the fraction `part` of a link's length along this link. When all angles are 0,
+ * the first link points up, and the others point along x. */
 static void go(const double *p, baum_i_axes *axes, int link, double part)
 {
   double length = part * SHARE[link] * p[REACH];
@@ -85,7 +87,8 @@ static void build(baum_i_parts *parts, const double *p)
   for (int k = 0; k < JOINTS; k++) {
     double mass = k < JOINTS - 1 ? MASS[k] : p[PAYLOAD];
     double length = SHARE[k] * p[REACH];
-    double axial = mass * length * length / 50; /* a cylinder five times as long as its radius */
+    /* A cylinder whose length is five times its radius. */
+    double axial = mass * length * length / 50;
     double across = axial / 2 + mass * length * length / 12;
     const double inertia[3] = {k == 0 ? across : axial, across, k == 0 ? axial : across};
     const double axis[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};

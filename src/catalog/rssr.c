@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial four-bar: a crank about z is driven, a rocker rotates about an axis parallel to x. With
- * the length L of the coupler, the length R of the rocker, and the vector d from the end of the
- * crank to the pivot of the rocker, the angle b of the rocker from y satisfies
+/* A spatial four-bar. A driver rotates the crank about z, and the rocker rotates about an axis
+ * parallel to x. Let L be the length of the coupler, R the length of the rocker, and d the vector
+ * from the end of the crank to the pivot of the rocker. Then the angle b of the rocker, measured
+ * from y, satisfies
  *
  *   2 R d_y cos b + 2 R d_z sin b = L^2 - R^2 - d.d
  *
- * A universal joint in place of one of the two balls keeps the coupler from spinning about itself.
+ * One of the two ball joints of the coupler is replaced by a universal joint, which prevents the
+ * coupler from spinning about its own axis.
  */
 #include <float.h>
 #include <math.h>
@@ -44,7 +46,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the crank", BAUM_I_ANY},
 };
 
-/* Finds axes that rotate with crank and rocker, with their origins at the ends of these. */
+/* Finds axes that rotate with the crank, and axes that rotate with the rocker. Their origins are at
+ * the ends of crank and rocker. */
 static void find_ends(const double *p, const double *q, const double *v, baum_i_axes *crank,
                       baum_i_axes *rocker)
 {
@@ -105,7 +108,8 @@ static void build(baum_i_parts *parts, const double *p)
                                       state(p, baum_i_zeros, &p[SPEED], k));
   }
   const double *b = ends[1].r;
-  const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]}; /* coupler and x axis */
+  /* Perpendicular to the coupler and the x axis. */
+  const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]};
   baum_joint_id shaft = baum_i_parts_spatial_revolute(
     parts, "shaft", (baum_i_place){BAUM_GROUND, id[0], baum_i_zeros, z});
   baum_i_parts_spatial_revolute(parts, "pivot", (baum_i_place){BAUM_GROUND, id[2], &p[PIVOT_X], x});

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank: crank 1 from the origin, rod 2, slider 3 on y = e, centres of mass at half length:
+/* A slider-crank. Crank 1 rotates about the origin, slider 3 moves on the line y = e, and rod 2
+ * connects them. The centres of mass of crank and rod are at half their lengths:
  *
  *   l1 sin a1 + l2 sin a2 = e,  x3 = l1 cos a1 + l2 cos a2
  *
- * The rod points to the right, cos a2 > 0, and the crank makes full revolutions if l2 > l1 +
- * abs(e). If the crank is driven, a1 = a1(0) + w t determines the motion.
+ * The rod points to the right, so cos a2 > 0. The crank can make full revolutions if
+ * l2 > l1 + abs(e). If the crank is driven, its angle a1 = a1(0) + w t determines the motion.
  */
 #include "catalog/slider_crank.h"
 
@@ -42,8 +43,8 @@ const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {
 static const double CENTRIC[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.153, 0.306, 0.0, 0.038, 0.038, 0.076, 7.4e-5, 5.9e-4, 2.7e-6, 9.81, 0.0, 150.0};
 
-/* The inertias of the source are converted to the centres of mass. The inertia of the slider is not
- * from the source. */
+/* The moments of inertia of the source are converted so that they refer to the centres of mass. The
+ * source does not give the inertia of the slider. */
 static const double SIMEON[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.15, 0.3, 0.0, 0.36, 0.151104, 0.075552, 7.02e-4, 1.1340859e-3, 2.7e-6, 0.0, 0.0, 150.0};
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), interpreted as
- * rigid bodies. A crank rotates about the origin and has a pin at its end. The centre of the rod
- * moves along the x axis; in the axes of the rod the pin is at (-1, 0), and a force (1, 0) acts at
- * (1, 0). A spring and a damper connect the middle of the crank to the point halfway between pin
- * and centre of the rod. There is no gravity.
+/* The slider-crank of the SUNDIALS examples idaSlCrank_dns and idasSlCrank_dns (R. Serban),
+ * interpreted as rigid bodies. A crank rotates about the origin and has a pin at its end. The
+ * centre of the rod moves along the x axis. In the axes of the rod, the pin is at (-1, 0), and a
+ * force (1, 0) acts at the point (1, 0). A spring and a damper connect the middle of the crank to
+ * the point halfway between the pin and the centre of the rod. There is no gravity.
  */
 #include "catalog/catalog.h"
 
@@ -24,8 +24,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [FORCE] = {"force", "N", "on the end of the rod, to the right", BAUM_I_ANY},
 };
 
-/* Computes the state of a body from the angle of the crank. The centre of the rod, 1 m from pin B,
- * is on y = 0.
+/* Computes the state of a body from the angle of the crank. The centre of the rod is 1 m from pin
+ * B, on the line y = 0.
  */
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {

@@ -8,7 +8,7 @@
 
 const double baum_i_zeros[3] = {0.0, 0.0, 0.0};
 
-/* Hamilton's product. */
+/* Computes the product of two quaternions, in Hamilton's convention. */
 static void multiply(const double a[4], const double b[4], double out[4])
 {
   out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
@@ -19,7 +19,7 @@ static void multiply(const double a[4], const double b[4], double out[4])
   }
 }
 
-/* Rotates s by the quaternion p: p s p^-1. */
+/* Rotates the vector s by the quaternion p. The result is p s p^-1. */
 static void turn_vector(const double p[4], const double s[3], double out[3])
 {
   const double pure[4] = {0.0, s[0], s[1], s[2]};
@@ -66,8 +66,9 @@ void baum_i_axes_go(baum_i_axes *axes, double x, double y, double z)
   }
 }
 
-/* With the vector (x, y, z) from `origin` to `end`, rotates about x by psi = atan2(z, y), then
- * about z by gamma = atan2(hypot(y, z), x). */
+/* Finds axes with the direction from `origin` to `end`. If the vector between them is (x, y, z),
+ * these axes are rotated about x by psi = atan2(z, y), and then about z by gamma = atan2(hypot(y,
+ * z), x). */
 baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *end)
 {
   double d[3];
@@ -119,7 +120,7 @@ baum_body_id baum_i_parts_spatial_body(baum_i_parts *parts, const char *name, do
   return id;
 }
 
-/* The fields with which all definitions of joints begin. */
+/* Sets the fields with which the definitions of all joints begin. */
 #define PLACE(def, name_, place)                           \
   do {                                                     \
     (def).name = (name_);                                  \

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial slider-crank: the crank rotates about an axis parallel to x, beside and above the line on
- * which the slider moves. With the angle a of the crank and its tip at (0, y, z), the slider is at
- * (x, 0, 0):
+/* A spatial slider-crank. The crank rotates about an axis parallel to x, which is beside and above
+ * the line on which the slider moves. If the angle of the crank is a and its tip is at (0, y, z),
+ * the slider is at (x, 0, 0) with
  *
  *   y = beside - l1 sin a,  z = above + l1 cos a,  x = sqrt(l2^2 - y^2 - z^2)
  *
- * The universal joint keeps one axis of the rod perpendicular to the line of the slider.
+ * The universal joint keeps one axis of the rod perpendicular to the slider's line.
  */
 #include <math.h>
 
@@ -95,7 +95,7 @@ static void build(baum_i_parts *parts, const double *p)
   baum_i_axes pin = crank_axes(p, &p[ANGLE], &p[SPEED]);
   baum_i_axes tip = pin;
   baum_i_axes_go(&tip, 0.0, 0.0, p[CRANK]);
-  const double across[3] = {0.0, tip.r[2], -tip.r[1]}; /* perpendicular to rod and x */
+  const double across[3] = {0.0, tip.r[2], -tip.r[1]}; /* perpendicular to the rod and the x axis */
   baum_i_parts_spatial_revolute(parts, "A", (baum_i_place){BAUM_GROUND, id[0], pin.r, along});
   baum_i_parts_spherical(parts, "B", (baum_i_place){id[0], id[1], tip.r, NULL});
   baum_i_parts_universal(parts, "C", (baum_i_place){id[2], id[1], slider.q, along}, across);

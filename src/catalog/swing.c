@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pendulum equation x'' = -k sin x by its Taylor series. With S = sin x and C = cos x,
+/* Integrates the pendulum equation x'' = -k sin x by its Taylor series. With S = sin x and C = cos
+ * x, the coefficients of the series satisfy
  *
  *   (n + 1) S_{n+1} =  sum_i (i + 1) x_{i+1} C_{n-i}
  *   (n + 1) C_{n+1} = -sum_i (i + 1) x_{i+1} S_{n-i}
  *   (n + 1) (n + 2) x_{n+2} = -k S_n
  *
- * The nearest singularities in complex time are at least (pi / 2) / sqrt(k) away, or 2 / |x'| in
- * fast rotation. Steps of 1 / (4 w), with w = sqrt(x'^2 + 4 abs(k)), are at most 1/8 of this
- * distance, so the last of 25 terms is below (1/8)^24 = 2e-22 of the first. The increments of the
- * steps are small compared with the angle, so compensated sums keep the rounding of many steps
- * below the rounding of the result.
+ * The nearest singularities in complex time are at a distance of at least (pi / 2) / sqrt(k), or
+ * 2 / |x'| in fast rotation. A step is 1 / (4 w), with w = sqrt(x'^2 + 4 abs(k)). This is at most
+ * 1/8 of that distance, so the last of the 25 terms is below (1/8)^24 = 2e-22 of the first. The
+ * increments of the steps are small compared with the angle. They are added by compensated sums, so
+ * that the rounding errors of many steps stay below the rounding error of the result.
  */
 #include "catalog/swing.h"
 
@@ -17,12 +18,12 @@
 
 enum { TERMS = 25, MOST_STEPS = 100000 };
 
-/* Relative rounding of each step; the errors of steps add up like a random walk. In rotations over
- * the top, the errors against 80-bit arithmetic are 2e-14, 2.0e-12, 1.2e-11 rad after 10, 30, 100
- * s; the returned bounds are 8e-13, 8e-12, 1.4e-11 rad. */
+/* Relative rounding error of each step. The errors of the steps add up like a random walk. For
+ * rotations over the top, 80-bit arithmetic shows errors of 2e-14, 2.0e-12 and 1.2e-11 rad after
+ * 10, 30 and 100 s. The bounds returned for them are 8e-13, 8e-12 and 1.4e-11 rad. */
 static const double ROUNDING = 5e-16;
 
-/* A sum and its rounding error. */
+/* A sum and the rounding error that has been lost from it. */
 typedef struct sum {
   double value;
   double rest;
@@ -73,7 +74,8 @@ static void integrate(double k, double h, long steps, double *angle, double *rat
 
 double baum_i_swing(double k, double t, double *angle, double *rate)
 {
-  /* A second motion starts `beside` the first; their distance at the end shows how errors grow. */
+  /* A second motion starts at the distance `beside` from the first one. The distance of both at the
+   * end shows how fast errors grow. */
   const double beside = 1e-9;
   double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
   double steps = ceil(4.0 * fabs(t) * fast) + 1.0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of shapes of a mechanism. */
+/* Makes the list of shapes that show a mechanism. */
 #include "draw/drawing.h"
 
 #include <stdlib.h>
@@ -8,8 +8,9 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* The largest unit as a share of the largest extent of the mechanism, and of the mean distance of
- * joints from the centres of mass of their bodies, which limits it if there are many bodies. */
+/* Two limits for the unit of length of a drawing. The unit is at most SHARE times the largest
+ * extent of the mechanism, and at most LINK_SHARE times the mean distance of joints from the
+ * centres of mass of their bodies. The second limit matters for mechanisms of many bodies. */
 static const double SHARE = 0.02, LINK_SHARE = 0.125;
 
 const char *baum_i_style_name(baum_i_style style)
@@ -47,7 +48,8 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shapes[drawing->shape_count++] = shape;
 }
 
-/* Shapes of one style keep the order in which they were added, which is that of their points. */
+/* Shapes of one style stay in the order in which they were added. This is the order of their points
+ * in memory. */
 static int compare(const void *a, const void *b)
 {
   const baum_i_shape *x = a, *y = b;
@@ -97,7 +99,7 @@ static void include(const baum_i_drawing *drawing, int body, const double point[
   baum_i_box_include(box, at[0], at[1], at[2]);
 }
 
-/* Negative if the box contains nothing. */
+/* Returns the largest edge of a box. The result is negative if the box contains nothing. */
 static double largest_edge(const baum_i_box *box)
 {
   double edge = -INFINITY;
@@ -107,8 +109,8 @@ static double largest_edge(const baum_i_box *box)
   return edge;
 }
 
-/* Mean distance of joints from the centres of mass of their bodies, without those below `least`.
- * Infinity if there are no others. */
+/* Returns the mean distance of joints from the centres of mass of their bodies. Distances below
+ * `least` are ignored. Returns infinity if there are no larger distances. */
 static double mean_distance(const baum_i_drawing *drawing, double least)
 {
   double sum = 0.0;
@@ -140,7 +142,7 @@ static double find_unit(const baum_i_drawing *drawing)
     }
   }
   double extent = largest_edge(&box);
-  if (extent <= 0.0) { /* all in one point: include the origin */
+  if (extent <= 0.0) { /* all in one point: extend the box to the origin */
     include(drawing, 0, origin, &box);
     extent = largest_edge(&box);
   }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One sample of a motion as an SVG picture: the shapes, the paths of points up to this sample, and
- * reactions as arrows. The view holds the whole motion, so that pictures of several samples fit on
- * each other. */
+/* Draws one sample of a motion as an SVG picture. The picture contains the shapes, the paths of
+ * points up to this sample, and reactions as arrows. The view shows the space that the whole motion
+ * needs, so that pictures of several samples can be laid on top of each other. */
 #include <string.h>
 
 #include <baum/draw.h>
@@ -13,17 +13,18 @@
 #include "simulate/run.h"
 
 enum { SEEN = 100, ARC = 24 };
-static const double REACH = 12.0;    /* [units] length of the arrow of the largest reaction */
-static const double NEAREST = 0.5;   /* [px] between points of a path */
-static const double SMALLEST = 0.01; /* arrows that are shorter than this share are not drawn */
-static const double LINE = 22.0;     /* [px] height of a scale */
+static const double REACH = 12.0;  /* [units] length of the arrow of the largest reaction */
+static const double NEAREST = 0.5; /* [px] smallest distance between points of a path */
+/* Arrows shorter than this fraction of the longest one are not drawn. */
+static const double SMALLEST = 0.01;
+static const double LINE = 22.0; /* [px] height of a line with a scale */
 
-/* Forces and moments, each with a scale of its own. */
+/* The two kinds of reactions. Arrows of forces and arrows of moments have separate scales. */
 typedef enum effort { FORCE, MOMENT, EFFORTS } effort;
 static const char *const COLOURS[EFFORTS] = {"#be123c", "#8b5cf6"};
 static const char *const UNITS[EFFORTS] = {"N", "N m"};
 
-/* One reaction in the rows of a page. */
+/* A joint reaction, and where its numbers are in the rows of a page. */
 typedef struct reaction {
   const baum_i_place *place;
   int column;
@@ -36,8 +37,8 @@ typedef struct figure {
   baum_i_spatial_frame *frames; /* (body_count + 1), the frames of the picture */
   reaction *reactions;          /* (reaction_count) */
   int reaction_count;
-  int width;            /* of a row */
-  double most[EFFORTS]; /* [N], [N m] over all samples */
+  int width;            /* number of columns in a row */
+  double most[EFFORTS]; /* largest force [N] and largest moment [N m] over all samples */
 } figure;
 
 /* ---- samples ---- */
@@ -60,7 +61,7 @@ static void set_frames(figure *f, int64_t sample)
   }
 }
 
-/* Transforms a point of a trace at a sample to the axes of the picture. */
+/* Finds the position of a traced point at a sample, in the axes of the picture. */
 static void find_trace(const figure *f, int trace, int64_t sample, int *body, double at[3])
 {
   const baum_mechanism *m = f->picture.drawing->mechanism;
@@ -96,7 +97,8 @@ static baum_status find_reactions(figure *f)
   return BAUM_OK;
 }
 
-/* Copies a force or moment of a sample as a vector in ground axes. Returns its size. */
+/* Copies the force or the moment of a reaction at a sample, as a vector in ground axes. Returns the
+ * length of this vector. */
 static double find_effort(const figure *f, const reaction *r, effort what, int64_t sample,
                           double out[3])
 {
@@ -124,12 +126,12 @@ static void find_largest(figure *f)
     }
   }
   if (f->most[MOMENT] < 1e-9 * f->most[FORCE] * f->picture.drawing->unit) {
-    f->most[MOMENT] = 0.0; /* rounding */
+    f->most[MOMENT] = 0.0; /* only rounding errors */
   }
 }
 
-/* Projects both ends of the arrow of a reaction. Returns its length as a share of the largest, 0 if
- * there is no arrow. */
+/* Finds both ends of the arrow that shows a reaction, projected to the picture. Returns its length
+ * as a fraction of the largest arrow's length, or 0 if there is no arrow. */
 static double find_arrow(const figure *f, const reaction *r, effort what, int64_t sample,
                          double ends[2][3])
 {
@@ -177,7 +179,7 @@ static void include_motion(figure *f, int64_t sample, baum_i_box *box)
   include_sample(f, sample, box);
 }
 
-/* ---- what lies over the shapes ---- */
+/* ---- what is drawn on top of the shapes ---- */
 
 static void put_stroke(const figure *f, const char *colour)
 {
@@ -233,8 +235,8 @@ static void put_arrow(const figure *f, const double ends[2][3], int tips, const 
   put_stroke(f, colour);
 }
 
-/* Draws a planar moment as an arc about its point, counter-clockwise if it is positive; a whole
- * revolution would be the largest moment. */
+/* Draws a planar moment as an arc about its point. The arc is counter-clockwise if the moment is
+ * positive. The largest moment would be almost a whole revolution. */
 static void put_arc(const figure *f, const double centre[3], double share)
 {
   const double radius = 2.0 * f->picture.drawing->unit, whole = 0.95 * BAUM_I_REVOLUTION * share;
@@ -266,13 +268,15 @@ static void put_reaction(const figure *f, const reaction *r, int64_t sample)
   baum_i_put(f->picture.out, "</g>\n");
 }
 
-/* Whether the arrows of this kind have a scale. The arcs of planar moments have none. */
+/* Tells whether a scale is drawn for forces, or for moments. In the plane, moments are shown as
+ * arcs, which have no scale. */
 static bool has_scale(const figure *f, effort what)
 {
   return f->most[what] > 0.0 && (what == FORCE || f->picture.drawing->spatial);
 }
 
-/* Draws an arrow with its size, rounded down to 1, 2 or 5, and returns the height used. */
+/* Draws the scale: an arrow and the force or moment that it stands for, which is the largest one
+ * rounded down to 1, 2 or 5 times a power of ten. Returns the height [px] that the scale takes. */
 static double put_scale(const figure *f, effort what, double below)
 {
   const baum_i_picture *p = &f->picture;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Red lines that show where a joint is open: between points that should coincide, from a point to
- * the line, plane or sphere on which it should be, and between the tips of axes that should be
- * parallel. Pictures omit lines that are too short to be seen. Joints that relate coordinates
- * (gears, racks, couplings, drivers) have none.
+/* Red lines that show where a joint is open. They connect points that should coincide, or a point
+ * with the line, plane or sphere on which it should be. They also connect the tips of axes that
+ * should be parallel. Pictures do not show lines that are too short to be seen. Joints that relate
+ * coordinates (gears, racks, couplings and drivers) have no such lines.
  */
 #include <string.h>
 
@@ -10,18 +10,19 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* In units: distance of the tips of axes from the joint; half the length of a line. */
+/* TIP is the distance between the joint and the tips of its axes, and ENDLESS is half the length of
+ * a line without ends. Both are in units of the drawing. */
 static const double TIP = 4.0, ENDLESS = 1000.0;
 
-/* What is fulfilled when a joint is closed. */
+/* The conditions that a joint imposes, as bits. */
 enum {
   POINTS = 1,    /* the points coincide */
-  LINE = 2,      /* body_b's point is on the axis of body_a */
-  PLANE = 4,     /* body_b's point is in the plane of body_a */
-  LENGTH = 8,    /* the points have a given distance */
+  LINE = 2,      /* the point of body_b is on the axis of body_a */
+  PLANE = 4,     /* the point of body_b is in the plane of body_a */
+  LENGTH = 8,    /* the points have a prescribed distance */
   PARALLEL = 16, /* the axes are parallel */
   NORMAL = 32,   /* the axes are perpendicular */
-  TURN = 64      /* body_b does not rotate about the axis */
+  TURN = 64      /* body_b does not rotate about the axis relative to body_a */
 };
 
 typedef struct rule {
@@ -53,7 +54,8 @@ typedef struct gaps {
   int what;
 } gaps;
 
-/* Draws a gap at body_b's point, moved by a vector in the axes of each body. */
+/* Draws the gap at the joint. Its ends are shifted by the vectors on_a and on_b, in the axes of
+ * each body. */
 static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
 {
   const baum_i_place *place = g->place;
@@ -78,7 +80,8 @@ static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
   baum_i_draw(g->drawing, shape, form == BAUM_I_BETWEEN ? 2 : 3, (const double(*)[3])points);
 }
 
-/* Draws the gaps at the tips of a direction on body_a and of the same direction on body_b. */
+/* Draws the gaps between the tips of a direction on body_a and the tips of the same direction on
+ * body_b. */
 static void draw_tips(const gaps *g, const double along_a[3], const double along_b[3])
 {
   for (int sign = -1; sign <= 1; sign += 2) {
@@ -89,7 +92,7 @@ static void draw_tips(const gaps *g, const double along_a[3], const double along
   }
 }
 
-/* Draws the gap between the tip of body_b's axis and the plane normal to body_a's. */
+/* Draws the gap between the tip of body_b's axis and the plane that is normal to body_a's axis. */
 static void draw_angle(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
@@ -99,7 +102,7 @@ static void draw_angle(const gaps *g)
   draw_gap(&plane, zero, tip);
 }
 
-/* Draws the tips of a plane of body_b. */
+/* Draws gaps for two directions in the plane of body_b, each at both of its tips. */
 static void draw_tilt(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
@@ -109,7 +112,7 @@ static void draw_tilt(const gaps *g)
   draw_tips(g, zero, y);
 }
 
-/* Draws a direction normal to the axis, which both bodies keep. */
+/* Draws gaps for a direction that is normal to the axis and that both bodies should share. */
 static void draw_turn(const gaps *g)
 {
   double x[3], y[3], on_b[3];
@@ -118,7 +121,7 @@ static void draw_turn(const gaps *g)
                          : (double)NAN;
   baum_i_complete_axes(g->place->axis[0], x, y);
   baum_i_draw_turn(g->drawing, g->place->body[0], g->place->body[1], x, on_b);
-  if (!isnan(angle)) { /* in the plane: a given relative orientation */
+  if (!isnan(angle)) { /* in the plane, the definition may give the relative orientation */
     on_b[0] = cos(angle) * x[0] + sin(angle) * x[1];
     on_b[1] = cos(angle) * x[1] - sin(angle) * x[0];
   }
@@ -168,7 +171,7 @@ void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place)
 
 /* ---- ends ---- */
 
-/* Moves `to` to the nearest point of a line on another body. */
+/* Moves `to` to the nearest point of a line that is fixed on another body. */
 static void find_nearest(const baum_i_spatial_frame *frame, const double (*line)[3], int count,
                          const double from[3], double to[3])
 {

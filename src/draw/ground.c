@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The ground at joints and springs. */
+/* Draws the ground at joints and springs. */
 #include <string.h>
 
 #include "draw/symbols.h"
 
-/* Finds the direction of gravity, in the plane that of its planar part. */
+/* Finds the direction of gravity. In the plane, only the planar part of gravity counts. */
 static void find_down(const baum_i_drawing *drawing, double down[3])
 {
   const double *g = drawing->mechanism->gravity;
@@ -18,8 +18,8 @@ static void find_down(const baum_i_drawing *drawing, double down[3])
   }
 }
 
-/* Finds the direction from a joint on the ground to the middle of the other body, or to its other
- * joints; zero if there is none. */
+/* Finds the direction from a joint on the ground towards the centre of mass of the other body, or
+ * towards the other joints of this body. The direction is zero if there is none. */
 static void find_link(const baum_i_symbol *s, int side, double link[3])
 {
   const baum_i_drawing *drawing = s->drawing;
@@ -46,7 +46,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
                        const double along[3], const double across[3])
 {
   enum { MOST = 40 };
-  /* a single line that returns to the edge after each hatch */
+  /* All hatches are one line. After each hatch it returns to the edge. */
   double xy[3 * MOST + 2][2] = {{-half, -below}};
   int count = 1;
   const double step = fmax(1.0, 2.0 * half / MOST);
@@ -60,7 +60,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
   baum_i_symbol_line(s, BAUM_I_GROUND, side, 0.0, count + 1, (const double(*)[2])xy, along, across);
 }
 
-/* Draws a line of the ground normal to a direction in the plane. */
+/* Draws the edge of the ground, normal to a direction in the plane. */
 static void draw_edge(const baum_i_symbol *s, int side, double half, double below,
                       const double up[3])
 {
@@ -68,7 +68,7 @@ static void draw_edge(const baum_i_symbol *s, int side, double half, double belo
   baum_i_draw_hatch(s, side, half, below, along, up);
 }
 
-/* Draws a leg and a square with hatches. */
+/* Draws a leg and, at its end, a square with hatches. */
 static void draw_plate(const baum_i_symbol *s, int side, const double up[3])
 {
   static const double leg[2][2] = {{0.0, 0.0}, {-2.4, 0.0}};
@@ -88,7 +88,8 @@ static void draw_plate(const baum_i_symbol *s, int side, const double up[3])
 void baum_i_draw_foot(const baum_i_symbol *s)
 {
   static const double foot[4][2] = {{0.0, 0.0}, {-1.5, -2.4}, {1.5, -2.4}, {0.0, 0.0}};
-  static const double HANGS = 0.7; /* cosine of the largest angle to gravity */
+  /* Cosine of the largest angle between a body that hangs and gravity. */
+  static const double HANGS = 0.7;
   double up[3], link[3];
   for (int side = 0; side < 2; side++) {
     if (s->place->body[side] != 0) {
@@ -144,7 +145,9 @@ void baum_i_draw_anchor(const baum_i_symbol *s, int side)
 
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3])
 {
-  static const double LEVEL = 0.2; /* sine of the smallest slope that counts as vertical */
+  /* A guide is considered vertical if the cosine of the angle between its normal and gravity is
+   * below this. */
+  static const double LEVEL = 0.2;
   const baum_i_drawing *drawing = s->drawing;
   const double *axis = s->place->axis[0];
   double down[3], middle[3] = {0.0};

@@ -6,17 +6,18 @@
 
 #include "draw/symbols.h"
 
-static const double REACH = 11.0; /* half the length of a guide without samples */
+/* Half the length of a guide if there are no samples of a motion. */
+static const double REACH = 11.0;
 
-/* A guide on body_a. Its place is in the middle of the path of body_b's point; `half` is half of
- * its length in units. */
+/* A guide on body_a. Its place is the middle of the path along which the point of body_b moves.
+ * `half` is half the length of the guide, in units. */
 typedef struct guide {
   baum_i_place place;
-  baum_i_symbol symbol; /* of that place */
+  baum_i_symbol symbol; /* the symbol at this place */
   double half;
 } guide;
 
-/* Displacement of body_b's point from body_a's point along the axis [m]. */
+/* Returns the displacement [m] of the point of body_b from the point of body_a along the axis. */
 static double displacement(const baum_i_place *place, const baum_i_spatial_frame *a,
                            const baum_i_spatial_frame *b)
 {
@@ -46,7 +47,7 @@ static void find_guide(const baum_i_symbol *s, double margin, guide *out)
     low = high =
       displacement(place, &s->drawing->design[place->body[0]], &s->drawing->design[place->body[1]]);
   }
-  /* One sample, as in a live page, does not tell how far the motion goes. */
+  /* A single sample, as in a live page, does not show how far the motion goes. */
   out->half = motion->count > 1 ? 0.5 * (high - low) / s->drawing->unit + margin : REACH;
   out->place = *place;
   baum_i_add_scaled3(0.5 * (low + high), place->axis[0], out->place.point[0]);
@@ -85,7 +86,8 @@ void baum_i_draw_slot(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.5);
 }
 
-/* Draws a rack whose pitch line is y units from the place, on the side of `side`. */
+/* Draws a rack. Its pitch line is y units from the place, and the rack lies on the side of the
+ * pitch line that the sign of `side` tells. */
 static void draw_teeth(const guide *g, double y, double side, const double left[3])
 {
   enum { TEETH = 28 };
@@ -106,7 +108,7 @@ static void draw_teeth(const guide *g, double y, double side, const double left[
                      g->place.axis[0], left);
 }
 
-/* The rack is on the left of the axis for a positive radius. */
+/* If the radius of the pinion is positive, the rack is on the left of the axis. */
 void baum_i_draw_rack(const baum_i_symbol *s)
 {
   guide g;
@@ -129,7 +131,8 @@ void baum_i_draw_rack(const baum_i_symbol *s)
 
 /* ---- a curve F = 0 ---- */
 
-/* Moves a point onto the curve by Newton's method; false if the curve has no tangent there. */
+/* Moves a point onto the curve by Newton's method. Returns false if the curve has no tangent
+ * there. */
 static bool find_on_curve(const baum_planar_curve_def *def, double xy[2], double tangent[2])
 {
   for (int k = 0; k < 5; k++) {
@@ -149,7 +152,8 @@ static bool find_on_curve(const baum_planar_curve_def *def, double xy[2], double
   return true;
 }
 
-enum { CURVE_STEPS = 240, TRACK_STEPS = 60 }; /* of one unit, in both directions */
+/* Largest numbers of steps, each one unit long, in both directions. */
+enum { CURVE_STEPS = 240, TRACK_STEPS = 60 };
 
 typedef struct path {
   double points[2 * CURVE_STEPS + 1][3]; /* in the axes of body_a */
@@ -157,7 +161,7 @@ typedef struct path {
   bool closed;
 } path;
 
-/* Follows the curve from its middle in one direction, until it closes or ends. */
+/* Follows the curve from the starting point in one direction, until the curve closes or ends. */
 static void follow_curve(const baum_i_symbol *s, const double start[2], int way, int most,
                          path *out)
 {
@@ -181,7 +185,8 @@ static void follow_curve(const baum_i_symbol *s, const double start[2], int way,
   }
 }
 
-/* Finds a closed curve, or a part of it that is as long as the mechanism. */
+/* Finds the points of a closed curve. If the curve is not closed, finds the points of a part of it,
+ * with at most TRACK_STEPS steps on each side of the starting point. */
 static void find_path(const baum_i_symbol *s, path *out)
 {
   double start[3];
@@ -195,7 +200,7 @@ static void find_path(const baum_i_symbol *s, path *out)
   }
 }
 
-/* A closed curve on a body is a cam, other curves are tracks. */
+/* Draws the curve. A closed curve on a body is drawn as a cam, and all other curves as tracks. */
 void baum_i_draw_curve(const baum_i_symbol *s)
 {
   const int body = s->place->body[0];
@@ -217,7 +222,8 @@ void baum_i_draw_curve(const baum_i_symbol *s)
 
 /* ---- space ---- */
 
-/* Draws the rail of body_a, with feet under its ends if it is on the ground. */
+/* Draws the rail that is fixed on body_a. If body_a is the ground, the rail has feet under its
+ * ends. */
 static void draw_rail(const baum_i_symbol *s, double radius, guide *g)
 {
   find_guide(s, 6.0, g);
@@ -237,7 +243,7 @@ void baum_i_draw_cylinder(const baum_i_symbol *s)
   baum_i_symbol_axis(s, BAUM_I_JOINT, 1, 1.1, 1.8);
 }
 
-/* A square sleeve, which does not rotate about its rail. */
+/* Draws a square sleeve. Its shape shows that it cannot rotate about its rail. */
 void baum_i_draw_slide(const baum_i_symbol *s)
 {
   static const double face[4][2] = {{-2.4, -1.3}, {2.4, -1.3}, {2.4, 1.3}, {-2.4, 1.3}};

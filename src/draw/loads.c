@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Symbols of springs, dampers and loads, and of what acts on joints: couplings, drivers, functions
- * of the user. */
+/* Symbols of springs, dampers and loads, and of elements that act on joints: couplings, drivers and
+ * user functions. */
 #include <string.h>
 
 #include <baum/elements.h>
@@ -15,7 +15,7 @@
 
 static const double X[3] = {1.0, 0.0, 0.0}, Y[3] = {0.0, 1.0, 0.0};
 
-/* Draws spring and damper side by side in the plane, and one about the other in space. */
+/* Draws a spring and its damper, side by side in the plane, and one around the other in space. */
 void baum_i_draw_spring(const baum_i_symbol *s)
 {
   bool damps = baum_i_find_number(s->element, "damping") > 0.0;
@@ -45,7 +45,8 @@ static void draw_spiral(const baum_i_symbol *s, const double x[3], const double 
   baum_i_symbol_line(s, BAUM_I_SPRING, 1, 0.0, POINTS, (const double(*)[2])xy, x, y);
 }
 
-/* Draws the spring at the pin between the bodies, or else at the centre of mass of body_b. */
+/* Draws the spring at the pin between the bodies. If there is no such pin, draws it at the centre
+ * of mass of body_b. */
 void baum_i_draw_torsion(const baum_i_symbol *s)
 {
   const baum_planar_torsion_spring_def *def = s->element->def;
@@ -63,7 +64,7 @@ void baum_i_draw_torsion(const baum_i_symbol *s)
   draw_spiral(&spiral, X, Y);
 }
 
-/* Draws an arc with an arrow tip in the plane of x and y. */
+/* Draws an arc with an arrow tip, in the plane of the vectors x and y. */
 static void draw_arc(const baum_i_symbol *s, baum_i_style style, int side, const double x[3],
                      const double y[3])
 {
@@ -75,7 +76,7 @@ static void draw_arc(const baum_i_symbol *s, baum_i_style style, int side, const
     xy[k][0] = radius * cos(angle);
     xy[k][1] = radius * sin(angle);
   }
-  for (int k = 0; k < 3; k++) { /* the arrow tip */
+  for (int k = 0; k < 3; k++) { /* the arrow tip at the end of the arc */
     double r = radius + (k == 0 ? -0.6 : k == 1 ? 0.0 : 0.6), angle = end - (k == 1 ? 0.0 : 0.35);
     xy[ARC + k][0] = r * cos(angle);
     xy[ARC + k][1] = r * sin(angle);
@@ -136,7 +137,8 @@ static bool is_angle(const baum_i_symbol *s, baum_joint_id id, baum_joint_coordi
   return baum_i_is_angle(&c);
 }
 
-/* Draws a spiral about the axis of an angle, or a coil along the axis of a displacement. */
+/* Draws the spring of an angle as a spiral about its axis, and the spring of a displacement as a
+ * coil along its axis. */
 void baum_i_draw_joint_spring(const baum_i_symbol *s)
 {
   const baum_joint_spring_def *def = s->element->def;
@@ -155,7 +157,8 @@ void baum_i_draw_joint_spring(const baum_i_symbol *s)
   }
 }
 
-/* Draws an arc about the axis of an angle, or an arrow along the axis of a displacement. */
+/* Draws the driver of an angle as an arc about its axis, and the driver of a displacement as an
+ * arrow along its axis. */
 void baum_i_draw_driver(const baum_i_symbol *s)
 {
   const bool spline = s->element->definition == baum_i_spline_driver_definition;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outlines of bodies, from the points of their joints: links as rounded bars and polygons, sliders
- * as blocks, wheels as discs. A body without such points is drawn with the size that its inertia
- * gives: in the plane a disc of the same inertia, in space a box or cylinder with the same moments
- * about the axes of the body.
+/* Finds outlines of bodies from the points of their joints. Links are drawn as rounded bars and
+ * polygons, sliders as blocks, and wheels as discs. The outline of a body without such points shows
+ * its inertia. In the plane it is a disc of the same inertia, and in space it is a box or cylinder
+ * that has the same moments about the axes of the body.
  */
 #include <string.h>
 
@@ -12,7 +12,8 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* In units: limits of discs and boxes that follow from inertia; half the edges of a slider. */
+/* In units of the drawing: the smallest and the largest size of discs and boxes that show inertia,
+ * and half the edges of a slider's block. */
 static const double LEAST = 1.5, MOST = 8.0;
 static const double BLOCK[2] = {2.6, 1.5};
 
@@ -21,7 +22,7 @@ typedef struct outline {
   int body;
   const baum_i_element *element;
   int count;
-  double (*points)[3]; /* (count) that differ */
+  double (*points)[3]; /* (count) points of joints, without repetition */
 } outline;
 
 static void draw(const outline *o, baum_i_style style, baum_i_form form, double radius, int count,
@@ -47,8 +48,9 @@ static void add_point(outline *o, const double point[3])
   memcpy(o->points[o->count++], point, 3 * sizeof *point);
 }
 
-/* The point of a sliding joint on body_a is not used: it may be anywhere on the axis, and would
- * stretch the outline. */
+/* Tells whether the point of a joint belongs to the outline of a body. For a sliding joint, the
+ * point on body_a does not. It may be anywhere on the axis, so it would make the outline too
+ * long. */
 static bool is_point_on(const baum_i_place *place, int side)
 {
   return side == 1 || !baum_i_has_field(place->element, "axis") ||
@@ -84,8 +86,9 @@ static void swap3(double a[3], double b[3])
   memcpy(b, kept, sizeof kept);
 }
 
-/* Finds the point, from `first` up to n, for which all others are on the left of the line to it
- * from `here`. Among points in line, the farthest. */
+/* Finds the next corner of the hull. All other points are on the left of the line from `here` to
+ * this corner. Only the points from number `first` to n - 1 are candidates. If several points are
+ * in line, the farthest of them is taken. */
 static int find_rightmost(const double here[3], int first, int n, const double (*x)[3])
 {
   int found = first;
@@ -97,8 +100,9 @@ static int find_rightmost(const double here[3], int first, int n, const double (
   return found;
 }
 
-/* Moves the points of the convex hull to the front, counter-clockwise; returns their number. Gift
- * wrapping (Jarvis 1973): the next point has all others on its left. */
+/* Moves the corners of the convex hull to the front of the list, in counter-clockwise order.
+ * Returns how many there are. The method is gift wrapping (Jarvis 1973): each next corner has all
+ * other points on its left. */
 static int find_hull(int n, double (*x)[3])
 {
   for (int k = 1; k < n; k++) {
@@ -118,7 +122,7 @@ static int find_hull(int n, double (*x)[3])
   return n;
 }
 
-/* The radius of a disc of the same inertia, within limits. */
+/* Returns the radius of a disc with the same inertia, within limits. */
 static double inertia_radius(const outline *o)
 {
   double mass = baum_i_find_number(o->element, "mass");
@@ -126,7 +130,7 @@ static double inertia_radius(const outline *o)
   return fmin(fmax(radius, LEAST * o->drawing->unit), MOST * o->drawing->unit);
 }
 
-/* Draws the block of a slider; false if the body is no slider. */
+/* Draws the block of a slider. Returns false if the body is not a slider. */
 static bool draw_block(const outline *o)
 {
   const double u = o->drawing->unit;
@@ -152,7 +156,7 @@ static bool draw_block(const outline *o)
   return found;
 }
 
-/* A disc about a point, with a line that shows how it rotates. */
+/* Draws a disc about a point, with a radial line that shows its rotation. */
 static void draw_disc(const outline *o, const double centre[3], double radius)
 {
   const double disc[2][3] = {{centre[0], centre[1], 0.0}, {0.0, 0.0, 1.0}};
@@ -189,7 +193,8 @@ static void draw_planar(outline *o)
 
 /* ---- space ---- */
 
-/* For a box with edges 2 e: I_xx = m (e_y^2 + e_z^2) / 3, and so on. */
+/* Draws a box with the same moments of inertia. If its edges are 2 e, then I_xx = m
+ * (e_y^2 + e_z^2) / 3, and so on. */
 static void draw_box(const outline *o)
 {
   const double u = o->drawing->unit;
@@ -203,8 +208,8 @@ static void draw_box(const outline *o)
   draw(o, BAUM_I_BODY, BAUM_I_BOX, 0.0, 2, (const double(*)[3])box);
 }
 
-/* Returns the axis of the body about which its inertia is symmetric; -1 if there is none, or if all
- * moments are equal. */
+/* Returns the index of the body axis about which the inertia is symmetric. Returns -1 if there is
+ * no such axis, or if all three moments are equal. */
 static int find_symmetry(const double inertia[6])
 {
   const double least = 1e-6 * (inertia[0] + inertia[1] + inertia[2]);
@@ -218,8 +223,8 @@ static int find_symmetry(const double inertia[6])
   return -1;
 }
 
-/* For a cylinder of radius r and length 2 e: I = m r^2 / 2 about its axis, and
- * m (r^2 / 4 + e^2 / 3) across it. */
+/* Draws a cylinder with the same moments of inertia. If its radius is r and its length 2 e, then
+ * I = m r^2 / 2 about its axis, and m (r^2 / 4 + e^2 / 3) about the other axes. */
 static void draw_cylinder(const outline *o, int axis)
 {
   const double least = 0.5 * o->drawing->unit, most = 2.0 * MOST * o->drawing->unit;
@@ -231,7 +236,8 @@ static void draw_cylinder(const outline *o, int axis)
   ends[0][axis] = -ends[1][axis];
   const double radius = fmin(fmax(sqrt(2.0 * about), least), most);
   draw(o, BAUM_I_BODY, BAUM_I_CYLINDER, radius, 2, (const double(*)[3])ends);
-  double mark[4][3] = {{0.0}}; /* across both ends and along the side, shows how it rotates */
+  /* A line across both ends and along the side, which shows the rotation. */
+  double mark[4][3] = {{0.0}};
   for (int k = 0; k < 4; k++) {
     mark[k][axis] = ends[k / 2][axis];
     mark[k][(axis + 1) % 3] = k == 1 || k == 2 ? radius : 0.0;
@@ -252,7 +258,7 @@ static void draw_spatial(const outline *o)
       draw_box(o);
     }
   }
-  if (o->count == 2) { /* one bar through the centre of mass */
+  if (o->count == 2) { /* a single bar through the centre of mass */
     const double bar[3][3] = {{o->points[0][0], o->points[0][1], o->points[0][2]},
                               {0.0, 0.0, 0.0},
                               {o->points[1][0], o->points[1][1], o->points[1][2]}};
@@ -268,7 +274,7 @@ static void draw_spatial(const outline *o)
   }
 }
 
-/* ---- both ---- */
+/* ---- plane and space ---- */
 
 void baum_i_draw_body(baum_i_drawing *drawing, int body)
 {

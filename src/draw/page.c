@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as one HTML page: the template page.html with the data that its script draws.
+/* Writes a run as one HTML page. The page consists of the template page.html and of the data that
+ * the script in it draws.
  *
- * The data are JSON. Its numbers are in a table of 16-bit values, one column after the other, as
- * base64: 0 to 65534 span the range of the column, 65535 stands for a missing value. The first
- * column is the time, then come the columns of q, of reactions, and of plots.
+ * The data are in JSON. Their numbers are in a table of 16-bit integers, one column after the
+ * other, encoded as base64. In each column, 0 to 65534 stand for the values from its smallest to
+ * its largest, and 65535 stands for a missing value. The first column is the time. The columns of
+ * q, of reactions and of plots follow.
  */
 #include <stdint.h>
 #include <string.h>
@@ -18,24 +20,25 @@
 #include "simulate/run.h"
 
 enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
-/* Where the template takes the data, and the script that draws solids. */
+/* Marks in the template: the page has its data in place of the first one, and the script that draws
+ * solids in place of the second one. */
 static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
 
-/* Made by cmake/Embed.cmake. */
+/* The files as bytes, in C code that cmake/Embed.cmake generates. */
 extern const unsigned char baum_i_page_html[], baum_i_solids_js[];
 
 /* A column of the table. */
 typedef struct column {
-  const double *values; /* of the first sample */
+  const double *values; /* the value in the first sample */
   int64_t stride;
-  bool angle; /* reduced to -pi to pi when stored */
+  bool angle; /* an angle, which is stored as a value from -pi to pi */
   bool plotted;
 } column;
 
 typedef struct table {
   const baum_mechanism *mechanism;
   const baum_page *page;
-  int width; /* of a row */
+  int width; /* number of columns in a row */
   int64_t *frames;
   int frame_count;
   column *columns; /* (column_count) */
@@ -65,7 +68,8 @@ static baum_status check_traces(const baum_mechanism *m, const baum_page *page, 
   return BAUM_OK;
 }
 
-/* Checks that a list has at least `least` entries, and that both of its arrays are given. */
+/* Checks a list that the caller gives. It must have at least `least` entries, and both of its
+ * arrays must be given. */
 static baum_status check_list(const char *call, const char *names, int64_t count, int64_t least,
                               const void *array, const void *other)
 {
@@ -111,7 +115,8 @@ static baum_status check_given(const baum_page *page, const char *call)
   return check_marks(page, call);
 }
 
-/* Copies the page of the caller. Fields that an older version lacks keep their defaults. */
+/* Copies the caller's page. Fields that the struct of an older version does not have keep their
+ * defaults. */
 static baum_status take_page(const baum_page *given, const char *call, baum_page *page)
 {
   if (!given) {
@@ -158,7 +163,8 @@ bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
          m->joints[baum_i_joint_index(m, c->joint)]->type->width > 0;
 }
 
-/* Adds the columns of q. Angles of planar bodies are reduced. */
+/* Adds the columns of q to the table. Angles of planar bodies are marked as angles, so that they
+ * are stored as values from -pi to pi. */
 static void add_positions(table *t, const double *q)
 {
   const int first = t->column_count;
@@ -229,8 +235,8 @@ static void put_plots(table *t, baum_i_buffer *out)
 
 /* ---- frames ---- */
 
-/* Marks the samples with the smallest and the largest value of each plotted column. Returns the
- * number of columns. */
+/* Marks the samples in which a plotted column has its smallest or its largest value. Returns the
+ * number of plotted columns for which this was done. */
 static int mark_extremes(const table *t, bool *kept)
 {
   int marked = 0;
@@ -249,7 +255,8 @@ static int mark_extremes(const table *t, bool *kept)
   return marked;
 }
 
-/* Chooses the samples to keep: all, or some at equal intervals and the extremes. */
+/* Chooses the samples that the page contains. These are either all samples, or samples at equal
+ * intervals and those with the extreme values of plots. */
 static baum_status choose_frames(table *t)
 {
   const int64_t n = t->page->count;
@@ -312,7 +319,7 @@ static unsigned quantize(double x, const double range[2])
 typedef struct encoder {
   baum_i_buffer *out;
   uint32_t bits;
-  int bytes; /* in bits */
+  int bytes; /* number of bytes in `bits` */
   char text[401];
   int used;
 } encoder;

@@ -53,7 +53,7 @@ void baum_i_draw_ball(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, s->place->body[0] == 0 ? 0 : 1, 1.2);
 }
 
-/* Draws the axis of each body: they coincide if the joint is closed. */
+/* Draws the axis of each body. The two axes coincide if the joint is closed. */
 static void draw_axes(const baum_i_symbol *s, double reach)
 {
   baum_i_symbol_axis(s, BAUM_I_PITCH, 0, 0.0, reach);
@@ -89,7 +89,7 @@ static void draw_square(const baum_i_symbol *s, int side, double half)
   }
 }
 
-/* A pad that slides on a plane. */
+/* Draws a pad that slides on a plane. */
 void baum_i_draw_plane(const baum_i_symbol *s)
 {
   draw_square(s, 0, 8.0);
@@ -102,7 +102,7 @@ void baum_i_draw_plane_point(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.9);
 }
 
-/* A cube. */
+/* Draws a cube. */
 void baum_i_draw_clamp(const baum_i_symbol *s)
 {
   const double *at = s->place->point[1];

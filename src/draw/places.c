@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the places of joints and forces from the fields that their definitions share. */
+/* Finds the places of joints and forces, from the fields that their definitions have in common. */
 #include <string.h>
 
 #include "draw/drawing.h"
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Finds a field of a definition; NULL if there is none. */
+/* Finds the value of a field in a definition. Returns NULL if the definition has no such field. */
 static const void *find_field(const baum_i_element *element, const char *name, size_t *size)
 {
   *size = 0;
@@ -67,8 +67,8 @@ static void normalize(double x[3])
   }
 }
 
-/* In definitions with `point`, axes are in ground axes. In others, the axis is in the axes of
- * body_a, and axis_b in the axes of body_b. */
+/* In a definition that gives `point`, the axes are in ground axes. In other definitions, `axis` is
+ * in the axes of body_a, and `axis_b` is in the axes of body_b. */
 static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
                      baum_i_place *place)
 {
@@ -86,7 +86,7 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
   }
   baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
   given = find_field(place->element, "angle", &size);
-  if (given && !isnan(*given)) { /* of a guide in the plane: the given relative orientation */
+  if (given && !isnan(*given)) { /* guide in the plane whose relative orientation is given */
     axis_b[0] = cos(*given) * axis[0] + sin(*given) * axis[1];
     axis_b[1] = cos(*given) * axis[1] - sin(*given) * axis[0];
   }
@@ -109,8 +109,8 @@ static bool is_particle(const baum_i_drawing *drawing, int body)
   return kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE;
 }
 
-/* Sets the points of an element from its fields point, point_a and point_b. The only point of a
- * particle is the particle itself, also if `point` is elsewhere by mistake. */
+/* Sets the points of an element from its fields point, point_a and point_b. The point of a particle
+ * is always the particle itself, even if `point` is elsewhere by mistake. */
 static void set_points(const baum_i_drawing *drawing, const double *point, size_t size,
                        baum_i_place *out)
 {
@@ -130,7 +130,7 @@ static void set_points(const baum_i_drawing *drawing, const double *point, size_
   set_axes(drawing, size == 2 * sizeof *point, in_ground, out);
 }
 
-/* A load at the centre of mass needs no place. */
+/* Sets the place of a load. A load at the centre of mass needs no place. */
 static void set_load(const baum_i_element *element, int body, const double *point, size_t size,
                      baum_i_place *out)
 {
@@ -159,7 +159,8 @@ static void find_place(const baum_i_drawing *drawing, const baum_i_element *elem
   }
 }
 
-/* Lists the ends of places by body, and the gears, so that large mechanisms are drawn quickly. */
+/* Makes the lists of the ends on each body and of the gears. With these lists, large mechanisms are
+ * drawn quickly. */
 static void list_ends(baum_i_drawing *drawing)
 {
   const baum_mechanism *m = drawing->mechanism;
@@ -177,7 +178,8 @@ static void list_ends(baum_i_drawing *drawing)
     first[k + 1] += first[k];
   }
   const int total = first[m->body_count + 1];
-  for (int k = 2 * drawing->place_count - 1; k >= 0; k--) { /* each end moves to its begin */
+  /* Copies each end to its place, and turns first[] into starts. */
+  for (int k = 2 * drawing->place_count - 1; k >= 0; k--) {
     const baum_i_place *place = &drawing->places[k / 2];
     if (place->element) {
       drawing->ends[--first[place->body[k % 2] + 1]] = (baum_i_place_end){k / 2, k % 2};

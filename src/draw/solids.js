@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the solids of spatial mechanisms with WebGL: a part of page.html, which only pages of such mechanisms contain.
-// Unit shapes are drawn many times, each with its own axes. The picture is copied into the stage.
+// Draws the solids of spatial mechanisms with WebGL. Only the pages of such mechanisms contain this part of page.html.
+// There are meshes of unit size, which are drawn many times, each time with other axes. The picture is copied into the stage.
 
 // ---- shaders: a vertex is at centre + p.x x + p.y y + p.z z + p.w along, so `along` stretches a capsule ----
 
 const PASSES = {SHADOW: 0, SOLID: 1, CREASES: 2, OUTLINE: 3};
 const ATTRIBUTES = {p: 4, normal: 3, outward: 3, x: 3, y: 3, z: 3, centre: 3, along: 3, fill: 3, edge: 3};
-const VERTEX = 10, INSTANCE = 21; // numbers of a vertex: the first three attributes; of an instance: the others
+const VERTEX = 10, INSTANCE = 21; // how many numbers a vertex has (the first three attributes), and how many an instance has (the others)
 const VERTEX_SHADER = `#version 300 es
 in vec4 p;
 in vec3 normal, outward, x, y, z, centre, along, fill, edge;
 uniform mat3 axes;
-uniform vec4 bottom, window; // upward direction, height; from metres to the picture: factors, shift
+uniform vec4 bottom, window; // upward direction and height of the floor; factors and shift from metres to the picture
 uniform vec3 middle;
-uniform vec2 measures; // range of depths, half the width of an outline [m]
+uniform vec2 measures; // range of depths, and half the width of an outline [m]
 uniform int pass;
 out vec3 facing, colour, sky;
 vec3 turned(vec3 n) { return axes * (x * n.x / dot(x, x) + y * n.y / dot(y, y) + z * n.z / dot(z, z)); }
@@ -42,10 +42,10 @@ void main() {
 
 // ---- meshes ----
 
-// Triangles with normals, smooth where faces meet at less than 45 degrees; all other edges are creases.
+// Makes triangles with normals. Edges are smooth if their faces meet at less than 45 degrees, and sharp otherwise.
 function makeMesh(points, triangles) {
   const at = points.map(([x, y, z, w = 0]) => [x, y, z + 4 * w]), size = at.reduce((most, p) => Math.max(most, Math.hypot(...p)), 0);
-  const first = new Map(), same = points.map((p, k) => { // the first point in the same place
+  const first = new Map(), same = points.map((p, k) => { // index of the first point at the same place
     const key = p.map(e => Math.round(1e6 * e / size)).join(' ');
     return first.get(key) ?? (first.set(key, k), k);
   });
@@ -70,7 +70,7 @@ function makeMesh(points, triangles) {
   });
   return {vertices: new Float32Array(vertices), corners, ends: vertices.length / VERTEX - corners, instances: []};
 }
-// A surface through rings of the same number of points, and more triangles.
+// Makes a surface through rings that have the same number of points. More triangles may be added.
 function makeRings(rings, triangles = []) {
   const n = rings[0].length, sides = rings.slice(1).flatMap((_, k) => rings[0].flatMap((_, j) => {
     const a = k * n + j, b = k * n + (j + 1) % n;
@@ -85,14 +85,14 @@ function makeCapsule() {
   const half = [-90, -65, -40, -20, 0].map(a => [Math.cos(a * Math.PI / 180), Math.sin(a * Math.PI / 180)]);
   return makeRings([...half.map(([r, z]) => ring(r, z, -1)), ...half.reverse().map(([r, z]) => ring(r, -z, 1))]);
 }
-const WIRE = .13; // of the radius of a coil
+const WIRE = .13; // radius of the wire, as a fraction of the radius of a coil
 function makeCoil(revolutions = 6, steps = 72) {
   return makeRings(Array.from({length: steps + 1}, (_, k) => ring(WIRE, 0, 0, 5).map(([a, b]) => {
     const angle = 2 * Math.PI * revolutions * k / steps;
     return [(1 + a) * Math.cos(angle), (1 + a) * Math.sin(angle), -b, 2 * k / steps - 1];
   })));
 }
-// Cuts ears from a simple polygon in the plane, counter-clockwise.
+// Divides a simple planar polygon into triangles by cutting off its ears. Its points are in counter-clockwise order.
 function triangulate(xy) {
   const left = xy.map((_, k) => k), triangles = [];
   const turn = (a, b, c) => (xy[b][0] - xy[a][0]) * (xy[c][1] - xy[a][1]) - (xy[b][1] - xy[a][1]) * (xy[c][0] - xy[a][0]);
@@ -115,7 +115,7 @@ function makePlate(points, thickness) {
 
 // ---- the shapes of a frame, as instances of meshes ----
 
-const parsed = new Map(); // colours: red, green and blue up to 1
+const parsed = new Map(); // colours that were read before: red, green and blue from 0 to 1
 function rgb(colour) {
   if (!parsed.has(colour)) parsed.set(colour, [1, 3, 5].map(k => parseInt(colour.slice(k, k + 2), 16) / 255));
   return parsed.get(colour);
@@ -157,7 +157,7 @@ function putDisc({points: [centre, n], radius}, f, fill, thin, tone) {
 function putSolid(shape, frames) {
   const {form, style, body, radius} = shape, f = frames[body], {fill, edge, width} = look(shape), tone = [...rgb(fill || edge), ...rgb(edge)];
   const points = form === 'mesh' ? [] : shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, none = [0, 0, 0];
-  const wide = Math.max(radius * (1 + .02 * (3 * body % 8)), thin); // lines of different bodies in one place differ
+  const wide = Math.max(radius * (1 + .02 * (3 * body % 8)), thin); // lines of different bodies at one place have different widths
   const axes = [0, 1, 2].map(k => [f.a[k], f.a[3 + k], f.a[6 + k]]);
   if (form === 'ball') putTube(solids.capsule, points[0], points[0], radius, tone);
   else if (form === 'disc') putDisc(shape, f, fill, thin, tone);
@@ -204,7 +204,7 @@ function upload(gl, mesh) {
     gl.bufferData(gl.ARRAY_BUFFER, mesh.vertices, gl.STATIC_DRAW);
     let offset = 0;
     Object.values(ATTRIBUTES).forEach((size, k) => {
-      if (offset === VERTEX) { // the rest is in another buffer, once for each instance
+      if (offset === VERTEX) { // the other attributes are in another buffer, once for each instance
         gl.bindBuffer(gl.ARRAY_BUFFER, mesh.buffer = gl.createBuffer());
         offset = 0;
       }
@@ -226,7 +226,7 @@ function setView({gl, uniforms, canvas}) {
   gl.uniform3fv(uniforms.middle, centre);
   gl.uniform4f(uniforms.bottom, ...UP, floor.height);
   gl.uniform4f(uniforms.window, 2 * scale / wide, 2 * scale / high, 2 * shift[0] / wide, -2 * shift[1] / high);
-  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // later motion may reach farther
+  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // because a later motion may need more space
   gl.uniform3fv(uniforms.shadow, rgb(colours.shadow));
 }
 function drawSolids(frames) {
@@ -237,7 +237,7 @@ function drawSolids(frames) {
   setView(solids);
   meshes.forEach(mesh => upload(gl, mesh));
   for (const pass of Object.values(PASSES)) {
-    if (pass === PASSES.SHADOW && view.tilt <= 0) continue; // seen from below
+    if (pass === PASSES.SHADOW && view.tilt <= 0) continue; // the floor is seen from below
     gl.uniform1i(uniforms.pass, pass);
     if (pass === PASSES.OUTLINE) gl.enable(gl.CULL_FACE); else gl.disable(gl.CULL_FACE);
     for (const mesh of meshes) {
@@ -249,7 +249,7 @@ function drawSolids(frames) {
   pen.drawImage(canvas, 0, 0, wide, high);
 }
 
-// ---- the floor: squares below the whole motion ----
+// ---- the floor, which consists of squares below the whole motion ----
 
 const floor = {height: 0, size: 1, square: 1, low: [0, 0], up: [0, 0]};
 function fitFloor() {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A configuration as an SVG picture. The colours suit light and dark backgrounds. Planar mechanisms
- * are seen along z. Spatial mechanisms are shown in a parallel projection, in which nearer shapes
- * cover those behind. */
+/* Draws a configuration as an SVG picture. The colours are legible on light and on dark
+ * backgrounds. Planar mechanisms are seen along the z axis. Spatial mechanisms are shown in a
+ * parallel projection, in which nearer shapes cover those behind them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +14,8 @@ static const double MARGIN = 12.0;
 typedef baum_i_picture picture;
 typedef baum_i_look look;
 
-/* Bodies have a fill and stroke of COLOUR instead. */
+/* How each style looks. Bodies have the colours of COLOUR instead of the fill and stroke given
+ * here. */
 static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
@@ -42,7 +43,7 @@ static const char *const COLOUR[COLOURS][2] = {
 
 /* ---- projection ---- */
 
-/* Transforms a point of a body to the axes right, up and towards the eye [m]. */
+/* Transforms a point of a body to the axes of the picture: right, up and towards the eye [m]. */
 static void project(const picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
@@ -58,7 +59,8 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
 void baum_i_picture_set_view(baum_i_picture *p)
 {
   static const double plane[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  static const double TURN = -0.9, TILT = 0.45; /* [rad] view about the vertical, and down */
+  /* [rad] direction of view: rotation about the vertical, and inclination downwards. */
+  static const double TURN = -0.9, TILT = 0.45;
   memcpy(p->view, plane, sizeof plane);
   if (!p->drawing->spatial) {
     return;
@@ -69,7 +71,7 @@ void baum_i_picture_set_view(baum_i_picture *p)
   for (int i = 0; i < 3 && size > 0.0; i++) {
     up[i] = -g[i] / size;
   }
-  /* x and y are horizontal, as in page.html. */
+  /* The vectors x and y are horizontal, as in page.html. */
   const double other[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0.0};
   baum_i_cross(up, other, y);
   double length = sqrt(baum_i_dot3(y, y));
@@ -93,7 +95,8 @@ static const double *point_of(const picture *p, const baum_i_shape *shape, int k
   return p->drawing->points[shape->first + k];
 }
 
-/* Projects the ends of a shape that connects bodies. Returns the length [m]. */
+/* Finds the two ends of a shape that connects bodies, projected to the picture. Returns its length
+ * [m]. */
 static double project_ends(const picture *p, const baum_i_shape *shape, double out[2][3])
 {
   double at[2][3];
@@ -109,15 +112,16 @@ static bool connects(const baum_i_shape *shape)
   return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
-/* Whether all points of a shape are places, not directions or lengths. */
+/* Tells whether all points of a shape are positions. Some forms have points that are directions or
+ * lengths. */
 static bool has_places(const baum_i_shape *shape)
 {
   return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-/* Bars count as far away as their farther end, so that the joints at both ends cover them. Other
- * shapes count as their mean. */
+/* Returns how near a shape is to the eye. For a bar this is the distance of its farther end, so
+ * that the joints at both ends cover the bar. For other shapes it is the mean over their points. */
 static double depth_of(const picture *p, const baum_i_shape *shape)
 {
   bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
@@ -137,7 +141,7 @@ static void include(const double at[3], double radius, baum_i_box *box)
   baum_i_box_include(box, at[0] + radius, at[1] + radius, 0.0);
 }
 
-/* A gap is only shown if it is long enough to be seen. */
+/* Tells whether a shape is shown. A gap is shown only if it is long enough to be seen. */
 static bool is_shown(const picture *p, const baum_i_shape *shape)
 {
   double ends[2][3];
@@ -225,8 +229,8 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
   baum_i_put(p->out, closed ? "Z\"" : "\"");
 }
 
-/* With a radius, draws a wide line in the colour of the edge, and over it a narrower one in the
- * colour of the fill. */
+/* Draws a line. If the shape has a radius, this is a wide line in the colour of the edge, and on
+ * top of it a narrower line in the colour of the fill. */
 static void put_line(const picture *p, const baum_i_shape *shape, int count, const double (*at)[3],
                      bool closed)
 {
@@ -259,7 +263,7 @@ static void put_circle(const picture *p, const baum_i_shape *shape, const double
   put_attributes(p, l.fill, l.stroke, l.width, l.dash);
 }
 
-/* Draws the face of a box along one axis, if it points towards the eye. */
+/* Draws the face of a box that is normal to one axis, if this face points towards the eye. */
 static void put_face(const picture *p, const baum_i_shape *shape, int axis, double sign)
 {
   const double *centre = point_of(p, shape, 0), *half = point_of(p, shape, 1);
@@ -303,8 +307,10 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
   baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
 }
 
-/* Draws a line between two ends. x is along the line, as a fraction of its length; y is across, in
- * radii. A third point of the shape moves all except the ends to the left. */
+/* Draws a line along the connection between two ends, for example a coil. Of each point, x is the
+ * position along the connection as a fraction of its length, and y is the distance to the side, in
+ * radii. If the shape has a third point, its y moves all points to the left, except the two
+ * ends. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
@@ -359,7 +365,7 @@ static void put_between(const picture *p, const baum_i_shape *shape)
   }
 }
 
-/* The arrow of a moment has two tips. */
+/* Draws an arrow. The arrow of a moment has two tips. */
 static void put_arrow(const picture *p, const baum_i_shape *shape)
 {
   static const double tip[4][2] = {{0.0, 0.0}, {1.2, 0.5}, {0.0, 0.0}, {1.2, -0.5}};
@@ -427,9 +433,9 @@ static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 
 /* ---- the picture ---- */
 
-/* A shape, or a triangle of a mesh. In the plane, layers are shapes. In space, outlines of ground
- * are behind all others, because the depth of a floor says little; symbols of forces are in
- * front. */
+/* Tells when a shape, or one triangle of a mesh, is drawn. In the plane, the layer is the number of
+ * the shape. In space, outlines of the ground are in a layer behind all others, because the depth
+ * of a large floor means little. Symbols of forces are in the front layer. */
 typedef struct order {
   int layer;
   double depth;
@@ -461,7 +467,8 @@ static int layer_of(const picture *p, int k)
   return p->drawing->spatial ? in_space : k;
 }
 
-/* Lists all parts in the order of drawing; returns their number, or -1 when out of memory. */
+/* Makes a list of all parts in the order of drawing. Returns their number, or -1 when out of
+ * memory. */
 static int sort_parts(const picture *p, order **out)
 {
   int count = 0, room = 0;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the files of SVG pictures share. */
+/* Types and functions that the files for SVG pictures share. */
 #ifndef BAUM_I_DRAW_SVG_H
 #define BAUM_I_DRAW_SVG_H
 
 #include "base/buffer.h"
 #include "draw/drawing.h"
 
-enum { BAUM_I_CIRCLE = 24 /* corners of a circle in space */ };
+enum { BAUM_I_CIRCLE = 24 /* number of corners of a circle in space */ };
 
-/* Colours are "#rrggbb" or "none". */
+/* How a shape looks. Colours are "#rrggbb" or "none". */
 typedef struct baum_i_look {
   char fill[8];
   char stroke[8];
@@ -19,10 +19,11 @@ typedef struct baum_i_look {
 typedef struct baum_i_picture {
   const baum_i_drawing *drawing;
   const baum_i_spatial_frame *frames; /* (body_count + 1) */
-  double view[9];                     /* from ground axes to right, up, towards the eye; by rows */
-  double scale;                       /* [px/m] */
-  double left, top;                   /* [m] */
-  double size[2];                     /* [px] */
+  /* Rotation matrix from ground axes to the axes right, up and towards the eye, by rows. */
+  double view[9];
+  double scale;     /* [px/m] */
+  double left, top; /* [m] */
+  double size[2];   /* [px] */
   baum_i_buffer *out;
 } baum_i_picture;
 
@@ -37,37 +38,37 @@ typedef struct baum_i_picture {
     }                           \
   }
 
-/* Set the view, which needs nothing but the drawing. */
+/* Set the direction of view, which depends only on the drawing. */
 void baum_i_picture_set_view(baum_i_picture *p);
-/* Extend a box [m] by the shapes at the frames of the picture. */
+/* Extend a box [m] so that it includes the shapes at the present frames. */
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
-/* Set the scale, so that the picture shows the box, and write the beginning of the SVG text.
- * below: [px] room for texts at the bottom. */
+/* Set the scale so that the picture shows the whole box, and write the beginning of the SVG text.
+ * `below` is the height [px] that stays free for texts at the bottom. */
 void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below);
-/* BAUM_OK or BAUM_ERR_MEMORY. */
+/* Draw all shapes. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_picture_put_shapes(const baum_i_picture *p);
-/* Return the colour of a body's edge. */
+/* Return the colour of the edges of a body. */
 const char *baum_i_picture_colour(int body);
 
-/* Transform a point of a body to the axes right, up and towards the eye [m]. */
+/* Transform a point of a body to the axes of the picture: right, up and towards the eye [m]. */
 void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3],
                             double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
-/* Write a point in these axes after the command of a path. */
+/* Write a command of an SVG path and a point, which is given in the axes of the picture. */
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
-/* Draw an area with a thin edge. */
+/* Draw a filled area with a thin edge. */
 void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,
                              const double (*at)[3]);
 
 /* ---- svg_solids.c ---- */
 
-/* Set `out` to a color times a factor: darker below 1. */
+/* Set `out` to a colour multiplied by a factor. Factors below 1 make it darker. */
 void baum_i_shade(const char color[8], double factor, char out[8]);
 
 void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *shape);
 
-/* The mean distance of a triangle of a mesh towards the eye [m]. */
+/* Return how near a triangle of a mesh is to the eye, as the mean over its corners [m]. */
 double baum_i_picture_depth(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
 void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
 

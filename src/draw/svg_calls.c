@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The calls that make SVG pictures. */
+/* The public functions that draw SVG pictures. */
 #include <string.h>
 
 #include <baum/draw.h>
@@ -66,7 +66,8 @@ typedef struct assembled {
   baum_i_buffer *out;
 } assembled;
 
-/* Draws the assembled configuration, or where assembly gave up. */
+/* Draws the assembled configuration. If assembly fails, draws the configuration at which it gave
+ * up. */
 static baum_status draw_assembled(baum_workspace *w, double *q, void *whole)
 {
   const baum_mechanism *m = w->mechanism;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cylinders and meshes in pictures. */
+/* Draws cylinders and meshes in SVG pictures. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,12 +21,13 @@ void baum_i_shade(const char color[8], double factor, char out[8])
 
 /* ---- cylinders ----
  *
- * The silhouette of a cylinder in a parallel projection consists of half of each end circle and of
- * two lines between them. In the plane of an end, x is orthogonal to the axis and to the direction
- * to the eye e, so that the lines begin at +-x; y = axis x x.
+ * In a parallel projection, the silhouette of a cylinder consists of half of each end circle and of
+ * two lines between them. The vector x lies in the plane of an end and is orthogonal to the axis
+ * and to the direction towards the eye e. The two lines therefore begin at x and -x. The vector y
+ * is the cross product of the axis and x.
  */
 
-/* Sets the points of part of a circle, from the angle `first` on. */
+/* Sets points on a part of a circle, beginning at the angle `first`. */
 static void set_arc(const double centre[3], const double (*xy)[3], double first, int count,
                     double (*out)[3])
 {
@@ -38,7 +39,8 @@ static void set_arc(const double centre[3], const double (*xy)[3], double first,
   }
 }
 
-/* Sets the axes x and y in the ends of a cylinder, as long as its radius. */
+/* Sets the vectors x and y in the plane of the ends of a cylinder. They are as long as its
+ * radius. */
 static void set_axes(const double along[3], double radius, double (*xy)[3])
 {
   static const double eye[3] = {0.0, 0.0, 1.0};
@@ -68,7 +70,7 @@ void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *sh
   const double along[3] = {near_end[0] - far_end[0], near_end[1] - far_end[1],
                            near_end[2] - far_end[2]};
   set_axes(along, shape->radius, xy);
-  /* The far half is the one away from the near end. */
+  /* The silhouette contains only that half of the far end circle that is away from the near end. */
   const bool upper = xy[1][0] * along[0] + xy[1][1] * along[1] < 0.0;
   const double first = upper ? 0.0 : 0.5 * BAUM_I_REVOLUTION;
   set_arc(far_end, (const double(*)[3])xy, first, HALF + 1, side);
@@ -101,8 +103,9 @@ double baum_i_picture_depth(const baum_i_picture *p, const baum_i_shape *shape, 
   return (at[0][2] + at[1][2] + at[2][2]) / 3.0;
 }
 
-/* The light comes from above the eye, and lights both sides of a triangle. A thin edge in the same
- * colour, whose width is that of the whole picture, closes the gap that browsers leave. */
+/* Draws a triangle. The light comes from above the eye, and both sides of the triangle are lit. A
+ * thin edge in the same colour covers the gap that browsers leave between neighbouring triangles.
+ * Its width is set once for the whole picture. */
 void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *shape, int triangle)
 {
   static const double LIGHT[3] = {-0.3, 0.5, 0.81};
@@ -114,7 +117,7 @@ void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *sh
   }
   baum_i_cross(a, b, normal);
   const double size = sqrt(baum_i_dot3(normal, normal));
-  if (fabs(normal[2]) <= 1e-6 * size) { /* seen from the side, or without area */
+  if (fabs(normal[2]) <= 1e-6 * size) { /* seen from the side, or with zero area */
     return;
   }
   const double cosine = baum_i_dot3(normal, LIGHT) / size * (normal[2] < 0.0 ? -1.0 : 1.0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Draws the usual engineering symbols of joints and forces. Each kind has a line in the table at
- * the end. */
+/* Draws the symbols of joints and forces that are usual in engineering. The table at the end has a
+ * line for each kind of joint and force. */
 #include "draw/symbols.h"
 
 #include <string.h>
@@ -87,7 +87,7 @@ const baum_i_place *baum_i_place_of(const baum_i_symbol *s, baum_joint_id id)
   return place->element ? place : NULL;
 }
 
-/* ---- the table ---- */
+/* ---- the table of kinds ---- */
 
 typedef struct kind {
   const baum_i_definition *const *definition;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Symbols of joints and forces. Lengths are in units unless they have another one. */
+/* Symbols of joints and forces. Lengths are in units of the drawing, unless another unit is
+ * given. */
 #ifndef BAUM_I_DRAW_SYMBOLS_H
 #define BAUM_I_DRAW_SYMBOLS_H
 
 #include "draw/drawing.h"
 
-/* The joint or force that a function draws. */
+/* The joint or force whose symbol is drawn. */
 typedef struct baum_i_symbol {
   baum_i_drawing *drawing;
   int number;
   const baum_i_element *element;
-  const baum_i_place *place; /* its element is NULL if the kind has no place */
+  const baum_i_place *place; /* its `element` is NULL if the kind of element has no place */
 } baum_i_symbol;
 
 /* ---- symbols.c ---- */
@@ -18,48 +19,48 @@ typedef struct baum_i_symbol {
 void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form form, int body,
                          double radius, int count, const double (*points)[3]);
 
-/* Connect a point of a place with body_b's point of another; springs and dampers are moved to the
- * left by `shift`. */
+/* Connect a point of the place `from` with the point on body_b of the place `to`. Springs and
+ * dampers are moved to the left by `shift`. */
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
                            int side, const baum_i_place *to, double radius, double shift);
 
-/* Draw a line or an area through points that are x and y units from the point of the place, along
- * two directions. */
+/* Draw a line or an area. Each of its points is given by two coordinates, x and y, in units: from
+ * the point of the place along the directions `along` and `across`. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);
 void baum_i_symbol_area(const baum_i_symbol *s, baum_i_style style, int side, int count,
                         const double (*xy)[2], const double along[3], const double across[3]);
 
-/* Draw a straight line along the axis, from -reach to reach. */
+/* Draw a straight line along the axis of the place, from -reach to reach. */
 void baum_i_symbol_axis(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         double reach);
 void baum_i_symbol_point(const baum_i_symbol *s, baum_i_style style, int side, double radius);
 
-/* Copy a place with its point on body_a moved by a vector. */
+/* Return a copy of the place of the symbol, with its point on body_a moved by a vector. */
 baum_i_place baum_i_move_place(const baum_i_symbol *s, double by, const double along[3]);
 
-/* Return the place of a joint, or NULL if it has none. */
+/* Return the place of a joint, or NULL if the joint has no place. */
 const baum_i_place *baum_i_place_of(const baum_i_symbol *s, baum_joint_id id);
 
 /* ---- ground.c ---- */
 
-/* Draw hatches below a line of the ground. */
+/* Draw the edge of the ground with hatches below it. */
 void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double below,
                        const double along[3], const double across[3]);
 
-/* Draw the foot of a joint on the ground: below the joint, as gravity pulls, unless the other body
- * hangs there. */
+/* Draw the foot of a joint on the ground. The foot is below the joint in the direction of gravity.
+ * If the other body hangs from the joint, it is above the joint. */
 void baum_i_draw_foot(const baum_i_symbol *s);
 
-/* Draw the wall in which a body is welded, opposite to the body. */
+/* Draw the wall to which a body is welded, on the side opposite to the body. */
 void baum_i_draw_wall(const baum_i_symbol *s);
 
-/* Draw the ground at the end of a spring in the plane, opposite to its other end. */
+/* Draw the ground at one end of a spring in the plane, on the side opposite to the other end. */
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
-/* Find the direction from a guide on the ground in the plane to its free side: opposite to gravity,
- * or towards the mechanism if the guide is vertical. */
+/* Find the direction from a planar guide on the ground to its free side. This direction is opposite
+ * to gravity. If the guide is vertical, it points towards the mechanism. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */
@@ -82,7 +83,7 @@ void baum_i_draw_curve(const baum_i_symbol *s);
 void baum_i_draw_cylinder(const baum_i_symbol *s);
 void baum_i_draw_slide(const baum_i_symbol *s);
 void baum_i_draw_point_on_line(const baum_i_symbol *s);
-/* An arrow beside a guide. */
+/* Draw an arrow beside a guide. */
 void baum_i_draw_guide_arrow(const baum_i_symbol *s);
 
 void baum_i_draw_spring(const baum_i_symbol *s);

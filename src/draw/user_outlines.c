@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outlines that the user gives to a body: checks, and their shapes. */
+/* Outlines that users give to bodies: checks of them, and their shapes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ void baum_outline_init(baum_outline *outline, size_t caller_size)
 
 /* ---- checks ---- */
 
-/* An outline and what its messages begin with. */
+/* The outline that is being checked, and the names with which messages about it begin. */
 typedef struct subject {
   const char *call;
   int k;
@@ -223,7 +223,7 @@ baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism, baum_bod
 
 /* ---- shapes ---- */
 
-/* The form of a shape, by that of its outline. */
+/* The form of a shape for each form of an outline. */
 static const baum_i_form FORMS[] = {
   [BAUM_OUTLINE_POLYGON] = BAUM_I_AREA, [BAUM_OUTLINE_CIRCLE] = BAUM_I_DISC,
   [BAUM_OUTLINE_BOX] = BAUM_I_BOX,      [BAUM_OUTLINE_CYLINDER] = BAUM_I_CYLINDER,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Centres and pitch circles of gears and pinions. */
+/* Finds the centres and pitch circles of gear wheels and pinions. */
 #include <string.h>
 
 #include <baum/planar_joints.h>
@@ -8,10 +8,12 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* In units: height of a tooth over the pitch circle; width of a ring around its own. */
+/* In units of the drawing: how far a tooth extends beyond the pitch circle, and the width of the
+ * ring of an internal gear outside of its pitch circle. */
 static const double TOOTH = 0.6, RING = 1.8;
 
-/* Finds the first revolute joint of a body, or else its centre of mass. */
+/* Finds the centre of a wheel. It is the first revolute joint of the body, or else its centre of
+ * mass. */
 static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
 {
   centre[0] = centre[1] = centre[2] = 0.0;
@@ -27,8 +29,8 @@ static void find_centre(const baum_i_drawing *drawing, int body, double centre[3
   }
 }
 
-/* Radii of a gear may be given as numbers of teeth, so they are scaled to the distance between the
- * centres. */
+/* Users may give numbers of teeth as the radii of a gear. The radii are therefore scaled so that
+ * they fit the distance between the centres. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3])
 {

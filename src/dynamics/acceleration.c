@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations and multipliers
+/* Computes accelerations and multipliers from
  *
  *   [ M  J^T ] [ a      ]   [ g                                   ]
  *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]
  *
- * This is (7) of Flores et al. 2008, and (5) if alpha = beta = 0. Projections solve systems with
- * the same matrix and other right sides.
+ * This is equation (7) of Flores et al. 2008. With alpha = beta = 0 it is equation (5).
  *
- * Rows that permanently depend on other rows are omitted. The multipliers of omitted rows are zero,
- * which is one of many solutions. Users receive the solution of least norm (least_multipliers.c).
+ * The projections of positions and velocities solve systems with the same matrix, but with other
+ * right sides.
+ *
+ * Rows that always depend on other rows are omitted from the system. The multipliers of omitted
+ * rows are set to zero. This gives one of many possible solutions. Users receive another one, the
+ * solution of least norm (least_multipliers.c).
  */
 #include <string.h>
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Name the row with the largest right side. Without a solution this is the only hint at the joint
- * that causes the singularity, and it may be wrong. */
+/* Name the row with the largest right side in the message. When there is no solution, this row is
+ * the only hint at the joint that causes the singularity, and the hint may be wrong. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
@@ -41,7 +44,8 @@ static baum_status fail_blocks(const baum_workspace *w)
 
 /* ---- the solver of the whole system ---- */
 
-/* Evaluate the terms of the right side. gamma is evaluated only together with forces. */
+/* Evaluate everything of which the right side consists. gamma is evaluated only if `force` is
+ * true. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -68,7 +72,7 @@ static void set_right_side(const baum_workspace *w, baum_i_right_side right)
   }
 }
 
-/* Solve with the terms of the last stage. */
+/* Solve the whole system with the terms that the last call of evaluate_stage() has evaluated. */
 static baum_status solve_whole(baum_workspace *w, const baum_i_right_side *right)
 {
   const baum_i_kkt_values values = baum_i_kkt_values_of(w);
@@ -118,7 +122,8 @@ static baum_status accelerate_whole(baum_workspace *w, const baum_i_right_side *
   return status == BAUM_ERR_SINGULAR ? fail_singular(w) : status;
 }
 
-/* Solve by a block path. If it is NULL or gives up, use the solver of the whole system. */
+/* Solve by the given block path. If `path` is NULL, or if its pivots are too small, use the solver
+ * of the whole system instead. */
 static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
                                  const double *q, const double *v, double alpha, double beta)
 {
@@ -157,7 +162,8 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* Without blocks, a whole solution is computed, because it costs little more than its factors. */
+/* The pivots are part of the factors. Without blocks, a whole solution is computed, because this
+ * costs little more than computing the factors alone. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

@@ -28,6 +28,9 @@ static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
 static const double ROUNDING = 1e-13;  /* displacement below which a violation is zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
+/* Corrections of velocities end when they have reduced the violation by this factor, which is far
+ * below its rounding. */
+static const double CORRECTED = 1e-20;
 /* Violations of velocities below either limit are rounding errors. NO_RATE is in 1/s; NO_SWING is
  * relative to the rate at which gravity swings the mechanism. */
 static const double NO_RATE = 1e-14;
@@ -347,6 +350,16 @@ static baum_status correct_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
+/* Tell whether some velocities are free. */
+static bool has_free_velocity(const assembly *s)
+{
+  bool all_held = true;
+  for (int i = 0; i < s->w->mechanism->nv; i++) {
+    all_held = all_held && is_held(s->held, i);
+  }
+  return !all_held;
+}
+
 /* Complete the velocities: given velocities are held, free ones start at zero. The matrix is
  * evaluated once, at the assembled configuration. */
 static baum_status assemble_velocities(const assembly *s, double *v)
@@ -354,12 +367,13 @@ static baum_status assemble_velocities(const assembly *s, double *v)
   double last = (double)INFINITY;
   double worst = 0.0;
   BAUM_I_TRY(find_rate(s, v, &worst));
-  if (!(worst > 0.0)) {
+  if (!(worst > 0.0) || !has_free_velocity(s)) {
     return BAUM_OK;
   }
+  double corrected = CORRECTED * worst;
   BAUM_I_TRY(baum_i_evaluate_mass(s->w));
   BAUM_I_TRY(factor(s));
-  for (int k = 0; k < CORRECTIONS && worst > 0.0 && worst < 0.5 * last; k++) {
+  for (int k = 0; k < CORRECTIONS && worst > corrected && worst < 0.5 * last; k++) {
     last = worst;
     BAUM_I_TRY(correct_velocities(s, v));
     BAUM_I_TRY(find_rate(s, v, &worst));

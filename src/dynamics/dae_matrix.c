@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements. Its
- * variables are displacements of length nv in place of q, and the rows of q' - N v are multiplied
- * by N^+. The matrix therefore has nv rows and columns for q:
+/* The Jacobian dF/dy + c dF/dy' of the residual forms (dae_residual.c), assembled from the blocks
+ * of all elements. Instead of q, its variables are displacements of length nv. The rows of q' - N v
+ * are multiplied by N^+. The matrix therefore has nv rows and nv columns for the positions:
  *
  *          q                                             v                       lambda
  *   q      c I - N^+ (N v)_q N                           -I
@@ -11,18 +11,18 @@
  *          index 2: (J v)_q - nu_q                       J                       0
  *          index 3: J                                    0                       0
  *
- * GGL has the rows of index 2, and with u = v - W^-1 J^T mu
+ * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, these rows differ or are added:
  *
  *          q                                             v                       lambda  mu
  *   q      c I - N^+ (N u)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
- * If row i has gains alpha_i, beta_i of its own, (J w)_q is still computed with w = v' + 2 alpha v,
- * and a second linearization adds 2 (alpha_i - alpha) (J v)_q.
+ * If row i has its own gains alpha_i and beta_i, (J w)_q is still computed with w = v' + 2 alpha v.
+ * A second linearization adds the missing part 2 (alpha_i - alpha) (J v)_q.
  *
- * A loop over all blocks, called a walk, emits entries in a fixed order. The first walk finds the
- * pattern and the slot of each entry; later walks add values to these slots. An omitted row has 1
- * on its diagonal.
+ * A function called a walk visits all blocks and emits their entries in a fixed order. The first
+ * walk finds the pattern of the matrix and the slot in which each entry is stored. Later walks add
+ * values to these slots. An omitted row has a 1 on its diagonal and no other values.
  */
 #include <string.h>
 
@@ -31,13 +31,14 @@
 #include "dynamics/dynamics.h"
 
 struct baum_i_residual_matrix {
-  baum_i_compressed pattern; /* its slots are in the order of the entries of a walk */
+  baum_i_compressed pattern; /* its slots are in the order in which a walk emits the entries */
 };
 
-/* Destination of the entries of a walk. */
+/* The place to which a walk emits its entries. */
 typedef struct sink {
-  baum_i_places *places; /* when finding the pattern, else NULL */
-  const int32_t *slot;   /* when filling: slot of the next entry */
+  /* Where the positions of entries are collected while the pattern is found; otherwise NULL. */
+  baum_i_places *places;
+  const int32_t *slot; /* the slot of the next entry while values are added */
   double *values;
 } sink;
 
@@ -50,7 +51,7 @@ static void emit(sink *s, int row, int col, double value)
   }
 }
 
-/* Data of a walk over the blocks. */
+/* What a walk needs to compute the entries. */
 typedef struct factors {
   const baum_workspace *w;
   const baum_dae *dae;
@@ -142,7 +143,8 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
   }
 }
 
-/* Emit an entry of a row: the derivatives of Phi'' with gains, of Phi', or of Phi. */
+/* The following three functions emit an entry of a constraint row. They take the derivatives of
+ * Phi'' with gains (index 1), of Phi' (index 2), or of Phi (index 3). */
 
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
@@ -172,7 +174,8 @@ static void emit_position(const factors *f, int row, int column, int at, double 
 
 typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
 
-/* Emit row r of a joint; its rows begin at `first` + joint->row. */
+/* Emit all entries of row r of a joint. The rows of all joints begin at `first`, and the rows of
+ * this joint at `first` + joint->row. */
 static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, emit_fn *entry,
                      sink *s)
 {
@@ -262,7 +265,8 @@ const baum_i_compressed *baum_i_residual_matrix_pattern(const baum_i_residual_ma
 
 /* ---- the values ---- */
 
-/* Set the vector w or v of (J w)_q or (J v)_q in the rows of lambda. */
+/* Set `direction`, the vector by which J is multiplied in the rows of lambda: w of (J w)_q for
+ * index 1, otherwise v of (J v)_q. */
 static void choose_direction(const baum_dae *dae, int nv, const double *v, const double *dv,
                              double *direction)
 {
@@ -272,15 +276,16 @@ static void choose_direction(const baum_dae *dae, int nv, const double *v, const
   }
 }
 
-/* Set (J v)_q. The other blocks that this call sets are overwritten by the main linearization. */
+/* Compute (J v)_q alone. This call also sets other blocks, but the main linearization afterwards
+ * overwrites them. */
 static baum_status linearize_rates(baum_workspace *w, const double *v, const double *lambda)
 {
   const baum_i_joint_blocks blocks = {w->jv_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
   return baum_i_mechanism_linearize_joints(&w->point, v, lambda, &blocks);
 }
 
-/* Linearize with mu first, because the linearization with lambda has to overwrite the common
- * blocks. */
+/* Linearize with mu first. The linearization with lambda comes second, because it must overwrite
+ * the blocks that both linearizations set. */
 static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, const double *v,
                                     const double *dv)
 {

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The Jacobian dF/dy + c dF/dy' with respect to q itself. It is computed from the matrix T of
- * dae_matrix.c, whose variables are displacements dx = N^+ dq of length nv. Changes dq off the
- * manifold affect only the rows of q. So the Jacobian is
+/* Computes the Jacobian dF/dy + c dF/dy' with respect to q itself. It starts from the matrix T of
+ * dae_matrix.c, whose variables are not q but displacements dx = N^+ dq of length nv. If q consists
+ * of more numbers than there are displacements, dq may also point away from the manifold of valid
+ * q. Such parts of dq change only the rows of q. The Jacobian is therefore
  *
  *   L T R + B,   L = diag(N, I),   R = diag(N^+, I),
  *   B = c I - (N u)_q - N (c I - N^+ (N v)_q N) N^+   in the rows and columns of q
  *
- * with u = v, or u = v - W^-1 J^T mu for GGL. N and B consist of one block per body.
+ * Here u = v, or u = v - W^-1 J^T mu for the form GGL. N and B consist of one block for each
+ * body.
  */
 #include <string.h>
 
@@ -14,25 +16,26 @@
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* Step of q in the central differences of N u, relative to the scale of q. If N is linear in q, as
- * usual, the differences are exact for every step. */
+/* Step by which q is changed in the central differences of N u. It is relative to the scale of q. N
+ * is usually linear in q, and then the differences are exact for every step. */
 static const double STEP = 1e-5;
 
-/* The matrix while it is computed. */
+/* The Jacobian while it is being computed. */
 typedef struct widening {
   baum_workspace *w;
   const double *q;
   const double *u; /* (nv) */
   double c;
-  int widest;            /* largest nq of a body */
-  double *memory;        /* of all arrays below */
-  double *rate;          /* (nv x widest) column j of N, without zeros */
-  double *inverse;       /* (nv x widest) row j of N^+, without zeros */
-  double *bend;          /* (nq x widest) rows of (N u)_q, without zeros */
-  double *unit;          /* (nq) */
-  double *room;          /* (4 nq) */
-  baum_i_places *places; /* when finding the pattern, else NULL */
-  const int32_t *slot;   /* when filling: slot of the next entry */
+  int widest;      /* largest number of positions nq of a body */
+  double *memory;  /* one block of memory that contains all arrays below */
+  double *rate;    /* (nv x widest) column j of N, only the entries of its body */
+  double *inverse; /* (nv x widest) row j of N^+, only the entries of its body */
+  double *bend;    /* (nq x widest) rows of (N u)_q, only the entries of the row's body */
+  double *unit;    /* (nq) scratch memory for one vector */
+  double *room;    /* (4 nq) scratch memory for results */
+  /* Where the positions of entries are collected while the pattern is found; otherwise NULL. */
+  baum_i_places *places;
+  const int32_t *slot; /* the slot of the next entry while values are added */
   double *values;
 } widening;
 
@@ -105,7 +108,8 @@ static void set_bends(const widening *x)
 
 /* ---- the walk ---- */
 
-/* The rows (or columns) to which a row (or column) of T contributes, and its factors in them. */
+/* The product L T R turns one row (or column) of T into one or several rows (or columns) of the
+ * Jacobian. An image lists these rows, and the factor for each. */
 typedef struct image {
   int first;
   int count;
@@ -137,7 +141,7 @@ static void walk_entry(widening *x, int i, int j, double value)
   }
 }
 
-/* Entry of B at row r and column s of a body. */
+/* Return the entry of B at row r and column s of the block of a body. */
 static double own_entry(const widening *x, const baum_i_body *body, int r, int s)
 {
   double value = (r == s ? x->c : 0.0) - x->bend[(body->q + r) * x->widest + s];

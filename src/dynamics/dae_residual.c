@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual forms of the equations of motion for implicit solvers. With y = (q, v, lambda) they are
+/* The residual forms of the equations of motion, for implicit solvers. With y = (q, v, lambda) the
+ * residual consists of these rows:
  *
  *   q' - N v                                                  N = I where q is a vector
  *   M v' + J^T lambda - g
@@ -7,15 +8,15 @@
  *   index 3:  Phi
  *
  * The form GGL (C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90) has index
- * 2, and with y = (q, v, lambda, mu) it is
+ * 2. With y = (q, v, lambda, mu) its residual consists of these rows:
  *
  *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g
  *   Phi'
  *   Phi
  *
- * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. If rows have different gains,
- * alpha and beta are the gains of row i.
+ * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. If the rows have different
+ * gains, alpha and beta above are the gains of row i.
  */
 #include <string.h>
 
@@ -34,7 +35,7 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }
 
-/* Rows of lambda. */
+/* Compute the rows that belong to lambda. */
 static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
                             double *out)
 {
@@ -59,7 +60,7 @@ const double *baum_i_corrected_velocities(baum_workspace *w, const double *v, co
   return out;
 }
 
-/* Rows of positions: q' - N v. */
+/* Compute the rows of the positions, q' - N v. */
 static void position_rows(const baum_mechanism *m, const double *q, const double *v,
                           const double *dq, double *out)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinetic energy v^T M v / 2, and the potential energy of the elements. */
+/* Computes the kinetic energy v^T M v / 2 and the potential energy of the elements. */
 #include <string.h>
 
 #include "base/message.h"

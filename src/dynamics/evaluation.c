@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of dynamics.h: check arguments, evaluate stages, write blocks to dense
- * arrays. */
+/* The public functions of dynamics.h. They check their arguments, call the stages of the
+ * evaluation, and write results that are stored as blocks to the caller's dense arrays. */
 #include <math.h>
 #include <string.h>
 
@@ -51,7 +51,7 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
   return check_finite(call, "v", v, w->mechanism->nv);
 }
 
-/* Copy values to the caller's array unless that is NULL. */
+/* Copy values to the caller's array, unless the array is NULL. */
 static void give(const double *values, double *out, int count)
 {
   if (out) {
@@ -61,8 +61,8 @@ static void give(const double *values, double *out, int count)
 
 /* ---- life ---- */
 
-/* Find the redundant rows at the design configuration and t = 0. If the design configuration cannot
- * be assembled or evaluated, all rows are kept, and later evaluations report the error. */
+/* Find the redundant rows in the design configuration at t = 0. If the design configuration cannot
+ * be assembled or evaluated, all rows are kept. Later evaluations then report the error. */
 static baum_status find_redundancy(baum_workspace *w)
 {
   baum_i_kept_message kept = baum_i_message_keep();
@@ -235,8 +235,8 @@ static baum_status check_gains(const char *call, double alpha, double beta)
   return baum_i_check_finite(call, "beta", "1/s", beta);
 }
 
-/* After a solution, choose other independent rows if the present ones are ill-conditioned. Returns
- * true if the solution must be repeated. */
+/* Called after a solution. Choose other independent rows if the present ones are ill-conditioned.
+ * Returns true if the solution must be repeated. */
 static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
 {
   bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;
@@ -255,7 +255,8 @@ baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, con
                                         double *lambda)
 {
   const char *call = "baum_workspace_acceleration";
-  BAUM_I_TRY(check_state(call, workspace, t, q, v, &t)); /* a and lambda may be NULL */
+  /* &t replaces a and lambda here, which may be NULL. */
+  BAUM_I_TRY(check_state(call, workspace, t, q, v, &t));
   BAUM_I_TRY(check_gains(call, alpha, beta));
   baum_status status = accelerate(workspace, t, q, v, alpha, beta);
   if (has_chosen_rows(workspace, status, t, q)) {
@@ -345,7 +346,7 @@ static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, 
   return BAUM_OK;
 }
 
-/* Check q and v. Velocities may be NaN, positions may not. */
+/* Check q and v. Velocities may be NaN, but positions may not. */
 static baum_status check_guess(const char *call, const baum_workspace *w, double t, const double *q,
                                const double *v)
 {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds and names numbers that are not finite. Large masses, forces and coordinates are each valid
- * in definitions, but their products in the equations may overflow. M is always finite, because
- * definitions and results of user functions are checked.
+/* Finds numbers that are not finite, and names them in a message. Large masses, forces and
+ * coordinates are each valid in definitions, but their products in the equations may overflow. M is
+ * always finite, because definitions and results of user functions are checked.
  */
 #include <math.h>
 
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* Find the first number that is not finite, or -1. */
+/* Return the index of the first number that is not finite, or -1. */
 static int first_not_finite(const double *values, int count)
 {
   for (int i = 0; i < count; i++) {

@@ -9,7 +9,7 @@
 static int root_of(int *parent, int body)
 {
   while (parent[body] != body) {
-    parent[body] = parent[parent[body]]; /* halves the path to the root */
+    parent[body] = parent[parent[body]]; /* shortens the path to the root for later calls */
     body = parent[body];
   }
   return body;
@@ -27,7 +27,7 @@ static void unite(int *parent, int a, int b)
   }
 }
 
-/* Return the first non-fixed body of a joint, or -1. */
+/* Return the first body of a joint that is not fixed, or -1. */
 static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
 {
   for (int i = 0; i < joint->span.body_count; i++) {

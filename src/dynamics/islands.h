@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An island is a set of bodies that joints connect, without ground and fixed bodies. Islands
- * interact only through forces, so accelerations and multipliers can be found island by island. */
+/* An island is a set of bodies that are connected by joints. Ground and fixed bodies do not belong
+ * to any island. Islands influence each other only through forces. Accelerations and multipliers
+ * can therefore be computed for each island separately. */
 #ifndef BAUM_I_DYNAMICS_ISLANDS_H
 #define BAUM_I_DYNAMICS_ISLANDS_H
 
@@ -8,17 +9,17 @@
 
 typedef struct baum_i_island {
   int bodies;
-  int joints; /* including drivers and user constraints */
+  int joints; /* includes drivers and user constraints */
   int rows;
 } baum_i_island;
 
-/* Count the islands, and describe the one with most bodies. All its numbers are 0 if there is none.
- * Returns BAUM_OK or BAUM_ERR_MEMORY. */
+/* Count the islands, and describe the island with most bodies in *largest. If there are no islands,
+ * all numbers in *largest are 0. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* Count the joints of each body in a new array (body_count + 1) that the caller frees. Returns
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Count the joints of each body. The counts are in a new array of body_count + 1 numbers, which the
+ * caller frees. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
 
 #endif

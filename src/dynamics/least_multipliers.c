@@ -1,26 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Multipliers of least norm. Redundant rows make multipliers ambiguous.
+/* Computes the multipliers of least norm. If rows are redundant, many sets of multipliers satisfy
+ * the equations.
  *
- * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k.
- * All other solutions are lambda + N z, where z has one number per omitted row and N z is a null
- * vector of J^T:
+ * The solution lambda is zero in the omitted rows (index d) and balances the forces with the kept
+ * rows (index k) alone. Every other solution has the form lambda + N z. Here z contains one number
+ * for each omitted row, and N z is a null vector of J^T, which means that
  *
  *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
- * N z is part of the solution of
+ * N z is part of the solution of the system
  *
  *   [ W     J_k^T ] [ x       ]   [ -J_d^T z ]
  *   [ J_k   0     ] [ (N z)_k ] = [     0    ].
  *
- * W = diag(1 / scale^2) contains no masses, because uneven masses would cause rounding errors.
+ * The matrix W = diag(1 / scale^2) is used in place of the mass matrix, because masses that differ
+ * by orders of magnitude would cause rounding errors.
  *
- * Conjugate gradients (CGLS of A. Bjorck, preconditioned by the entries of S in the rows d) find
- * the z that minimizes |S (lambda + N z)|, where S = diag(s_i) and s_i = |row i of J M^-1/2|. The
- * forces stay balanced even if the iteration ends early.
+ * The method of conjugate gradients (CGLS of A. Bjorck) finds the z that minimizes |S (lambda + N
+ * z)|. Here S = diag(s_i), and s_i = |row i of J M^-1/2|. The entries of S in the rows d
+ * precondition the iteration. The forces stay balanced even if the iteration ends before it has
+ * found the minimum.
  *
- * If the constraints are violated, omitted rows need not depend on the others. Then only a fraction
- * of N z is added: the largest that keeps the forces balanced. It is mostly close to 1 or close to
- * 0.
+ * If the constraints are violated, the omitted rows need not depend on the other rows, and N z may
+ * disturb the balance of the forces. Then only a fraction of N z is added, namely the largest
+ * fraction that keeps the forces balanced. This fraction is mostly close to 1 or close to 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -33,24 +36,26 @@
 
 enum { MOST_ITERATIONS = 100 };
 
-/* The iteration ends when the gradient falls to this fraction of the first one. */
+/* The iteration ends when the gradient has fallen to this fraction of the first gradient. */
 static const double FOUND = 1e-12;
-/* Tolerances of the residual of M a + J^T lambda = g, relative to the terms of its row, of the
- * largest row of its body, and of the largest row of the mechanism. OF_ALL allows for rounding. */
+/* Tolerances of the residual of M a + J^T lambda = g. OF_ROW is relative to the terms of the same
+ * row, OF_BODY to the largest row of the same body, and OF_ALL to the largest row of the mechanism.
+ * OF_ALL allows for rounding. */
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
-/* Replaces OF_ALL for null vectors, because the small forces on light bodies must stay balanced,
- * too. */
+/* This tolerance replaces OF_ALL when a null vector is added, because the small forces on light
+ * bodies must stay balanced, too. */
 static const double OF_ALL_SHARED = 1e-24;
-/* A residual below this, relative to the terms of its row, counts as zero. */
+/* A residual smaller than this, relative to the terms of its row, counts as zero. */
 static const double ROUNDING = 1e-11;
-/* Fraction of these tolerances that the residual of N z may reach. */
+/* The residual of N z may reach this fraction of the tolerances above. */
 static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
-/* Factor the matrix of the head of this file. shift (nc) regularizes the rows; NULL: none. */
+/* Factor the matrix of the system for N z, which is written at the head of this file. `shift` (nc)
+ * makes the matrix regular; it may be NULL. */
 static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -66,8 +71,8 @@ static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z, if z is zero in kept rows. If z is already a null vector, out is a more accurate null
- * vector. */
+/* Compute out = N z for a vector z (nc) that is zero in the kept rows. If z is already a null
+ * vector, `out` is the same null vector with smaller errors. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -84,7 +89,7 @@ static baum_status apply(baum_workspace *w, const double *z, double *out)
   return BAUM_OK;
 }
 
-/* out = N^T u */
+/* Compute out = N^T u. */
 static baum_status apply_transposed(baum_workspace *w, const double *u, double *out)
 {
   int nv = w->mechanism->nv;
@@ -102,7 +107,7 @@ static baum_status apply_transposed(baum_workspace *w, const double *u, double *
 
 /* ---- least norm ---- */
 
-/* Vectors of the conjugate gradients, (nc) each. */
+/* The vectors of the method of conjugate gradients, each of length nc. */
 typedef struct search {
   double *u;
   double *gradient;
@@ -118,7 +123,7 @@ static search search_memory(const baum_workspace *w)
     .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
 }
 
-/* Find the gradient at lambda + part, and its size. */
+/* Find the gradient at lambda + part, and the square of its length in *size. */
 static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -133,8 +138,8 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
   return BAUM_OK;
 }
 
-/* Minimize along the new direction, which is the steepest descent plus `share` times the last
- * one. */
+/* Find the minimum along a new direction and add the step to `part`. The new direction is the
+ * direction of steepest descent plus `share` times the last direction. */
 static baum_status minimize_along(baum_workspace *w, const search *s, double size, double share)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -151,7 +156,7 @@ static baum_status minimize_along(baum_workspace *w, const search *s, double siz
   return BAUM_OK;
 }
 
-/* Remove the rounding errors that large forces cause in rows with small forces. */
+/* Large forces cause rounding errors in rows with small forces. Remove these errors from `part`. */
 static baum_status refine_part(baum_workspace *w)
 {
   double *refined = search_memory(w).image;
@@ -160,7 +165,7 @@ static baum_status refine_part(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Set part to N z. */
+/* Find the z of least norm, and set `part` to N z. */
 static baum_status find_part(baum_workspace *w)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -190,7 +195,7 @@ static baum_status find_part(baum_workspace *w)
 
 /* ---- balance ---- */
 
-/* Vectors of the whole system, (nv + nc) each. */
+/* Vectors of the whole system, each of length nv + nc. */
 typedef struct balance {
   double *b;
   double *x;
@@ -217,7 +222,8 @@ static balance compute_balance(const baum_workspace *w, const double *force, con
   return out;
 }
 
-/* Find the largest scaled term of a range of rows of M a + J^T lambda = g. */
+/* Find the largest term of `count` rows of M a + J^T lambda = g. Terms are multiplied by the scale
+ * of their coordinate. */
 static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
@@ -227,7 +233,7 @@ static double largest_scaled(const baum_workspace *w, const double *terms, int f
   return most;
 }
 
-/* Write the tolerance of each row to work_v. */
+/* Write the tolerance of each row to w->work_v. */
 static void set_limits(const baum_workspace *w, const balance *at, double of_all)
 {
   const baum_mechanism *m = w->mechanism;
@@ -242,7 +248,8 @@ static void set_limits(const baum_workspace *w, const balance *at, double of_all
   }
 }
 
-/* Find the largest ratio of residual to tolerance; *worst is its row. NaN counts as infinite. */
+/* Find the largest ratio of a residual to its tolerance, and the row in which it occurs (*worst). A
+ * residual of NaN counts as infinite. */
 static double find_imbalance(const baum_workspace *w, const balance *at, int *worst)
 {
   double most = 0.0;
@@ -288,7 +295,7 @@ static baum_status check_balance(const baum_workspace *w)
     w->point.t, baum_i_label(&body->element).text, imbalance * OF_ROW, OF_ROW);
 }
 
-/* Find the largest fraction of part that keeps the residual within the tolerances. */
+/* Find the largest fraction of `part` whose residual is within the tolerances. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
@@ -297,7 +304,8 @@ static double find_share(const baum_workspace *w)
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
-/* Adding N z may cancel large forces on light bodies. Remove the rounding errors that remain. */
+/* When N z is added, large forces on light bodies may cancel, and rounding errors of these large
+ * forces remain. Remove these errors. */
 static baum_status refine_multipliers(baum_workspace *w)
 {
   int nv = w->mechanism->nv;
@@ -309,7 +317,8 @@ static baum_status refine_multipliers(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Add the fraction of part that keeps the balance, or nothing if rounding prevents it. */
+/* Add the largest fraction of `part` that keeps the forces balanced. If rounding still disturbs the
+ * balance, add nothing. */
 static void add_share(baum_workspace *w)
 {
   double *before = search_memory(w).direction;
@@ -345,16 +354,17 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 
 /* ---- which multipliers are not unique ---- */
 
-/* A multiplier is not unique if its component in a generic null vector is larger than this.
- * Components of omitted rows are about 1; rounding is far smaller. */
+/* A multiplier is not unique if its component in a generic null vector is larger than SHARED. In
+ * omitted rows the components are about 1. Rounding errors are far smaller than SHARED. */
 static const double SHARED = 1e-6;
 
-/* Relative shift that makes the matrix regular in every case. Refinement removes its error. */
+/* Relative size of the shift that makes the matrix regular in every case. The error that the shift
+ * causes is removed by iterative refinement. */
 static const double SHIFT = 1e-12;
 
-/* Set part to a generic null vector with rows scaled to displacements, and *least to the size from
- * which a component counts as non-zero. If the constraints are violated, components that should be
- * zero are about as large as the relative residual of the vector. */
+/* Set `part` to a generic null vector whose rows are scaled to displacements. Set *least to the
+ * size from which a component of it counts as non-zero. If the constraints are violated, components
+ * that should be zero are about as large as the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -380,7 +390,7 @@ static baum_status find_null_vector(baum_workspace *w, double *least)
   return BAUM_OK;
 }
 
-/* Find the largest component of part in the rows of a joint. */
+/* Return the largest component of `part` in the rows of a joint. */
 static double part_of(const baum_workspace *w, const baum_i_joint *joint)
 {
   double part = 0.0;

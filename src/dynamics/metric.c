@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Metric W of the correction of positions in GGL,
+/* The metric W that weights the correction of positions in the form GGL:
  *
  *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
  *
- * s_j is the scale of coordinate j. E is a millionth of the largest M_kk s_k^2, so that W is
- * positive for coordinates without mass, or 1 if no coordinate has mass. All M_kk s_k^2 have the
- * same unit, so neither units nor a mixture of lengths and angles matter.
+ * Here s_j is the scale of coordinate j. E is a millionth of the largest M_kk s_k^2, or 1 if no
+ * coordinate has mass. E makes W positive also for coordinates without mass. All products M_kk
+ * s_k^2 have the same unit. The choice of units and a mixture of lengths and angles therefore do
+ * not matter.
  *
  * Any positive definite W gives the same motion, because mu is zero in the exact solution. W only
- * distributes the error of a method among the coordinates. W is constant, so that the Jacobian of
- * the equations needs no derivatives of W.
+ * decides how the error of a method is distributed among the coordinates. W does not change with q.
+ * The Jacobian of the equations therefore needs no derivatives of W.
  */
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mobility of a mechanism at its assembled initial configuration: degrees of freedom, and redundant
- * and conflicting rows by name. */
+/* Reports the mobility of a mechanism in its assembled initial configuration: the number of degrees
+ * of freedom, and the names of redundant and of conflicting rows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
-/* Append to the report's text, truncated to its size. */
+/* Append to the report's text. A text that becomes too long is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static baum_status report_free_bodies(const baum_mechanism *m, baum_mobility *report)
@@ -39,8 +39,8 @@ static void find_worst(const baum_workspace *w, baum_mobility *report)
   }
 }
 
-/* Report conflicting rows after assembly failed: rows whose violation is at least a tenth of the
- * largest. */
+/* Called when assembly has failed. Report the conflicting rows, which are the rows whose violation
+ * is at least a tenth of the largest violation. */
 static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
 {
   char reason[BAUM_I_MESSAGE_SIZE];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The geometry of all revolute joints, with the equations of mechanism/planar/lower_pairs.c:
+/* Computes the geometry of all revolute joints together. The equations are those of
+ * mechanism/planar/lower_pairs.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
  *   r     = bending gamma - damping Phi' - stiffness Phi
@@ -7,25 +8,27 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * J is not formed. Arms and gamma are rounded exactly as in the J and gamma that users receive,
- * without fused multiply-add. A difference in the last digit would matter close to a singular
- * configuration.
+ * J is not formed. The arms and gamma are rounded exactly like the J and gamma that users receive.
+ * The compiler therefore may not use fused multiply-add instructions for them. Close to a singular
+ * configuration, a difference in the last digit would matter.
  */
 #include "base/four.h"
 #include "dynamics/pins.h"
 
 /* The kernel processes two pins at a time, one in each half of a vector. If the number of pins is
- * odd, the last pin is in both halves and only one half is stored. This struct points to the data
- * of two pins. */
+ * odd, the last pin is processed in both halves, and only one half of the result is stored. This
+ * struct points to the data of two pins. */
 typedef struct two_pins {
-  ptrdiff_t second; /* index of the second pin: 1, or 0 for one pin; constant after inlining */
+  /* Index of the second pin: 1, or 0 if there is only one pin; the compiler knows its value after
+   * inlining. */
+  ptrdiff_t second;
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;
   double *arm;
 } two_pins;
 
-/* For the point p of a body: k x p, position, velocity, and p w^2. */
+/* What is computed for the point p of a body: k x p, the position, the velocity, and p w^2. */
 typedef struct markers {
   baum_i_four turned;
   baum_i_four place;
@@ -33,7 +36,7 @@ typedef struct markers {
   baum_i_four bend;
 } markers;
 
-/* Compute the markers of two points, s in body axes. */
+/* Compute the markers of one point on each of two bodies. The points `s` are given in body axes. */
 BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, baum_i_four s)
 {
   baum_i_four along = baum_i_four_times(baum_i_four_spread(&f->c, &g->c), s);
@@ -50,10 +53,10 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
   return m;
 }
 
-/* Compute the markers on body 0 (a) or 1 (b) of both pins. */
+/* Compute the markers on one body of both pins; `body` is 0 for body a and 1 for body b. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* Body blocks of planar bodies are numbered like the bodies. */
+  /* All bodies are planar here. Their body blocks have the same numbers as the bodies. */
   return markers_on(
     &frames[(ptrdiff_t)two->pin[0].body_block[body]],
     &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],
@@ -68,7 +71,7 @@ BAUM_I_INLINE void put(const two_pins *two, double *low, double *high, baum_i_fo
   }
 }
 
-/* J a0 */
+/* Compute J a0 of both pins. */
 BAUM_I_INLINE baum_i_four push_of(const two_pins *two, const double *free, const markers *a,
                                   const markers *b)
 {
@@ -135,7 +138,7 @@ BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const bau
 
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
-  const baum_i_block to = *block; /* a copy can stay in registers */
+  const baum_i_block to = *block; /* a local copy, which can stay in registers */
   const baum_i_pins at = *pins;
   two_pins two = {1, to.pins, at.points, to.pin_weight, to.arm};
   for (int left = to.pin_count; left > 1; left -= 2) {

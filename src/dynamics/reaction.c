@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reaction of a joint: the generalized force -J^T lambda of its rows on its bodies.
+/* Computes the reaction of a joint, which is the generalized force -J^T lambda of the joint's rows
+ * on its bodies.
  *
- * For a planar joint on body_b, the entries at (x, y) are the force F, and the entry at the angle
- * is the moment m_C about the centre of mass C. The moment about the joint's point P on body_b is
- * m_P = m_C - (P - C) x F. If body_b is ground, which has no columns, force and moment on it are
- * the opposite of those on body_a. In space the same holds with vectors, over all six columns of
- * body_b even if it is planar, a particle or ground. The entries at the rotations are the moment
- * about C in body axes.
+ * For a planar joint on body_b, the entries of this force at (x, y) are the force F, and the entry
+ * at the angle is the moment m_C about the centre of mass C. The moment about the joint's point P
+ * on body_b is m_P = m_C - (P - C) x F. Ground has no columns in J. If body_b is ground, force and
+ * moment on it are therefore the opposite of those on body_a. In space the same equations hold with
+ * vectors. All six columns of body_b are used, even if it is planar, a particle or ground. The
+ * entries at the rotations are the components of the moment about C in body axes.
  */
 #include <string.h>
 
@@ -28,7 +29,7 @@ static void find_generalized_force(const baum_workspace *w, const baum_i_joint *
   }
 }
 
-/* Compute force and moment about `at` from the entries of one body of a planar joint. */
+/* Compute the force on one body of a planar joint and its moment about the point `at`. */
 static void reduce_to_point(const baum_i_frame *frame, const double *side, int nv,
                             const double at[2], double out[3])
 {

@@ -210,7 +210,8 @@ static baum_status find_rows(search *s, double t, const double *q)
   }
   BAUM_I_TRY(baum_i_keep_rows_apart(s->w, t, s->start));
   baum_i_kkt **kkt = &s->w->sharing.kkt;
-  return *kkt ? BAUM_OK : baum_i_kkt_create(&s->w->structure, s->w->choice, kkt);
+  BAUM_I_TRY(*kkt ? BAUM_OK : baum_i_kkt_create(&s->w->structure, s->w->choice, kkt));
+  return baum_i_kkt_prepare(*kkt);
 }
 
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q)

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Choice of another set of independent rows when the kept rows become nearly dependent.
+/* Chooses another set of independent rows when the kept rows become nearly dependent.
  *
- * Example: a coupler on three parallel cranks whose pivots are not in line moves without singular
- * configurations. But whichever row is omitted, the kept rows describe a parallelogram of two
- * cranks and a third crank held by one row, and this mechanism has singular configurations. Before
- * the motion reaches these, other rows are omitted, as in coordinate partitioning (Wehage and Haug
- * 1982). Accelerations do not depend on the choice of rows, but multipliers do.
+ * Example: A coupler is carried by three parallel cranks whose pivots are not in line. The
+ * mechanism itself has no singular configurations. Three cranks have one redundant row. Whichever
+ * row is omitted, the kept rows describe a parallelogram of two cranks together with a third crank
+ * that is held by one row only, and these rows do become singular. Before the motion reaches such a
+ * configuration, other rows are omitted, as in coordinate partitioning (Wehage and Haug 1982).
+ * Accelerations do not depend on the choice of rows, but multipliers do.
  */
 #include "dynamics/row_set.h"
 
@@ -15,17 +16,19 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Limits on the distance of a row from the span of the rows selected before it, relative to its
- * length. They are tried from MOST down to WORST, by factors STEP. The first limit that yields as
- * many rows as the rank gives the best set. The set is well separated if this limit is above LEAST.
- * Kept rows stay in the set if they reach the limit divided by FACTOR. */
+/* Rows are selected one after another. A row is selected if its distance from the span of the rows
+ * selected before it, relative to its length, reaches a limit. Limits are tried from MOST down to
+ * WORST, and each is STEP times the one before. The first limit at which as many rows are selected
+ * as the rank gives the best set. The set counts as well separated if this limit is above LEAST. To
+ * change as few rows as possible, the rows kept now are selected if they reach the limit divided by
+ * FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;
 static const double STEP = 0.5;
 static const double FACTOR = 1.25;
 
-/* When the pivot falls below POOR, the run searches for other rows. It searches again each time the
+/* A run searches for other rows when the pivot falls below POOR. It searches again each time the
  * pivot has changed by a factor of RETRY. */
 static const double POOR = 0.2;
 static const double RETRY = 3.0;
@@ -57,8 +60,9 @@ baum_status baum_i_select_rows(baum_workspace *w, double distance, int *rank)
   return BAUM_OK;
 }
 
-/* Select rows that are at least this far from the span of the rows selected before them, beginning
- * with the kept rows. *found tells whether their number equals the rank. */
+/* Select rows one after another, beginning with the kept rows, if their distance from the span of
+ * the rows before them is at least `distance`. *found tells whether as many rows are selected as
+ * the rank. */
 static baum_status select_at(baum_workspace *w, double distance, bool *found)
 {
   int rank = 0;
@@ -68,7 +72,7 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
   return status;
 }
 
-/* Select the best set of rows, preferably those that are kept now. */
+/* Select the best set of rows. Rows that are kept now are preferred. */
 static baum_status select_apart(baum_workspace *w, double t, const double *q, double least,
                                 bool *found)
 {
@@ -83,8 +87,8 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select well-separated rows. Columns of J are scaled by the scales of the coordinates, not by the
- * masses. */
+/* Select a well-separated set of rows. Here the columns of J are scaled by the scales of the
+ * coordinates and not by the masses. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {
@@ -128,7 +132,7 @@ static void copy_counters(const baum_i_block_path *before, baum_i_block_path *pa
   }
 }
 
-/* Create the block paths of the workspace again for its present rows, if it has block paths. */
+/* If the workspace has block paths, create them again for its present rows. */
 static baum_status replace_paths(baum_workspace *w)
 {
   baum_i_block_verdict verdict;
@@ -160,7 +164,7 @@ static void swap_sets(baum_i_row_set *rows)
   rows->selected = omitted;
 }
 
-/* Omit the rows marked in `selected`. */
+/* Omit the rows that are marked in `selected`. */
 static baum_status omit_selected(baum_workspace *w)
 {
   swap_sets(&w->rows);
@@ -203,7 +207,7 @@ void baum_i_clear_omitted_rows(const baum_workspace *w, double *jacobian)
 
 /* ---- choice during a run ---- */
 
-/* Choose other rows. Return true if they have changed. */
+/* Search for a better set of rows and use it. Return true if the rows have changed. */
 static bool exchange_rows(baum_workspace *w, double t, const double *q, double least)
 {
   int nc = w->mechanism->nc;
@@ -238,17 +242,18 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
 
 /* ---- contradictions ---- */
 
-/* In 50 000 random mechanisms, rounding leaves J a - gamma of omitted rows at up to 4e-12 of the
- * accelerations. Violated constraints may leave more, as in simulate/monitor.c: up to the square
- * root of the violation, next to a configuration where the kept rows alone are singular. */
+/* The error of an omitted row is J a - gamma. In 50 000 random mechanisms, rounding caused errors
+ * of up to 4e-12 of the accelerations. If the constraints are violated, the error may be larger, as
+ * simulate/monitor.c explains. Next to a configuration where the kept rows alone are singular, it
+ * may be as large as the square root of the violation. */
 static const double CONTRADICTION = 1e-9;
 static const double TIMES = 10.0;
-/* Rows shorter than this fraction of the longest row consist of rounding errors. */
+/* Rows shorter than this fraction of the longest row contain nothing but rounding errors. */
 static const double EMPTY = 1e-6;
 
-/* [1/s^2] Return the size with which errors of accelerations are compared: the squared rate of the
- * motion plus the squared gains, or the largest scaled acceleration without constraints if that is
- * larger. */
+/* [1/s^2] Return the size with which errors of accelerations are compared. It is the squared rate
+ * of the motion plus the squared gains. If the largest scaled acceleration that the forces would
+ * cause without constraints is larger, it is this acceleration. */
 static double find_acceleration_size(const baum_workspace *w, const double *v, double alpha,
                                      double beta)
 {
@@ -263,7 +268,8 @@ static double find_acceleration_size(const baum_workspace *w, const double *v, d
   return size;
 }
 
-/* Largest violation of positions or velocities, as a displacement relative to the scales. */
+/* Return the largest violation of positions or velocities, expressed as a displacement relative to
+ * the scales. */
 static double find_violation(const baum_workspace *w, const double *length, double rate)
 {
   double violation = 0.0;
@@ -284,8 +290,8 @@ static baum_status fail_contradiction(const baum_workspace *w, int row, double p
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
-/* Return |J a - r| of an omitted row, where r is the right side of the row, and in *size the sum of
- * the magnitudes of its terms. The row of J must be up to date. */
+/* Return the error |J a - r| of an omitted row, where r is the right side of the row. Set *size to
+ * the sum of the magnitudes of all terms of this difference. The row of J must be up to date. */
 static double find_missed(const baum_workspace *w, int row, double alpha, double beta, double *size)
 {
   const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, row)];
@@ -301,7 +307,8 @@ static double find_missed(const baum_workspace *w, int row, double alpha, double
   return fabs(missed);
 }
 
-/* Compare the errors of omitted rows with the accelerations of the whole mechanism. */
+/* Compare the errors of the omitted rows with the accelerations of the whole mechanism, and fail if
+ * an error is too large. */
 static baum_status compare_omitted_rows(baum_workspace *w, const double *v, double alpha,
                                         double beta)
 {
@@ -327,7 +334,8 @@ static baum_status compare_omitted_rows(baum_workspace *w, const double *v, doub
   return agree ? BAUM_OK : fail_contradiction(w, row, most / size);
 }
 
-/* First compare the error of each row with its own terms. This is cheap and usually enough. */
+/* First compare the error of each row only with the terms of the same row. This is cheap, and
+ * usually the errors are already small enough. */
 baum_status baum_i_check_omitted_rows(baum_workspace *w, const double *v, double alpha, double beta)
 {
   bool met = true;

@@ -21,7 +21,7 @@ static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
   return baum_i_message_settle(status, &kept);
 }
 
-/* Make the report with a frozen copy of the mechanism. */
+/* Make a frozen copy of the mechanism, and make the report with this copy. */
 static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *look,
                                 const baum_i_snapshot_out *to)
 {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on a mechanism without a run, in a configuration that the report chooses. If the
- * mechanism is not frozen, a frozen copy is used. */
+/* Makes reports on a mechanism without a run. Each report chooses the configuration that it
+ * describes. If the mechanism is not frozen, the report is made with a frozen copy. */
 #ifndef BAUM_I_DYNAMICS_SNAPSHOT_H
 #define BAUM_I_DYNAMICS_SNAPSHOT_H
 
 #include "dynamics/dynamics.h"
 
-/* Destination of a report. The report fills `whole`, and as much of it as fits is copied to the
- * caller's struct `out`. */
+/* The destination of a report. The report fills the struct `whole`. As much of it as fits is then
+ * copied to the caller's struct `out`. */
 typedef struct baum_i_snapshot_out {
   const char *call; /* name of the public function, for messages */
   void *out;
@@ -16,10 +16,11 @@ typedef struct baum_i_snapshot_out {
   size_t size;
 } baum_i_snapshot_out;
 
-/* Fills `whole`. q is zeroed scratch memory (nq + nv). */
+/* A function that makes a report and fills `whole` with it. q is zeroed scratch memory for nq + nv
+ * numbers. */
 typedef baum_status baum_i_look(baum_workspace *w, double *q, void *whole);
 
-/* Fill the report and copy it to the caller's struct. On failure nothing is copied. */
+/* Fill the report and copy it to the caller's struct. After a failure, nothing has been copied. */
 baum_status baum_i_snapshot(const baum_mechanism *mechanism, baum_i_look *look,
                             const baum_i_snapshot_out *to);
 

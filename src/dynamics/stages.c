@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stages of an evaluation: first the terms that depend only on (t, q), then those that also
- * depend on v. */
+/* An evaluation has two stages. The first stage computes the terms that depend only on (t, q). The
+ * second stage computes the terms that also depend on v. */
 #include <string.h>
 
 #include "dynamics/dynamics.h"
@@ -15,7 +15,7 @@ baum_status baum_i_evaluate_mass(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Phi' = J v - nu (3) */
+/* Compute Phi' = J v - nu, equation (3). */
 static void evaluate_rate(baum_workspace *w, const double *v)
 {
   for (int i = 0; i < w->mechanism->nc; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step. It is computed from the matrix of the residual (dae_matrix.c) with y = (q,
- * v, lambda) and c = by_a / by_v. The columns of v, which hold c M - g_v, are multiplied by by_v
- * and added to those of q. The rows of q' - v are not needed. The destination of every entry is
- * determined at creation.
+/* Computes Newton's matrix of a step from the matrix of the residual (dae_matrix.c) with y = (q, v,
+ * lambda) and c = by_a / by_v. In that matrix, the columns of v contain c M - g_v. They are
+ * multiplied by by_v and added to the columns of q. The rows of q' - v are left out. The place to
+ * which each entry is added is found only once, when the matrix is created.
  */
 #include "dynamics/step_matrix.h"
 
@@ -11,14 +11,16 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* Factors on the entries of the full matrix, which is that of dae_matrix.c. */
+/* The factors by which entries of the full matrix (dae_matrix.c) are multiplied. */
 enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, FACTORS };
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
-  double *full;              /* values of the matrix of `form` */
-  unsigned char *factor;     /* of each value: BY_NOTHING, ... */
-  baum_i_compressed pattern; /* (nv + nc) its slots: values except BY_NOTHING, in order */
+  double *full;          /* values of the full matrix, which belongs to `form` */
+  unsigned char *factor; /* the factor of each value: BY_NOTHING and so on */
+  /* Pattern (nv + nc) of this matrix; it has one slot for each value whose factor is not
+   * BY_NOTHING, in the same order. */
+  baum_i_compressed pattern;
   double *values;
   baum_i_sparse_lu *lu;
 };
@@ -40,7 +42,8 @@ static unsigned char factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of all values, and find the pattern of their destinations. */
+/* Set the factors of all values, and find the places in this matrix to which the values are
+ * added. */
 static baum_status find_pattern(baum_i_step_matrix *matrix, int nv)
 {
   const baum_i_compressed *full = baum_i_residual_matrix_pattern(matrix->form);

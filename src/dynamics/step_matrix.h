@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's matrix of a step at index 3 by a method of Newmark type, in which changes of velocities
- * and accelerations are multiples of those of positions:
+/* Newton's matrix of a step at index 3, for methods of Newmark type. In these methods, the changes
+ * of velocities and accelerations are multiples of the changes of positions:
  *
  *   dv = by_v dq,  dv' = by_a dq,  dlambda = x / scale
  *
@@ -9,8 +9,9 @@
  *
  *   A = by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q
  *
- * If the product scale by_a is about 1, no entry grows as the step shrinks (C. Bottasso, O.
- * Bauchau, A. Cardona, 2007; M. Arnold, O. Bruels, 2007). For an omitted row i, lambda_i stays 0.
+ * If the product scale by_a is about 1, no entry grows as the step becomes shorter
+ * (C. Bottasso, O. Bauchau, A. Cardona, 2007; M. Arnold, O. Bruels, 2007). The multiplier lambda_i
+ * of an omitted row i stays 0.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H
@@ -18,7 +19,7 @@
 #include "dynamics/dynamics.h"
 #include "linear/sparse_lu.h"
 
-/* The factors of the equations above; by_v is not 0. */
+/* The factors by_v, by_a and scale of the equations above. by_v must not be 0. */
 typedef struct baum_i_step_ratios {
   double by_v;  /* [1/s] */
   double by_a;  /* [1/s^2] */
@@ -31,8 +32,8 @@ typedef struct baum_i_step_matrix baum_i_step_matrix;
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out);
 void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is allowed */
 
-/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. May also return BAUM_ERR_SINGULAR
- * without a message, BAUM_ERR_MEMORY. */
+/* Evaluate and factor the matrix at (t, y, y'), where y = (q, v, lambda). May also return
+ * BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR without a message. */
 baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace *workspace,
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);
@@ -40,7 +41,8 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
 /* Choose new pivots at the next factorization. */
 void baum_i_step_matrix_forget(baum_i_step_matrix *matrix);
 
-/* x (nv + nc) is the right side on entry, and (dq, x) on return. */
+/* On entry, x (nv + nc) is the right side. On return, it contains dq and then x of the equations
+ * above. */
 void baum_i_step_matrix_solve(baum_i_step_matrix *matrix, double *x);
 
 baum_i_sparse_lu_work baum_i_step_matrix_work(const baum_i_step_matrix *matrix);

@@ -151,7 +151,7 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   w->motion = NULL;
   w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNWANTED};
   if (w->choice != BAUM_I_KKT_AUTO) {
-    return BAUM_OK;
+    return baum_i_kkt_prepare(w->kkt);
   }
   baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = baum_i_paths_create(w, &w->verdict, &made);
@@ -163,8 +163,11 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   if (status != BAUM_OK) {
     w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNKNOWN};
   }
-  return w->blocks_only && !w->path ? refuse_other_solvers(w)
-                                    : baum_i_message_settle(BAUM_OK, &kept);
+  if (w->blocks_only && !w->path) {
+    return refuse_other_solvers(w);
+  }
+  BAUM_I_TRY(w->path ? BAUM_OK : baum_i_kkt_prepare(w->kkt));
+  return baum_i_message_settle(BAUM_OK, &kept);
 }
 
 void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace)

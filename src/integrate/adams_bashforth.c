@@ -7,15 +7,15 @@
  *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, ..
  *                    from 0 to theta
  *
- * theta = 1 is a step of the grid. A step of any other length uses the same history and has the
- * same order of the local error, O(h^(k+1)). If such a step is accepted, the run leaves the grid
- * and the history is discarded.
+ * A step of the grid has theta = 1. A step of another length uses the same past steps, and its
+ * local error has the same order, O(h^(k+1)). If such a step is accepted, the run has left the
+ * grid, and the past steps are discarded.
  *
- * At the start and after a restart there is not enough history, and the classical Runge-Kutta
- * method takes the steps. Its local error is O(h^5), so it does not lower the order k <= 4.
+ * At the start and after a restart there are not enough past steps. The classical Runge-Kutta
+ * method then takes the steps. Its local error is O(h^5), so the order k <= 4 is not reduced.
  *
- * A step may be a trial that is discarded. v and a at its start are therefore stored in a slot that
- * becomes part of the history only when the step is accepted. */
+ * A step may be a trial that is discarded. v and a at the start of a step are therefore stored in a
+ * separate slot. This slot becomes part of the history only when the step is accepted. */
 #include "integrate/adams_bashforth.h"
 
 #include <string.h>
@@ -25,7 +25,8 @@
 
 /* ---- history ---- */
 
-/* The slot with N v and a of the point j steps back. */
+/* Return the slot with N v and a at the point that is j steps before the start of the present
+ * step. */
 static double *slot(const baum_i_adams *run, int j)
 {
   int steps = run->table->steps;
@@ -34,8 +35,9 @@ static double *slot(const baum_i_adams *run, int j)
 
 /* ---- one step ---- */
 
-/* Compute w_j(theta) / theta by Horner's rule. The caller multiplies by the actual step length,
- * which is theta times the step of the grid and so restores the factor theta. */
+/* Compute w_j(theta) / theta by Horner's rule. The caller multiplies the result by the actual
+ * length of the step, which is theta times the step of the grid, and thus contains the missing
+ * factor theta. */
 static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
 {
   int steps = table->steps;

@@ -20,9 +20,10 @@ typedef struct baum_i_adams {
   void *starter; /* memory of rk4, which takes the first steps */
   int nq;
   int nv;
-  int ahead;     /* slot of the start of the present step; the history precedes it */
+  /* index of the slot for the start of the present step; the slots of the history precede it */
+  int ahead;
   int past;      /* number of points in the history, at most steps - 1 */
-  bool on_grid;  /* the last trial was a step of the grid */
+  bool on_grid;  /* true if the last trial was a step of the grid */
   double *slots; /* (steps x (nq + nv)) N v and a of each point */
 } baum_i_adams;
 

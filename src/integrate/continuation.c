@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step along the path q(t) of Phi(q, t) = 0 with nc = nv independent rows, so J is square. A
- * check of J refuses steps to another branch.
+/* One step along the path q(t) that solves Phi(q, t) = 0. There are nc = nv independent rows, so J
+ * is a square matrix. Steps that may lead to another branch are refused.
  *
  * Newton's method solves J dq = -Phi and moves q by dq. Then J v = nu and J a = gamma give v and a.
  *
@@ -12,20 +12,21 @@
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
  *
- * is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the step is
- * sufficient. It then also holds along the step, because D grows about in proportion to the length
- * (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
- * chapters 2 and 5). The norm of D is estimated with a probe z that moves every coordinate by a
- * fraction of its scale:
+ * this ratio is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the
+ * step is sufficient: |D| is then also below 1 along the step, because D grows about in proportion
+ * to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
+ * Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe z that moves
+ * every coordinate by a fraction of its scale:
  *
  *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
  *
- * is close to the largest eigenvalue or above it, because z has a component in every critical
- * direction. Each product D z costs one solution with factors that v and a need anyway.
+ * This number is close to the largest eigenvalue of D or above it, because z has a component in
+ * every critical direction. Each product D z takes one solution of linear equations. Their matrix
+ * is already factored, because v and a need it, too.
  *
- * All equations are solved by the saddle-point solver. Without degrees of freedom the solution a is
- * J^-1 times the right side of the rows, for every M. If the right side of the rows is zero, the
- * solution lambda is J^-T times the right side of the bodies.
+ * The saddle-point solver solves all these equations. Without degrees of freedom, its solution a is
+ * J^-1 times the right-hand side of the rows, whatever M is. If the right-hand side of the rows is
+ * zero, its solution lambda is J^-T times the right-hand side of the bodies.
  */
 #include "integrate/continuation.h"
 
@@ -38,8 +39,9 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* Limits on Newton's first correction relative to the scales, and on the second correction relative
- * to the first. Beyond them the guess may be closer to another configuration. */
+/* FARTHEST limits Newton's first correction relative to the scales, and the next constant limits
+ * the second correction relative to the first. If a correction is larger, the guess may be closer
+ * to another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
 /* Limit on the ratio of successive later corrections. Above it the corrections have stopped
@@ -48,15 +50,17 @@ static const double STAGNATION = 0.5;
 /* Limit on the estimate of |D|. It is below 1 because the estimate is not exact and refers to the
  * end of the step only. */
 static const double TURNING = 0.7;
-/* Allowed violations as displacements, ROUNDING absolute and NOISE relative to the largest
- * coordinate or 1. */
+/* Allowed violations, expressed as displacements. Newton's method ends when the violation is at
+ * most ROUNDING. If its corrections have stopped decreasing, a violation of at most NOISE is
+ * accepted, too; NOISE is relative to the largest coordinate, or to 1 if that is larger. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
-/* Allowed violation of omitted rows. Above it they do not depend on the other rows in this
- * configuration. */
+/* Allowed violation of omitted rows. A row with a larger violation does not depend on the other
+ * rows in this configuration. */
 static const double NEGLIGIBLE = 1e-6;
-/* The iteration z := D z ends when z has decayed to the fraction DECAYED. KEPT is the weight, in
- * the first z, of the direction in which the last iteration ended. */
+/* The iteration z := D z ends when the size of z has decreased to the fraction DECAYED. The first z
+ * contains, with the weight KEPT, the direction in which the iteration of the previous step
+ * ended. */
 static const double DECAYED = 0.01;
 static const double KEPT = 3.0;
 
@@ -74,7 +78,7 @@ baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *
   path->image = path->probe + nv;
   path->distance = path->image + nv;
   path->left = path->distance + nc;
-  return BAUM_OK;
+  return baum_i_kkt_prepare(workspace->kkt);
 }
 
 void baum_i_continuation_close(baum_i_continuation *path)
@@ -118,7 +122,8 @@ static bool accept_solution(baum_status status, baum_i_verdict *verdict)
   }
 }
 
-/* Factor J at the present point. Its values must not change before the last solution. */
+/* Factor J at the present configuration. The values of J in the workspace must not change as long
+ * as the factorization is used. */
 static baum_status factor(baum_workspace *w)
 {
   const baum_i_kkt_values values = {
@@ -127,7 +132,7 @@ static baum_status factor(baum_workspace *w)
   return baum_i_kkt_factor(w->kkt, &values);
 }
 
-/* Set x to J^-1 rows. */
+/* Solve J x = rows. */
 static baum_status solve(const baum_i_continuation *path, const double *rows, double *x)
 {
   baum_workspace *w = path->workspace;
@@ -152,7 +157,7 @@ static double violation(const baum_i_continuation *path, bool kept, int *row)
   return worst;
 }
 
-/* Evaluate the position stage and its violation. */
+/* Evaluate the constraints at the configuration *to, and find their largest violation. */
 static baum_status evaluate_violation(const baum_i_continuation *path,
                                       const baum_i_configuration *to, double *worst)
 {
@@ -164,7 +169,7 @@ static baum_status evaluate_violation(const baum_i_continuation *path,
   return BAUM_OK;
 }
 
-/* Find the correction dq, in path->image. */
+/* Compute Newton's correction dq and write it to path->image. */
 static baum_status correct(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;
@@ -175,8 +180,8 @@ static baum_status correct(const baum_i_continuation *path)
   return solve(path, w->rhs, path->image);
 }
 
-/* Tell whether correction k is small enough for convergence; `last` is the size of the correction
- * before. */
+/* Tell whether correction k of Newton's method is small enough. `last` is the size of the previous
+ * correction. */
 static bool converges(int k, double size, double last)
 {
   return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
@@ -216,8 +221,8 @@ static bool find_root(const baum_i_continuation *path, baum_i_configuration *to,
 
 /* ---- guards ---- */
 
-/* Refuse the configuration if an omitted row is violated, because it then does not depend on the
- * others. */
+/* Refuse the configuration if an omitted row is violated. Such a row does not depend on the other
+ * rows, so it must not be omitted. */
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
   return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE ||
@@ -231,7 +236,7 @@ static double scatter(int k)
   return x < 0.0 ? 0.5 * x - 0.5 : 0.5 * x + 0.5;
 }
 
-/* probe = D probe, D = I - J^-1 J_from */
+/* Multiply the vector `probe` by D = I - J^-1 J_from. */
 static baum_status apply_turning(const baum_i_continuation *path, const double *from)
 {
   baum_workspace *w = path->workspace;
@@ -337,8 +342,8 @@ static void normalize_left(const baum_i_continuation *path)
   }
 }
 
-/* One inverse iteration: u = J^-T s^-2 probe, normalized, then probe = J^-1 d^2 u. s are the scales
- * of the coordinates. */
+/* Make one step of inverse iteration: compute u = J^-T s^-2 probe and normalize it, then compute
+ * probe = J^-1 d^2 u. s are the scales of the coordinates, and d is path->distance. */
 static baum_status iterate(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;

@@ -9,10 +9,12 @@
 /* A configuration that satisfies the constraints, with its velocities and accelerations. */
 typedef struct baum_i_configuration {
   double t;
-  double *q;    /* (nq) */
-  double *v;    /* (nv) J v = nu */
-  double *a;    /* (nv) J a = gamma */
-  double *turn; /* (nv) direction in which J changed most since the last configuration; 0: none */
+  double *q; /* (nq) */
+  double *v; /* (nv) J v = nu */
+  double *a; /* (nv) J a = gamma */
+  /* (nv) direction in which J has changed most since the last configuration; zeros if there is
+   * none */
+  double *turn;
   double *jacobian; /* (jacobian_size) */
 } baum_i_configuration;
 
@@ -51,8 +53,8 @@ typedef struct baum_i_continuation {
 /* The cause of a singular configuration. */
 typedef struct baum_i_impasse {
   double gain; /* scaled |J^-1|; INFINITY if J cannot be factored */
-  /* share, 0 to 1, of time-dependent rows in the left singular vector of the smallest singular
-   * value */
+  /* share (0 to 1) that rows depending on time have in the left singular vector of the smallest
+   * singular value */
   double pull;
   int driver;   /* time-dependent joint with the largest share, or -1 */
   int resister; /* other joint with the largest share, or -1 */
@@ -65,9 +67,10 @@ void baum_i_continuation_close(baum_i_continuation *path);
  * be `from` of baum_i_continuation_solve(). */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configuration *to);
 
-/* Find the configuration near the guess to->q at to->t by Newton's method, then v and a. A
- * comparison with J and turn of `from` refuses configurations that may be on another branch.
- * Returns true if the configuration is accepted; otherwise verdict->refusal is the reason. */
+/* Find a configuration at the time to->t by Newton's method, starting from the guess to->q, and
+ * then compute its v and a. J is compared with J of the configuration `from`, in order to refuse a
+ * configuration that may be on another branch. Returns true if the configuration is accepted;
+ * otherwise verdict->refusal is the reason. */
 bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configuration *from,
                                baum_i_configuration *to, baum_i_verdict *verdict);
 

@@ -37,8 +37,8 @@ typedef struct cvode_run {
 static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
 {
   cvode_run *run = user;
-  /* The fixed-point solver of SUNDIALS 6.4 also retries after a failure that no smaller step can
-   * cure, so that failure is repeated here. */
+  /* After such a failure no smaller step can help, but the fixed-point solver of SUNDIALS 6.4 tries
+   * one. The failure is therefore returned again here. */
   if (run->sundials.stopped) {
     return -1;
   }

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains add -M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi) to a. The constraints then act as
- * springs and dampers with rates alpha and beta, which makes the equations y' = f stiff even if the
- * motion is smooth. The part of df/dy that they cause is known,
+/* Gains add -M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi) to the accelerations a. The
+ * constraints then act like springs and dampers with rates alpha and beta. This makes the equations
+ * y' = f stiff, even if the motion is smooth. The part of df/dy that the gains cause is known:
  *
  *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
  *           [ -beta^2 P   -2 alpha P ]
  *
- * CVODE requires solutions of (I - gamma df/dy) (dq, dv) = (r_q, r_v), where gamma is CVODE's
- * coefficient, a fraction of the step. Without the rest, and because P P = P, the solution is
+ * CVODE requires solutions of (I - gamma df/dy) (dq, dv) = (r_q, r_v), where gamma is a coefficient
+ * of CVODE, which is a fraction of the step. If the rest is neglected, and because P P = P, the
+ * solution is
  *
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2
@@ -20,8 +21,8 @@
  *
  * If q is not a vector, r_q stands for N^+ r_q in these equations, and dq = r_q + gamma N dv.
  *
- * Backward in time both alpha and gamma change their signs. Derivatives of forces are part of the
- * rest that is neglected, so stiff forces still require BDF.
+ * If the run goes backward in time, both alpha and gamma change their signs. The neglected rest
+ * contains the derivatives of forces, so stiff forces still require BDF.
  */
 #include "integrate/integrator.h"
 

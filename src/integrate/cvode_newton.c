@@ -7,8 +7,9 @@
  *
  *   F = (q' - N v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
  *
- * Its last two parts are zero for v' = a(t, q, v). Let da = (da/dq) dq + (da/dv) dv, and dlambda
- * the corresponding change of lambda. The last two parts then satisfy
+ * The last two parts of F are zero for v' = a(t, q, v). Let da = (da/dq) dq + (da/dv) dv be the
+ * change of a, and dlambda the corresponding change of lambda. Differentiating the last two parts
+ * then gives
  *
  *   F_q dq + F_v dv + F_lambda dlambda = - (M da, J da)
  *
@@ -16,11 +17,11 @@
  *
  *   (dF/dy + c dF/dy') (dq, dv, dlambda) = (c dq - dv, M (c dv - da), J (c dv - da)).
  *
- * If the right side is c (r_q, M r_v, J r_v), the solution satisfies dq - gamma dv = r_q and dv -
- * gamma da = r_v, which are the required equations. dlambda is not needed. The matrix contains the
- * derivatives of all forces and rows and is sparse. (If q is not a vector, dq stands for a
- * displacement of length nv and r_q for N^+ r_q. The part of r_q off the manifold is added to dq
- * unchanged.)
+ * If the right-hand side of these equations is c (r_q, M r_v, J r_v), their solution satisfies dq -
+ * gamma dv = r_q and dv - gamma da = r_v. These are the required equations. The part dlambda of the
+ * solution is not needed. The matrix contains the derivatives of all forces and rows and is sparse.
+ * (If q is not a vector, dq stands for a displacement of length nv and r_q for N^+ r_q. The part of
+ * r_q off the manifold is added to dq unchanged.)
  */
 #include "integrate/integrator.h"
 
@@ -70,8 +71,8 @@ static int factor(SUNLinearSolver solver, SUNMatrix matrix)
   return baum_i_sundials_klu_factor(&newton->klu);
 }
 
-/* Compute c (r_q, M r_v, J r_v). It is 0 in rows that were omitted when the matrix was computed, so
- * their dlambda is 0. */
+/* Compute the right-hand side c (r_q, M r_v, J r_v) of the linear equations above. It is 0 in rows
+ * that were omitted when the matrix was computed, so dlambda of these rows is 0. */
 static void make_right_side(const baum_i_cvode_newton *newton, const double *r, double *right)
 {
   const baum_workspace *w = workspace_of(newton);

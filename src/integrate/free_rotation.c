@@ -26,7 +26,7 @@ baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9])
   return out;
 }
 
-/* Multiplies p, the rotation so far, by the rotation h w. */
+/* Rotates the quaternion p further, with the constant angular velocity w for the time h. */
 static void turn(double h, const double w[3], double p[4])
 {
   const double rotation[3] = {h * w[0], h * w[1], h * w[2]};
@@ -37,9 +37,9 @@ static void turn(double h, const double w[3], double p[4])
   baum_i_quaternion_product(before, by, p);
 }
 
-/* Turn about an axis by an angle proportional to the momentum along it. If the axis is a coordinate
- * axis of the body, rounding does not change the momentum along it, which is small in slender
- * bodies. */
+/* Rotate the body about an axis by an angle that is proportional to the momentum along this axis.
+ * In slender bodies this momentum is small. If the axis is a coordinate axis of the body, rounding
+ * does not change it. */
 static void turn_about(const double axis[3], double h, double p[4], double momentum[3])
 {
   double angle = h * baum_i_dot3(axis, momentum);

@@ -11,14 +11,14 @@
  *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
  *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
  *
- * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of multipliers:
- * a disturbance of the multipliers decays to a tenth in ten steps. Oscillations whose period is
- * many steps are hardly damped.
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of multipliers.
+ * A disturbance of the multipliers therefore decays to a tenth in ten steps. Slow oscillations,
+ * whose period is many steps, are hardly damped.
  *
- * a is not the acceleration at t but, to second order, the acceleration at t + (alpha_m - alpha_f)
- * h. a is initialized with the acceleration at that time; otherwise the multipliers of the first
- * steps would have errors of first order. If the length of the step changes, the difference a - v'
- * is scaled in proportion.
+ * a is not the acceleration at t. To second order, it is the acceleration at t + (alpha_m -
+ * alpha_f) h. At the start, a is therefore set to the acceleration at this time; otherwise the
+ * multipliers of the first steps would have errors of first order. If the length of the step
+ * changes, the difference a - v' is multiplied by the ratio of the lengths.
  *
  * The first step after every start begins at the state projected onto the constraints. Otherwise a
  * violation would cause velocities of its size divided by h, which later steps would reduce only
@@ -51,19 +51,21 @@ enum { ITERATIONS = 20 };
  * times the scale if that is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped decreasing count as rounding up to STALLED times this limit. */
+/* If changes have stopped decreasing, they are treated as rounding errors up to STALLED times this
+ * limit. */
 static const double STALLED = 64.0;
-/* Larger changes that have stopped decreasing, up to LARGEST_NOISE, count as rounding up to NOISES
- * times the change that find_noise() measures by altering all unknowns by the fraction NUDGE. The
- * rounding error of a large coordinate may be large relative to the scale of a small coordinate
- * that is coupled to it. */
+/* Even larger changes that have stopped decreasing may be rounding errors, because the rounding
+ * error of a large coordinate may be large relative to the scale of a small coordinate that is
+ * coupled to it. To decide, find_noise() changes all unknowns by the fraction NUDGE and measures
+ * the effect. Changes of at most NOISES times this effect, and at most LARGEST_NOISE, are treated
+ * as rounding errors. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* The derivative of the acceleration is a difference over this fraction of a step. The relative
- * truncation error is about this fraction, the relative rounding error the unit roundoff divided by
- * it. */
+/* The derivative of the acceleration is computed as a difference over this fraction of a step. Its
+ * relative truncation error is about this fraction. Its relative rounding error is the unit
+ * roundoff divided by this fraction. */
 static const double SHIFT = 1e-3;
 
 /* a is not scaled if step lengths differ by less than this fraction. */
@@ -295,7 +297,8 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-/* Accept the last trial. As in every method, a step off the grid ends the history. */
+/* Accept the last trial. After a step of another length than that of the grid, the past steps are
+ * discarded, as in every method. */
 static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   alpha_run *run = self;

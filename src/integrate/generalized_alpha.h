@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gives tests access to a run of generalized_alpha. */
+/* Access to the multipliers of a generalized-alpha run, for tests. */
 #ifndef BAUM_I_INTEGRATE_GENERALIZED_ALPHA_H
 #define BAUM_I_INTEGRATE_GENERALIZED_ALPHA_H
 

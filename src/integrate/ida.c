@@ -9,7 +9,7 @@
  *   index 3   Phi
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
- * IDA solves these equations reliably under the following conditions, which were found by
+ * IDA solves these equations reliably only under the following conditions, which were found by
  * measurement:
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
  *   also velocities. At index 1, tolerance_lambda adds lambda to the test. In other forms the error
@@ -48,7 +48,8 @@ typedef struct ida_run {
   baum_dae dae;
 } ida_run;
 
-/* Largest violation at a start that is not removed, relative to the tolerance. */
+/* If the violation at a start is at most this large, relative to the tolerance, it is not
+ * removed. */
 static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
@@ -156,10 +157,10 @@ static double violation_of(const ida_run *run, const baum_i_problem *problem)
   return fmax(phi, rate / problem->rate);
 }
 
-/* Make the start consistent. If Phi = 0 or Phi' = 0 is among the equations, a violation would
- * vanish abruptly in the first step and spoil the error estimate, however short the step. The
- * violation is therefore removed here. The equations of index 2 do not contain Phi = 0, so a
- * violation of Phi is not removed for them. */
+/* Make the start consistent. If the equations contain Phi = 0 or Phi' = 0, the first step would
+ * remove a violation at once, however short the step is, and its error estimate would be wrong. The
+ * violation is therefore removed before the first step. The equations of index 2 do not contain Phi
+ * = 0, so for them a violation of Phi remains. */
 static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
                                    double *v)
 {
@@ -200,10 +201,11 @@ static baum_status complete_start(baum_i_sundials *sundials, double t)
   return BAUM_OK;
 }
 
-/* Set the first step. It has order 1 and the error h^2 |q''| / 2, where |q''| <= rate^2 scale. At
- * index 3 this error is set equal to the tolerance. All other forms also test velocities, whose
- * derivatives are larger, so their h is a fifth of this. At index 3 a smaller h is not possible:
- * velocities are differences of q over h and would be dominated by rounding. */
+/* Set the length h of the first step. The step has order 1 and the error h^2 |q''| / 2, where |q''|
+ * <= rate^2 scale. At index 3, h is chosen such that this error equals the tolerance. The other
+ * forms also test velocities, whose derivatives are larger, so their h is a fifth of that length.
+ * At index 3 a smaller h is not possible: velocities are differences of q divided by h, and would
+ * consist mostly of rounding errors. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;

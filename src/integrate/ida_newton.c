@@ -28,12 +28,12 @@
  * (0.33), or if the convergence rate of this step predicts an error below the bound after a later
  * correction.
  *
- * IDA's own test does not work here. No fixed tolerance suits multipliers, because they may vanish
- * and their rounding errors grow with c. Without any test they diverge: at order 5 the prediction
- * amplifies an error 63-fold, and an iteration with an older matrix leaves up to a quarter of it.
- * In measurements, multipliers became 1e14 times too large; their rounding errors then changed q
- * and v, and no step converged. IDA also uses the convergence rate of an earlier step with the same
- * matrix, which shortens steps by a third.
+ * IDA's own convergence test does not work for these equations. No fixed tolerance is suitable for
+ * multipliers, because they may be zero and their rounding errors grow with c. Without any test
+ * they diverge: at order 5 the prediction amplifies an error 63-fold, and an iteration with an
+ * older matrix leaves up to a quarter of it. In measurements, multipliers became 1e14 times too
+ * large; their rounding errors then changed q and v, and no step converged. IDA also uses the
+ * convergence rate of an earlier step with the same matrix, which shortens steps by a third.
  *
  * Older matrices. With r = c / c0, the matrix A(c0) gives the present matrix A(c) up to terms that
  * are smaller by a factor of h:

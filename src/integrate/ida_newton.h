@@ -33,14 +33,15 @@ void baum_i_ida_newton_close(baum_i_ida_newton *newton);
  * matrix is computed. */
 void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
-/* Set energy and action at the start of a step from the multipliers: lambda, followed by mu for
- * GGL. Reads the weights 1 / tolerance of q and v (nq + nv), and writes the weights of lambda (nc)
- * after them if lambda is tested. */
+/* Compute `energy` and `action` at the start of a step from the multipliers, which are lambda,
+ * followed by mu for GGL. `weights` contains 1 / tolerance of q and v (nq + nv). If lambda is
+ * tested, the function writes the weights of lambda (nc) after them. */
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 
-/* Scale the right side before, and the result after, a solution with a matrix that was computed for
- * c0. ratio = c / c0. */
+/* These functions are needed if the matrix was computed for another coefficient c0. The first
+ * scales the right-hand side before the solution, and the second scales the solution. ratio is c /
+ * c0. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution);

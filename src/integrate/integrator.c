@@ -13,9 +13,9 @@
  * The error tests of BDF methods use a fraction of rtol and atol, so that runs at the same rtol
  * have about the same error with every method:
  *
- * - If the history is exact, a step of order q has the error h^(q+1) y^(q+1) / ((q+1) alpha_0) with
- *   alpha_0 = 1 + 1/2 + ... + 1/q. Because the history has errors, too, the step adds alpha_0 times
- *   this error to the error of the motion (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
+ * - If the past steps are exact, a step of order q has the error h^(q+1) y^(q+1) / ((q+1) alpha_0)
+ *   with alpha_0 = 1 + 1/2 + ... + 1/q. The past steps have errors, too, so the step adds alpha_0
+ *   times this error to the error of the motion (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
  *   Differential Equations I, 1993, III.2: the error constant). CVODE tests the first error, IDA
  *   the second. At order 5, which they nearly always use, alpha_0 is 137/60.
  * - The order is at most 5, and BDF takes up to three times the steps of Adams methods, which adds
@@ -158,7 +158,7 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
   return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
 }
 
-/* At fixed steps only methods with `accept` have a history. */
+/* With a fixed step, only methods that have the operation `accept` use past steps. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem)
 {
   return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));

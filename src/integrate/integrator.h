@@ -2,10 +2,10 @@
 /* The table of operations that every integrator implements. Each integrator has a separate file, so
  * that a program links only the integrators that it calls.
  *
- * A fixed-step method moves a state by h; time grid, projection, monitors and output are the
- * caller's. A variable-step method takes one step, whose length it chooses, and interpolates inside
- * its last step. Integrators evaluate the equations only through a problem, whose functions apply
- * the formulation and the gains. */
+ * A fixed-step method only moves a state by h. The caller handles the time grid, projection,
+ * monitors and output. A variable-step method takes one step, whose length it chooses, and can
+ * interpolate inside its last step. Integrators evaluate the equations of motion only through a
+ * problem (baum_i_problem), whose functions apply the formulation and the gains. */
 #ifndef BAUM_I_INTEGRATE_INTEGRATOR_H
 #define BAUM_I_INTEGRATE_INTEGRATOR_H
 
@@ -14,8 +14,8 @@
 #include "dynamics/dynamics.h"
 #include "stabilization/amplification.h"
 
-/* The equations to integrate, and the accuracy. All members except direction, stops and stop are
- * constant during a run. */
+/* A problem: the equations to integrate, and the required accuracy. All members except direction,
+ * stops and stop are constant during a run. */
 typedef struct baum_i_problem {
   /* The members before `workspace` are saved with a run, because another processor may compute them
    * with different last digits. */
@@ -33,7 +33,8 @@ typedef struct baum_i_problem {
   double tolerance_q;      /* [-] > 0, factors on rtol and atol */
   double tolerance_v;      /* [-] > 0 */
   double tolerance_lambda; /* [-] > 0; INFINITY: multipliers are not in the error test */
-  /* explicit methods with variable steps: refuse a step if the projection moves its end far */
+  /* true if explicit methods with variable steps must refuse a step whose end the projection moves
+   * far */
   bool distrusts_projection;
   bool stops;  /* variable step: a step ends exactly at `stop` */
   double stop; /* [s] ahead of the state by more than the rounding of times */
@@ -63,10 +64,11 @@ struct baum_integrator {
   baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
   baum_i_method method;             /* amplification of violations */
   baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
-  double seen;                      /* BDF: tested fraction of the error that a step contributes */
+  /* BDF: the fraction of the error of a step that the error test measures */
+  double seen;
   /* both Euler methods: steady |Phi'| = (h/2) |gamma|, |Phi| = (alpha/beta^2) h |gamma| */
   bool predicts_violation;
-  /* solves the residual form with multipliers; otherwise uses accelerations or configurations */
+  /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
@@ -89,8 +91,8 @@ struct baum_integrator {
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Fixed step, methods with a history: accept the last step. Steps that are not accepted are
-   * trials. NULL for one-step methods. */
+  /* For methods with a fixed step that use past steps: accept the last step. A step that is not
+   * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL for methods with fixed steps only. */
@@ -101,8 +103,8 @@ struct baum_integrator {
   /* Interpolate positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods without
-   * history; not called if baum_i_integrator_remembers() is false. */
+  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods that do not
+   * use past steps; not called if baum_i_integrator_remembers() is false. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
   /* Make the next step restart from its given state and with new pivots, so that nothing depends on
    * earlier steps. Neither evaluates nor allocates. Required if `restart` is given. */
@@ -126,8 +128,8 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
 /* Tell whether steps are fixed. If not, they are variable, or the method is kinematics. */
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
-/* Tell whether a step h from t is a step of the fixed grid, up to the rounding of times. The
- * history of multistep methods is only valid for such steps. */
+/* Tell whether a step h from t is a step of the fixed grid, up to the rounding of times. Multistep
+ * methods can keep their past steps only after such a step. */
 bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
 
 /* Set the tolerances of all coordinates for variable-step methods; integrator.c gives the
@@ -135,14 +137,15 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
 
-/* Write |rows_i| of each row, as a scaled displacement, to workspace->work_c (nc). Uses J of the
- * workspace. Returns the largest of them, and in *row its row or -1. */
+/* Express the value of each row as a scaled displacement, using J of the workspace, and write the
+ * absolute values to workspace->work_c (nc). Returns the largest of them. *row receives its row, or
+ * -1 if there is none. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
 /* Return the fraction, <= 1, of rtol and atol that the error test of a method uses. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
-/* Tell whether a run has a history, so that it needs restarts. */
+/* Tell whether a run uses past steps, so that it must be restarted after jumps. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
 /* Fail with the message of an evaluation that failed, and add the step of length h from t to it. h
@@ -150,8 +153,8 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 
-/* Fail with BAUM_ERR_CONVERGENCE in a step from t. `what` does not converge; size is its last
- * change relative to the scale. */
+/* Fail with BAUM_ERR_CONVERGENCE, because an iteration in the step from t does not converge. `what`
+ * names the iteration in the message, and size is its last change relative to the scale. */
 baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size);
 
 /* Create the memory of a run. *out is NULL for a method without memory, and on failure. */

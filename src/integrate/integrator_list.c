@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The only file that names all integrators. Linking it links every backend. */
+/* The list of all integrators. This is the only file that refers to all of them, so a program that
+ * links it contains every integrator. */
 #include "integrate/integrator.h"
 
 typedef const baum_integrator *integrator_fn(void);

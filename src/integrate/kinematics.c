@@ -7,13 +7,15 @@
  *   guess inside a step:  the polynomial of degree 5 through q, v, a at both ends of the step; its
  *                         values are displacements from the right end
  *
- * The step length is chosen from the last step: the contraction of Newton's iteration grows with
- * the error of the guess, like h^3, and the turning of J (continuation.c) like h. Nothing is
- * integrated and no error accumulates: a requested configuration is solved to rounding for every
- * step length. Steps only ensure that the motion stays on its branch: a step that may have passed a
- * singular configuration is refused and shortened. If no step is short enough, the run ends. The
- * mechanism is then at a lock-up (a fold of the path, beyond which no configuration exists) or
- * where branches cross. */
+ * Nothing is integrated, and no error accumulates: a requested configuration is accurate to
+ * rounding for every step length. Steps only ensure that the motion stays on its branch. A step
+ * that may have passed a singular configuration is refused and shortened. If no step is short
+ * enough, the run ends. The mechanism is then at a lock-up, which is a fold of the path beyond
+ * which no configuration exists, or at a point where branches cross.
+ *
+ * The length of the next step is chosen from two numbers of the last step. The contraction of
+ * Newton's iteration grows with the error of the guess, like h^3. The turning of J (continuation.c)
+ * grows like h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -23,7 +25,8 @@
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
-/* Values for which the next step length is chosen. They are below the limits of refusal. */
+/* The next step length is chosen such that turning and contraction will have these values, which
+ * are below the limits at which a step is refused. */
 static const double WANTED_TURNING = 0.4;
 static const double WANTED_CONTRACTION = 0.05;
 static const double GROWTH = 2.5;
@@ -37,11 +40,11 @@ static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
 /* The longest step, relative to 1/rate, for a mechanism at rest. */
 static const double LONGEST = 1e6;
-/* A configuration counts as singular if |J^-1| is above this. At a fold |J^-1| is about 1e5 when no
- * shorter step is possible. */
+/* A configuration is treated as singular if |J^-1| is above this number. When a run stops at a fold
+ * because no shorter step is possible, |J^-1| is about 1e5. */
 static const double SINGULAR_GAIN = 1e3;
-/* The configuration is a fold if the share of drivers (`pull` of continuation.h) is above this.
- * Where branches cross, the share is about 1 / gain. */
+/* The configuration is treated as a fold if the share of drivers (`pull` of continuation.h) is
+ * above this number. Where branches cross, the share is only about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
 enum { STORED = 4, MOST_PIECES = 10000 /* of short steps inside a step */ };
@@ -251,8 +254,9 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem,
 
 /* ---- inside the last step ---- */
 
-/* Reach t by short steps from the left end, because the guess inside the step was refused. h has a
- * lower limit, because steps below the rounding of the time would not advance. */
+/* Compute the configuration at a time t inside the last step, if the guess from the polynomial was
+ * refused: take short steps from the start of the last step to t. h has a lower limit, because a
+ * step below the rounding of the time would not advance. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
   copy_configuration(problem->workspace->mechanism, run->left, run->trial);

@@ -12,12 +12,14 @@
 
 #include "integrate/integrator.h"
 
-/* If the smallest pivot, relative to the usual one, is below this, the limit is more accurate than
- * the solution. The pivot has this value about 0.0002 rad from the singular configuration. */
+/* If the smallest pivot, relative to its usual value, is below this number, the limit is more
+ * accurate than the solution of the equations. The pivot has this value about 0.0002 rad from the
+ * singular configuration. */
 #define BAUM_I_PIVOT_IN_POSE 4e-8
 
-/* Find the limit (nv). room (nq + nv) is scratch memory. The workspace is left at another state.
- * Returns false if there is no limit, because hardly anything moves or an evaluation fails. */
+/* Compute the limit of the accelerations (nv) at a state. room (nq + nv) is scratch memory. The
+ * workspace is left at another state. Returns false if the limit cannot be computed, because the
+ * mechanism hardly moves or an evaluation fails. */
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,
                                double *room, double *limit);
 

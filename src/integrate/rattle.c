@@ -21,11 +21,12 @@
  * stays in a band of width O(h^2). If constraints or forces depend on time, the method is
  * symplectic in the phase space that includes time and its momentum.
  *
- * The acceleration a of the caller has the form M^-1 (g - J^T lambda), so Newton's method begins
- * with v' = v + (h/2) a. Only v' is iterated, because lambda itself is not needed. The matrix J(q)
- * M^-1 J(q)^T of the start of the step serves all iterations: it gives changes dq along M^-1
- * J(q)^T, which change v' by dq / h. Each iteration moves q by h v' from the start of the step, so
- * that v does not contain rounding errors of q divided by h.
+ * The caller provides the acceleration a at the start, which has the form M^-1 (g - J^T lambda).
+ * Newton's method therefore begins with v' = v + (h/2) a. It iterates only v', because lambda
+ * itself is not needed. All iterations use the matrix J(q) M^-1 J(q)^T of the start of the step. An
+ * iteration computes a change dq along M^-1 J(q)^T, and changes v' by dq / h. It then computes q
+ * again, by moving the q of the start of the step by h v'. In this way v does not contain rounding
+ * errors of q divided by h.
  */
 #include <float.h>
 #include <math.h>
@@ -40,12 +41,13 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes of coordinates, relative to their scales, count as rounding below this fraction of the
- * largest of three numbers: 1, the largest scaled position, and the largest angle by which a body
- * rotates in the step. The angle is included because rounding of the momentum rotates a slender
- * body about its axis. */
+/* Changes of coordinates, relative to their scales, are treated as rounding errors if they are
+ * below a limit. The limit is this fraction of the largest of three numbers: 1, the largest scaled
+ * position, and the largest angle by which a body rotates in the step. The angle is included
+ * because a rounding error of the momentum rotates a slender body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that no longer decrease count as rounding up to this multiple of ROUNDING. */
+/* Changes that no longer decrease are treated as rounding errors up to this multiple of the
+ * limit. */
 static const double STALLED = 256.0;
 
 /* The rotation of a rigid body that has a gyroscopic moment. */
@@ -119,8 +121,8 @@ static baum_status find_rotations(rattle_run *run, const baum_workspace *w)
 
 /* ---- positions ---- */
 
-/* Whether the next change would only be rounding. Changes decrease by a constant factor, which is
- * known from the second change on. */
+/* Tell whether the next change would only be a rounding error. Changes decrease by a constant
+ * factor, which is known from the second change on. */
 static bool is_last(double size, double before, double rounding)
 {
   if (size <= rounding || isinf(before)) {

@@ -11,17 +11,18 @@
  *                 ... = h sum d_i K_i
  *
  * Whatever F_4 and the later terms are, the interpolant has the states and rates of both ends of
- * the step. Norm and tolerances are the same as for CVODE, so that rtol means the same for all
- * methods. Extra rates of the interpolant are evaluated only if a time inside the step is
- * requested, and never affect the motion.
+ * the step. The norm of the error and the tolerances are the same as those of CVODE, so that all
+ * methods are about equally accurate at the same rtol. Extra rates of the interpolant are evaluated
+ * only if a time inside the step is requested, and never affect the motion.
  *
- * Projection: the end of a step is projected before its rate is evaluated, so that the interpolant
- * ends and the next step begins at the projected state. If the error estimate needs that rate, the
- * estimate is computed after the projection, so the rate is evaluated only once. This is accurate
- * enough, because the projection changes the state by no more than the estimate.
+ * Projection: the end of a step is projected before the rate there is evaluated. The interpolant
+ * thus ends at the projected state, and the next step begins there. If the error estimate needs the
+ * rate at the end, the estimate is computed after the projection, so that the rate is evaluated
+ * only once. This is accurate enough, because the projection does not change the state by more than
+ * the estimate.
  *
- * The end of a step is t + h after rounding, and h is then set to the difference of the rounded
- * times, so that time and motion agree. */
+ * The time t + h at the end of a step is rounded. h is then set to the difference of the rounded
+ * times, so that it is exactly the length of the step. */
 #include "integrate/rk_adaptive.h"
 
 #include <float.h>
@@ -35,8 +36,8 @@ static const double SHARE_OF_ERROR3 = 0.01;
  * problem->distrusts_projection. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is larger. At this length the times of the
- * stages still differ. */
+/* Shortest step, relative to the time or to 1/rate of the motion, whichever is larger. In a step of
+ * this length, the times of the stages still differ from each other. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
@@ -45,7 +46,8 @@ enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
 
-/* h is 0 if no step has begun. */
+/* Fail with the message of an evaluation. h is the length of the step, or 0 if no step has
+ * begun. */
 static baum_status fail_with_evaluation(const baum_i_rk_adaptive *run, double h)
 {
   return baum_i_fail_in_step(run->failure, run->message.text, run->pair->name, run->t, h);
@@ -133,8 +135,8 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* Choose the first step: its local error equals the tolerance if the error constant is one. Step
- * control then corrects the length. */
+/* Choose the length of the first step. If the error constant of the method were one, its local
+ * error would equal the tolerance. The step control corrects this length later. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -257,8 +259,9 @@ static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *probl
   return BAUM_OK;
 }
 
-/* Accept a step. If it was shortened to `length` because of a singular configuration ahead, the
- * wanted length is kept, because the next step needs it to pass the configuration. */
+/* Accept a step of the given length. If the step was shortened because of a singular configuration
+ * ahead, the step control keeps the longer length, because the next step needs it to pass the
+ * configuration. */
 static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
@@ -280,7 +283,7 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
-    length = 0.5 * left; /* two equal steps, to avoid a tiny last one */
+    length = 0.5 * left; /* take two equal steps, so that the last step is not tiny */
   }
   run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
   length = fmin(length, left);
@@ -314,9 +317,9 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
       }
     }
     if (forced || status != BAUM_OK) {
-      run->crossing.least = 0.0; /* the cause may be another: permit short steps */
+      run->crossing.least = 0.0; /* the failure may have another cause, so permit short steps */
     }
-    /* The error determines the next length only if it is the reason of the refusal. */
+    /* The next length depends on the error only if the step was refused because of its error. */
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);

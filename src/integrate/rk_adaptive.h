@@ -9,8 +9,9 @@
 #include "integrate/rk_crossing.h"
 #include "integrate/step_control.h"
 
-/* A pair with s stages. Rates are counted from 0. Rate s is that at the end of the step, which is
- * also the first rate of the next step. Extra rates, which only the interpolant uses, follow. */
+/* The table of a pair with s stages. Rates are numbered from 0. Rate s is the rate at the end of
+ * the step, which is also the first rate of the next step. After it come extra rates, which only
+ * the interpolant uses. */
 typedef struct baum_i_rk_pair {
   const char *name; /* of the integrator, in messages */
   baum_i_rk_table table;

@@ -20,9 +20,9 @@ static const double LARGEST_FORCED = 0.01;
  * configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
-/* Pivots p relative to the usual one. Below PIVOT_AHEAD, the method searches for a singular
- * configuration ahead. A step that starts above PIVOT_AHEAD must not end below PIVOT_POOR, where
- * the error ROUNDING / p is large. */
+/* Limits for the pivot p relative to its usual value. If p is below PIVOT_AHEAD, the method
+ * searches for a singular configuration ahead. A step that starts with p above PIVOT_AHEAD must not
+ * end with p below PIVOT_POOR, where the error ROUNDING / p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
 /* [rad] Scaled motion between the two configurations whose pivots find_ahead() extrapolates. */
@@ -33,13 +33,13 @@ static const double LOOK = 1e-4;
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a singular configuration, HELD successive steps or tries of less than TINY radians mean that
- * the method is stuck: a method that is not would make each step up to six times as long as the
- * last one. At this length one radian would take 1e8 steps. */
+/* If HELD successive steps or tries near a singular configuration are shorter than TINY radians,
+ * the method is stuck. Otherwise each step would be up to six times as long as the last one. With
+ * steps of TINY radians, a motion of one radian would take 1e8 steps. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
-/* [1/s] Rate at which the mechanism moves. */
+/* Compute the rate at which the mechanism moves [1/s]. */
 static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
 {
   double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nq);
@@ -115,8 +115,8 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* [s] Find the time until the singular configuration: the square root of the pivot falls linearly
- * and is extrapolated to zero. */
+/* Find the time until the singular configuration [s]. The square root of the pivot decreases
+ * linearly towards it, so the function extrapolates this square root to zero. */
 static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -145,10 +145,10 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* If the wanted length suffices, the step is chosen so that the singular configuration is in the
- * middle of the widest gap between stages. Otherwise the step ends where a next step of the wanted
- * length can pass the configuration. It is at least a fifth of the wanted length, so that the next
- * step can grow to this length. */
+/* If a step of the wanted length can pass the singular configuration, its length is chosen such
+ * that the configuration is in the middle of the widest gap between stages. Otherwise the step ends
+ * where a next step of the wanted length can pass the configuration. The step is at least a fifth
+ * of the wanted length, so that the next step can grow to the wanted length. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced)
@@ -176,7 +176,8 @@ double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bo
   return fabs(h) > crossing->ahead ? fmin(ROUNDING / crossing->pivot, LARGEST_FORCED) : 0.0;
 }
 
-/* A step that started without a search for a singular configuration ahead must not end near one. */
+/* A step that began without a search for a singular configuration ahead must not end near a
+ * singular configuration. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   crossing->pivot_end = see_pivot(crossing, problem);

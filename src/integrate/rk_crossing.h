@@ -2,10 +2,10 @@
 /* How a Runge-Kutta method with variable steps passes singular configurations
  * (docs/theory/singular.md).
  *
- * Let p be the smallest pivot relative to the usual one. sqrt(p) falls linearly towards a singular
- * configuration. Near it accelerations are inaccurate, and smaller steps do not reduce the error.
- * Therefore a step passes the configuration between two stages; if no step of a sensible length is
- * accurate enough, a step of fixed length passes over it. */
+ * Let p be the smallest pivot relative to its usual value. sqrt(p) decreases linearly towards a
+ * singular configuration. Near the configuration, accelerations are inaccurate, and smaller steps
+ * do not reduce the error. A step therefore passes the configuration between two stages. If no step
+ * of a sensible length is accurate enough, a step of fixed length passes over the configuration. */
 #ifndef BAUM_I_INTEGRATE_RK_CROSSING_H
 #define BAUM_I_INTEGRATE_RK_CROSSING_H
 
@@ -52,7 +52,7 @@ bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_probl
 void baum_i_rk_crossing_go_on(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double next);
 
-/* Count a refused try by h if it was tiny. */
+/* Count a refused try of length h if it was tiny. */
 void baum_i_rk_crossing_refuse(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                const baum_i_problem *problem, double h);
 

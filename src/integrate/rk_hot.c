@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Linear combinations of rates. BAUM_I_RK_LANES coordinates are processed at a time, so that their
- * sums stay in registers. Zero weights, which are frequent in tables of high order, are skipped. */
+/* Linear combinations of rates. A loop computes BAUM_I_RK_LANES coordinates at a time, so that
+ * their sums stay in registers. It skips weights that are zero, which are frequent in tables of
+ * high order. */
 #include "base/hot.h"
 #include "integrate/rk_kernel.h"
 

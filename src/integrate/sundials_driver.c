@@ -66,7 +66,8 @@ static const struct {
 
 enum { FLAG_COUNT = sizeof FLAGS / sizeof *FLAGS };
 
-/* step is 0 if no step was tried. */
+/* Fail with the message of an evaluation. step is the length of the step, or 0 if no step was
+ * tried. */
 static baum_status fail_with_evaluation(const baum_i_sundials *run, double step)
 {
   return baum_i_fail_in_step(run->evaluation, run->message, run->method->name, run->t, step);
@@ -161,8 +162,8 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out)
 
 /* ---- one step ---- */
 
-/* Begin a step. A failure of an evaluation very close to this time is kept: if steps become too
- * short, it is the reason, even if the last evaluation succeeds. */
+/* Begin a step. If an evaluation very close to this time has failed, its failure is kept. If steps
+ * then become too short, this failure is the reason, even if the last evaluation succeeds. */
 static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
 {
   bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;
@@ -179,7 +180,8 @@ static void give_stop(baum_i_sundials *run)
   if (problem->stops || run->stops) {
     double stop =
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
-    (void)run->method->package->set_stop(run->memory, stop); /* fails only for a past time */
+    /* The call fails only if the stop time is in the past. */
+    (void)run->method->package->set_stop(run->memory, stop);
     run->stops = problem->stops;
   }
 }
@@ -202,8 +204,8 @@ static baum_status check_progress(const baum_i_sundials *run, double before, dou
                      run->t, run->method->name, fabs(after - before), run->problem->rtol);
 }
 
-/* The target determines the direction of time. SUNDIALS limits the first step to a tenth of the
- * distance to the target, which is 10 T. */
+/* Take one step. The target tells SUNDIALS the direction of time. It is 10 T away, because SUNDIALS
+ * limits the first step to a tenth of the distance to the target. */
 baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_sundials *run = self;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common implementation of CVODE and IDA. cvode.c and ida.c define their differences in a table.
- * Only they, sundials_driver.c and tests include this header, and only if the build has
- * SUNDIALS. */
+/* The common implementation of CVODE and IDA. Tables in cvode.c and ida.c define what differs
+ * between the two. Only cvode.c, ida.c, sundials_driver.c and tests include this header, and only
+ * if the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 #define BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
 

@@ -119,7 +119,8 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 
 /* ---- solve ---- */
 
-/* Compute defect, size and entry of a solution x. x and b must be different arrays. */
+/* Compute the arrays defect, size and entry of *klu for a solution x. x and b must be different
+ * arrays. */
 static void form_residual(const baum_i_sundials_klu *klu, const double *x, const double *b)
 {
   const sunindextype *starts = SUNSparseMatrix_IndexPointers(klu->matrix);

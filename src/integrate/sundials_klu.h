@@ -42,8 +42,9 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
  * may help, otherwise < 0. x and b must be different vectors. */
 int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu);
 int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
-/* Like baum_i_sundials_klu_solve(), but x begins with dq (nq) and b with the residual of q' - N v
- * (nq), where the matrix has displacements (nv). c is the coefficient of the matrix. */
+/* Solve as baum_i_sundials_klu_solve() does, but for vectors of another form: x begins with dq
+ * (nq), and b begins with the residual of q' - N v (nq), while the unknowns of the matrix are
+ * displacements (nv). c is the coefficient of the matrix. */
 int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b);
 
 /* Create a linear solver of SUNDIALS that calls these functions with `content`. Free it with

@@ -51,7 +51,7 @@ typedef struct kkt_solver {
 struct baum_i_kkt {
   const baum_i_kkt_structure *structure;
   int n;
-  kkt_solver first;
+  kkt_solver first;    /* created by baum_i_kkt_prepare(), or on first use */
   kkt_solver last;     /* solver of RUNG_LAST, created on first use */
   kkt_solver *present; /* the solver of the last factorization */
   ladder_rung present_rung;
@@ -98,12 +98,23 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
   kkt->first.ops = choice == BAUM_I_KKT_QR ? &baum_i_qr_ops : &baum_i_klu_ops;
   kkt->last.ops = &baum_i_qr_ops;
   kkt->top_rung = TOP_RUNG[choice];
-  if (!make_room(kkt) || kkt->first.ops->create(structure, &kkt->first.self) != BAUM_OK) {
+  if (!make_room(kkt)) {
     baum_i_kkt_destroy(kkt);
     return baum_i_fail_memory();
   }
   *out = kkt;
   return BAUM_OK;
+}
+
+/* Create a solver unless it exists. Returns BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+static baum_status make_solver(const baum_i_kkt *kkt, kkt_solver *solver)
+{
+  return solver->self ? BAUM_OK : solver->ops->create(kkt->structure, &solver->self);
+}
+
+baum_status baum_i_kkt_prepare(baum_i_kkt *kkt)
+{
+  return make_solver(kkt, &kkt->first) == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
 }
 
 void baum_i_kkt_destroy(baum_i_kkt *kkt)
@@ -158,19 +169,11 @@ static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
                                            [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
                                            [RUNG_LAST] = BAUM_I_EFFORT_CHOOSE};
 
-static baum_status make_last(baum_i_kkt *kkt)
-{
-  kkt->counters.fallbacks++;
-  kkt_solver *last = &kkt->last;
-  return last->self ? BAUM_OK : last->ops->create(kkt->structure, &last->self);
-}
-
 static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
 {
-  if (rung == RUNG_LAST && make_last(kkt) != BAUM_OK) {
-    return BAUM_ERR_MEMORY;
-  }
   kkt_solver *solver = rung == RUNG_LAST ? &kkt->last : &kkt->first;
+  kkt->counters.fallbacks += rung == RUNG_LAST;
+  BAUM_I_TRY(make_solver(kkt, solver));
   kkt->present = solver;
   kkt->present_rung = rung;
   kkt->counters.factorizations++;

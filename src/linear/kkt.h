@@ -67,9 +67,13 @@ typedef enum baum_i_kkt_choice { BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR 
 
 typedef struct baum_i_kkt baum_i_kkt;
 
-/* The structure's arrays must outlive the solver. */
+/* The structure's arrays must outlive the solver. Analysis of the structure, which costs more than
+ * a factorization, is left to baum_i_kkt_prepare() or the first factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
+/* Analyse the structure, unless that is done, so that only new pivots allocate memory from here on.
+ * BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
 /* Factors the matrix of new values, which must not change until the last solve, because residuals

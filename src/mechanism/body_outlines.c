@@ -21,8 +21,8 @@ void baum_i_free_outlines(baum_outline *outlines, int count)
   baum_i_free(outlines);
 }
 
-/* Copy 3 x count numbers of `size` bytes. Returns NULL if count is 0. If there is no memory,
- * returns NULL and clears *fine. */
+/* Copy 3 x count numbers of `size` bytes. Returns NULL if count is 0. If memory runs out, returns
+ * NULL and sets *fine to false. */
 static void *copy_rows(const void *rows, int count, size_t size, bool *fine)
 {
   void *copy = count > 0 ? baum_i_copy(rows, 3 * (size_t)count, size) : NULL;
@@ -30,7 +30,7 @@ static void *copy_rows(const void *rows, int count, size_t size, bool *fine)
   return copy;
 }
 
-/* Only meshes have triangles, only polygons and meshes have points. */
+/* Copies one outline. Only meshes have triangles, and only polygons and meshes have points. */
 static bool copy_one(const baum_outline *from, baum_outline *to)
 {
   const bool mesh = from->form == BAUM_OUTLINE_MESH;

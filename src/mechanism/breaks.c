@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The ascending list of break times of a mechanism, at which loads jump. */
+/* The list of break times of a mechanism, at which its loads may jump. The list is in ascending
+ * order. */
 #include <math.h>
 #include <string.h>
 

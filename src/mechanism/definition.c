@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Operations on definitions: set defaults, check, copy into an element, read back, replace.
+/* Operations on definitions: set defaults, check a definition, copy it into an element, read it
+ * back, and replace it.
  *
- * Every add and set first prepares the new element. The mechanism is changed only after everything
- * that can fail has succeeded.
+ * Every function that adds or changes an element first prepares the new element. The mechanism is
+ * changed only after everything that can fail has succeeded.
  */
 #include "mechanism/definition.h"
 
@@ -15,18 +16,19 @@
 #include "base/sized.h"
 #include "base/text.h"
 
-/* ---- a caller's struct, which may be of an older version ---- */
+/* ---- a caller's struct, which may have been compiled with an older version of the headers ---- */
 
-/* Large enough for every definition. New versions only append fields, so a caller's smaller struct
- * is of an older version, and the missing fields get their defaults. */
+/* Memory for a definition of any type. New versions only append fields to a struct. A caller's
+ * struct that is smaller therefore comes from an older version, and the missing fields get their
+ * defaults. */
 typedef union whole_def {
   baum_i_def_head head;
   double numbers[32];
   unsigned char bytes[256];
 } whole_def;
 
-/* Return the end of the last field in a struct of that size. The rest is padding, in which a later
- * version may have placed a field. */
+/* Return the offset of the end of the last field in a caller's struct that has `size` bytes. The
+ * bytes behind the last field are padding, in which a later version may have placed a field. */
 static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
   const size_t word = sizeof(size_t);
@@ -60,7 +62,7 @@ void baum_i_definition_init(const baum_i_definition *definition, void *def, size
   baum_i_give_sized(def, caller_size, &whole, definition->size);
 }
 
-/* ---- an element's own copy ---- */
+/* ---- an element's own copy of its definition ---- */
 
 static void release(baum_i_element *element)
 {
@@ -82,7 +84,8 @@ static baum_status fill(baum_i_element *element, const void *def)
     baum_i_copy_text(given ? given : baum_i_text_of("%s%d", element->family, element->index).text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
-    baum_i_free(element->def); /* the failed call has left no copies in it */
+    /* the copy contains no memory of its own, because own() has failed */
+    baum_i_free(element->def);
     element->def = NULL;
   }
   if (!element->name || !element->def) {
@@ -93,7 +96,7 @@ static baum_status fill(baum_i_element *element, const void *def)
   return BAUM_OK;
 }
 
-/* Find the bodies on which an element acts. A body acts on itself. On failure the span owns no
+/* Find the bodies on which an element acts. A body acts only on itself. On failure the span owns no
  * memory. */
 static baum_status make_span(const baum_mechanism *mechanism, const baum_i_definition *definition,
                              const void *def, int number, baum_i_span *span)
@@ -139,7 +142,7 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
 
 /* ---- add ---- */
 
-/* Complete a definition of a caller and check it for element `number` of its family. */
+/* Complete a caller's definition with defaults, and check it for element `number` of its family. */
 static baum_status check(const baum_mechanism *mechanism, const baum_i_family *family,
                          const baum_i_definition *definition, const void *def, int number,
                          whole_def *out)
@@ -198,7 +201,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
   return BAUM_OK;
 }
 
-/* Check that a new definition has the same counts, joints and bodies as the element. */
+/* Check that a new definition has the same counts, joints and bodies as the present definition of
+ * the element. */
 static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
                               const void *def, baum_i_element *element)
 {

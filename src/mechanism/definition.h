@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions of elements. The file of an element type ends with the macro BAUM_I_DEFINE, which
- * defines the four public functions of the type.
+/* Definitions of elements. At the end of its file, every element type uses the macro BAUM_I_DEFINE,
+ * which defines the four public functions of the type.
  */
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H
@@ -10,8 +10,8 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* Append an element with a checked definition. Returns BAUM_OK, or BAUM_ERR_MEMORY and sets its
- * message. */
+/* Append an element to the mechanism. Its definition has already been checked. Returns BAUM_OK, or
+ * BAUM_ERR_MEMORY after setting the message. */
 baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   const baum_i_definition *definition, const void *def);
 void baum_i_free_element(const baum_i_family *family, baum_i_element *element);
@@ -26,7 +26,8 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
 baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,
                                const baum_i_definition *definition, baum_i_id id, const void *def);
 
-/* FAMILY is body, joint or force. NAME is as in baum_NAME_def. TYPE is the baum_i_body_type,
+/* Defines the public functions of one element type. FAMILY is body, joint or force. NAME is the
+ * name of the type, as in baum_NAME_def. TYPE is the struct of the type: a baum_i_body_type,
  * baum_i_joint_type or baum_i_force_type. */
 #define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                          \
   const baum_i_definition *const baum_i_##NAME##_definition = &(TYPE).definition;                  \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism: one call per group of elements, or one call per element where
- * speed matters little. */
+/* Evaluation of a whole mechanism. Where speed matters, one call evaluates a group of elements,
+ * otherwise each call evaluates one element. */
 #include <string.h>
 
 #include "base/message.h"
@@ -147,12 +147,14 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* ---- energy ----
  *
- * User functions give a potential, but not its gradient, so the power of this part of a force is
- * not known. power() of such elements therefore returns the power of the whole force. The energy
- * stored in the potential is known exactly, as a difference of two values.
+ * A user function returns the potential of a force, but not the gradient of the potential. The
+ * power of this part of the force is therefore unknown. For such elements, power() returns the
+ * power of the whole force. The change of the energy stored in the potential is known exactly, as a
+ * difference of two values.
  */
 
-/* If whole_power, include only types whose power() is that of the whole force. */
+/* Some types compute their power from the whole force, including the part that has a potential. If
+ * `whole_power` is set, include only these types. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
                                   double *of_forces)
 {

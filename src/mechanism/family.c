@@ -4,9 +4,10 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* ---- lists and groups, the same code for three types ---- */
+/* ---- lists and groups: the same code is generated for bodies, joints and forces ---- */
 
-/* The first FIRST elements of LIST (ground) are not counted. */
+/* Ground is in the list of bodies. FIRST is the number of elements at the start of LIST that are
+ * not counted. */
 #define LIST_FUNCTIONS(FAMILY, LIST, FIRST)                                                    \
   static baum_i_element *FAMILY##_at(const baum_mechanism *mechanism, int k)                   \
   {                                                                                            \

@@ -6,34 +6,37 @@
 
 #include "mechanism/model.h"
 
-/* Sums over the elements of a family that freeze has numbered so far. */
+/* Sums that freeze forms while it numbers the elements of a family. */
 typedef struct baum_i_totals {
   int64_t positions;
-  int64_t rows;    /* velocities of bodies, rows of joints; not used for forces */
-  int64_t blocks;  /* rows x nl each */
-  int64_t squares; /* nl x nl each */
+  int64_t rows;    /* velocities of bodies or rows of joints; not used for forces */
+  int64_t blocks;  /* sum of rows x nl over the elements */
+  int64_t squares; /* sum of nl x nl over the elements */
 } baum_i_totals;
 
-/* The differences between families. Each has its own element struct, which begins with a
+/* The differences between families. Each family has its own element struct, which begins with a
  * baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
-  size_t size;      /* of an element */
+  size_t size;      /* of the struct of an element */
   size_t span;      /* offset of the baum_i_span in an element */
   size_t count;     /* offset of the element count (an int) in the mechanism */
-  baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* k >= 0; ground is not counted */
+  /* element k, counted from 0 without ground */
+  baum_i_element *(*at)(const baum_mechanism *mechanism, int k);
   /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*prepare)(baum_i_element *element); /* set the type, and sizes from the definition */
-  /* For freeze: rows() returns the number of rows or velocities of an element, place() sets the
-   * start of its blocks, and close() sets the sizes of the mechanism. */
+  /* set the type and the sizes that the definition determines */
+  void (*prepare)(baum_i_element *element);
+  /* Freeze calls these three functions. rows() returns the number of rows or velocities of an
+   * element, place() stores where the blocks of an element begin, and close() stores the sizes of
+   * the mechanism. */
   int (*rows)(const baum_i_element *element);
   void (*place)(baum_i_element *element, const baum_i_totals *before);
   void (*close)(baum_mechanism *mechanism, const baum_i_totals *all);
-  /* A group is the list of all elements of one type. */
+  /* These functions build the groups. A group is the list of all elements of one type. */
   baum_status (*open_groups)(baum_mechanism *mechanism);
   baum_status (*join_group)(baum_mechanism *mechanism, baum_i_element *element);
-  void (*free_groups)(baum_mechanism *mechanism); /* does nothing if there are none */
+  void (*free_groups)(baum_mechanism *mechanism); /* does nothing if the mechanism has no groups */
 } baum_i_family;
 
 extern const baum_i_family baum_i_body_family;
@@ -41,7 +44,8 @@ extern const baum_i_family baum_i_joint_family;
 extern const baum_i_family baum_i_force_family;
 
 enum { BAUM_I_FAMILIES = 3 };
-extern const baum_i_family *const baum_i_families[BAUM_I_FAMILIES]; /* bodies first */
+/* bodies are the first family */
+extern const baum_i_family *const baum_i_families[BAUM_I_FAMILIES];
 
 static inline int baum_i_family_count(const baum_i_family *family, const baum_mechanism *mechanism)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Set defaults, check, copy and digest definitions, and find their bodies, from tables of
- * fields. */
+/* Functions that work from tables of fields. They set the defaults of definitions, check, copy and
+ * digest them, and find the bodies that they name. */
 #include "mechanism/fields.h"
 
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* Largest number of rows or coordinates of one element. More are probably a mistake. The product of
- * two such numbers does not overflow an int. */
+/* Largest number of rows or coordinates of one element. A larger number is probably a mistake. The
+ * product of two such numbers does not overflow an int. */
 enum { COUNT_MAX = 10000 };
 
 /* ---- defaults ---- */
@@ -33,7 +33,8 @@ void baum_i_fields_set(const baum_i_definition *definition, void *def)
 
 /* ---- numbers ---- */
 
-/* What each rule allows in addition to positive finite numbers, and the end of its message. */
+/* For each rule: which numbers it allows besides positive finite ones, and the end of the message
+ * for a number that it refuses. */
 static const struct {
   bool nan, negative, zero;
   const char *remedy;
@@ -219,7 +220,7 @@ static baum_status check_bodies(const baum_i_def_field *f, const baum_mechanism 
 
 /* ---- all fields ---- */
 
-/* Check the counts, which give the lengths of arrays. */
+/* Check the fields that give the lengths of arrays. */
 static baum_status check_counts(const baum_i_definition *definition, const void *def,
                                 const char *label)
 {
@@ -255,7 +256,8 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
   case BAUM_I_FIELD_FUNCTION: return check_function(f, def, label);
-  default: return BAUM_OK; /* every value is allowed, or the definition checks the field */
+  /* the rule allows every value, or the definition has its own check of this field */
+  default: return BAUM_OK;
   }
 }
 
@@ -337,7 +339,8 @@ static bool own_arrays(const baum_i_definition *definition, void *def)
 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def)
 {
-  /* own() is called first: if it fails, no arrays have been copied, and none need to be freed. */
+  /* own() is called before arrays are copied. If it fails, there are no copies that would have to
+   * be freed. */
   if (definition->own) {
     BAUM_I_TRY(definition->own(def));
   }
@@ -367,10 +370,10 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
   }
 }
 
-/* A growing list of bodies, whose ids have been checked. */
+/* A list of bodies that grows. The ids of these bodies have been checked. */
 typedef struct list {
   int count;
-  int *bodies; /* NULL: only count; a repeated body is counted again */
+  int *bodies; /* if NULL, bodies are only counted, and a repeated body is counted again */
 } list;
 
 static void include(list *all, int body)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each definition has a table of its fields. The table determines defaults, checks of single
- * fields, copies, digests and the bodies on which an element acts. Tests of the headers use it
- * too. */
+/* Each definition has a table of its fields. From this table, the library sets defaults, checks
+ * single fields, copies and digests definitions, and finds the bodies on which an element acts.
+ * Tests of the public headers also use the table. */
 #ifndef BAUM_I_MECHANISM_FIELDS_H
 #define BAUM_I_MECHANISM_FIELDS_H
 
@@ -13,60 +13,67 @@
 
 #include "base/digest.h"
 
-/* Default of optional numbers. NAN is a float, hence the cast. */
+/* Default of optional numbers. The cast is needed because the macro NAN is of type float. */
 #define BAUM_I_NOT_GIVEN ((double)NAN)
 
-/* The values that a number may have. */
+/* The rules for the value of a number. */
 typedef enum baum_i_rule {
   BAUM_I_RULE_FINITE,
   BAUM_I_RULE_POSITIVE,
   BAUM_I_RULE_NOT_NEGATIVE,
   BAUM_I_RULE_NOT_ZERO,
-  BAUM_I_RULE_OPTIONAL, /* finite; NaN: not given */
-  BAUM_I_RULE_FREE,     /* finite; NaN: a free velocity */
+  BAUM_I_RULE_OPTIONAL, /* finite, or NaN for a number that is not given */
+  BAUM_I_RULE_FREE,     /* finite, or NaN for a velocity that is not prescribed */
   BAUM_I_RULE_OPTIONAL_POSITIVE,
   BAUM_I_RULE_OPTIONAL_NOT_NEGATIVE,
-  BAUM_I_RULE_POINT,    /* all numbers of a field are finite, or all are NaN */
-  BAUM_I_RULE_DIRECTION /* all numbers of a field are finite, and not all are zero */
+  BAUM_I_RULE_POINT,    /* either all numbers of the field are finite, or all are NaN */
+  BAUM_I_RULE_DIRECTION /* all numbers of the field are finite, and at least one is not zero */
 } baum_i_rule;
 
-/* Fields whose kind contains OWN are checked, copied and released by functions of the
- * definition. */
+/* Fields whose kind contains OWN are not handled here. Functions of the definition check, copy and
+ * release them. Scenes rely on the order of the groups in this list: first numbers and counts, then
+ * flags, then references, then functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
-  BAUM_I_FIELD_ARRAY,   /* array of `counter` doubles or NULL, used only at the start of a run */
+  /* array of doubles or NULL, its length in `counter`; used only at the start of a run */
+  BAUM_I_FIELD_ARRAY,
   BAUM_I_FIELD_OWN_ARRAY,
-  BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change */
-  BAUM_I_FIELD_OPTIONAL_COUNT, /* the same, or 0 */
+  BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change after the element was added */
+  BAUM_I_FIELD_OPTIONAL_COUNT, /* like COUNT, but may be 0 */
   BAUM_I_FIELD_OWN_COUNT,
   BAUM_I_FIELD_FLAG,
-  BAUM_I_FIELD_START_FLAG, /* used only at the start of a run */
-  BAUM_I_FIELD_CLAIM,      /* whether user functions depend on velocities; default: true */
+  BAUM_I_FIELD_START_FLAG, /* a flag that is used only at the start of a run */
+  BAUM_I_FIELD_CLAIM,      /* states whether user functions depend on velocities; true by default */
   BAUM_I_FIELD_BODY,       /* required; ground is allowed */
-  BAUM_I_FIELD_CARRIER,    /* a body, ground by default */
-  BAUM_I_FIELD_BODIES,     /* array of ids of length `counter`, without ground or repetition */
-  BAUM_I_FIELD_JOINT,      /* required, cannot change; the element acts on the joint's bodies */
-  BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate; the definition checks it */
-  BAUM_I_FIELD_INPUT,      /* optional */
-  BAUM_I_FIELD_FUNCTION,   /* must be given */
+  BAUM_I_FIELD_CARRIER,    /* a body; ground if it is not given */
+  /* array of body ids, its length in `counter`; ground and repeated bodies are not allowed */
+  BAUM_I_FIELD_BODIES,
+  /* required and cannot change; the element acts on the bodies of this joint */
+  BAUM_I_FIELD_JOINT,
+  BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate, which the definition itself checks */
+  BAUM_I_FIELD_INPUT,      /* an input, or none */
+  BAUM_I_FIELD_FUNCTION,   /* a user function that must be given */
   BAUM_I_FIELD_OPTIONAL_FUNCTION,
-  BAUM_I_FIELD_KEPT_FUNCTION, /* optional; cannot be added or removed later */
-  BAUM_I_FIELD_USER           /* pointer for user functions */
+  /* an optional user function, which cannot be added or removed later */
+  BAUM_I_FIELD_KEPT_FUNCTION,
+  BAUM_I_FIELD_USER /* the pointer that user functions receive */
 } baum_i_field_kind;
 
 enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* largest count of numbers in a field */
 
-/* A field of a definition, except struct_size and name. */
+/* One field of a definition. struct_size and name are not in the tables. */
 typedef struct baum_i_def_field {
   const char *name;
-  const char *unit; /* of numbers; "": the user chooses it */
+  const char *unit; /* of numbers; "" if the user chooses the unit */
   size_t offset;
   size_t size;
   baum_i_field_kind kind;
   baum_i_rule rule;                    /* of numbers and arrays of numbers */
   double value[BAUM_I_FIELD_SIZE_MAX]; /* default of numbers */
-  size_t counter;                      /* array: offset of its count */
-  size_t instead;                      /* array: offset of the count to use if the first one is 0 */
+  /* of an array: the offset of the field that counts its entries */
+  size_t counter;
+  /* of an array: the offset of the count to use if `counter` is 0 */
+  size_t instead;
 } baum_i_def_field;
 
 #define BAUM_I_FIELD_OF(DEF, FIELD) \
@@ -77,7 +84,7 @@ typedef struct baum_i_def_field {
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = "", .kind = BAUM_I_FIELD_##KIND \
   }
 
-/* A field of numbers. The last arguments are the defaults of all numbers. */
+/* A field of numbers. The last arguments are the default values of the numbers. */
 #define BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, ...)                                     \
   {                                                                                     \
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = (UNIT), .rule = BAUM_I_RULE_##RULE, .value = { \
@@ -90,7 +97,7 @@ typedef struct baum_i_def_field {
   BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, \
                  BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN)
 
-/* An array of length COUNTER, or INSTEAD if COUNTER is 0. */
+/* An array whose length is the field COUNTER, or the field INSTEAD if COUNTER is 0. */
 #define BAUM_I_ARRAY(DEF, FIELD, KIND, RULE, COUNTER, INSTEAD)                                  \
   {                                                                                             \
     BAUM_I_FIELD_OF(DEF, FIELD), .unit = "", .kind = BAUM_I_FIELD_##KIND,                       \
@@ -106,29 +113,30 @@ typedef struct baum_i_def_head {
 
 struct baum_i_point;
 
-/* Describes how a definition struct is filled, checked and copied. Functions may be NULL. */
+/* Describes how a definition struct is filled, checked and copied. Members that are functions may
+ * be NULL. */
 typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
   size_t size;                    /* of the struct */
-  const baum_i_def_field *fields; /* all fields in order; one without a name ends the table */
-  /* Some older versions of a struct ended with padding, which a later field now uses. This list has
-   * the offset of the end of the last field of each such version, and ends with 0. NULL: there are
-   * none. */
+  const baum_i_def_field *fields; /* all fields in order; an entry without a name ends the table */
+  /* Some older versions of a struct ended with padding, which a later field now uses. For each such
+   * version, this list has the offset of the end of its last field. The list ends with 0. NULL if
+   * there are no such versions. */
   const size_t *former;
-  int parameter_count; /* how many numbers of an element are in the parameter array */
-  /* Check what the table cannot express. Called after the checks of the table. Messages start with
-   * the label, such as: joint 2 "B". */
+  int parameter_count; /* how many entries of the parameter array an element uses */
+  /* Check what the table of fields cannot express. The table has been checked before this call.
+   * Messages begin with the label, such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
-  /* Copy the data of OWN fields. Returns BAUM_OK, or BAUM_ERR_MEMORY, after which these fields own
-   * no memory. */
+  /* Copy the data of OWN fields. Returns BAUM_OK, or BAUM_ERR_MEMORY. After a failure these fields
+   * own no memory. */
   baum_status (*own)(void *def);
-  void (*release)(void *def); /* free the memory of own() */
-  /* Compare the derivatives that user functions of an element return with finite differences. NULL:
-   * the element has no such functions. */
+  void (*release)(void *def); /* free the memory that own() has allocated */
+  /* Compare the derivatives that user functions of an element return with finite differences. NULL
+   * if the element has no such functions. */
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
-/* The first members of the baum_i_definition of baum_NAME_def. */
+/* The first members of the baum_i_definition of the struct baum_NAME_def. */
 #define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
   .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
 
@@ -140,29 +148,30 @@ static inline const void *baum_i_field_at(const baum_i_def_field *field, const v
 /* Set all fields of a definition to their defaults. */
 void baum_i_fields_set(const baum_i_definition *definition, void *def);
 
-/* Check all fields, then call the check of the definition. Returns BAUM_OK, or BAUM_ERR_ARGUMENT
- * and sets its message. */
+/* Check all fields by the table, then call the check of the definition. Returns BAUM_OK, or
+ * BAUM_ERR_ARGUMENT after setting the message. */
 baum_status baum_i_fields_check(const baum_i_definition *definition,
                                 const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 
-/* Check that a new definition does not change what cannot change: counts, joints, and whether
- * functions of kind KEPT_FUNCTION are given. */
+/* Check that a new definition leaves unchanged what must not change: the counts, the joints, and
+ * whether functions of kind KEPT_FUNCTION are given. */
 baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const void *present,
                                      const void *next, const char *label);
 
-/* Replace arrays by copies. Returns BAUM_OK, or BAUM_ERR_MEMORY, after which the definition owns no
- * memory. */
+/* Replace the arrays of a definition by copies. Returns BAUM_OK, or BAUM_ERR_MEMORY. After a
+ * failure the definition owns no memory. */
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
-/* Add flags, OWN arrays and inputs to a digest. fingerprint.c adds bodies and parameters. Fields
- * that are used only at the start of a run are not added. */
+/* Add the flags, the OWN arrays and the inputs of a definition to a digest. The function in
+ * fingerprint.c adds bodies and parameters. Fields that are used only at the start of a run are not
+ * added. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
-/* Find the bodies on which an element acts: those that its definition names, and those of the
- * joints that it names. Each body is listed once. Returns the number of bodies, or an upper bound
- * of it if `bodies` is NULL. */
+/* Find the bodies on which an element acts. These are the bodies that its definition names, and the
+ * bodies of the joints that it names. Each body is listed once. Returns the number of bodies. If
+ * `bodies` is NULL, returns an upper bound of this number. */
 int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechanism *mechanism,
                          const void *def, int *bodies);
 
@@ -171,7 +180,8 @@ int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechani
 baum_status baum_i_check_number(const char *label, const char *field, const char *unit,
                                 baum_i_rule rule, double value);
 
-/* Inline, because evaluations begin with this check. */
+/* Check that a value is finite. The function is inline, because evaluations begin with this
+ * check. */
 static inline baum_status baum_i_check_finite(const char *label, const char *field,
                                               const char *unit, double value)
 {
@@ -186,13 +196,13 @@ static inline baum_status baum_i_check_positive(const char *label, const char *f
 }
 
 /* Check that the points of an element are given in exactly one way: `point`, or point_a and
- * point_b. The arguments tell which are given. Unless point_allowed, the message does not offer
- * `point`. */
+ * point_b. The arguments tell which of them the definition gives. If `point_allowed` is false, the
+ * message does not suggest `point`. */
 baum_status baum_i_check_points_given(const char *label, bool point, bool a, bool b,
                                       bool point_allowed);
 
-/* Check that a required function or array is given. For the field "mass()", `given` is `def->mass
- * != NULL`. */
+/* Check that a required function or array is given. For example, for the field "mass()" the
+ * argument `given` is `def->mass != NULL`. */
 baum_status baum_i_check_given(const char *label, const char *field, bool given);
 
 #endif

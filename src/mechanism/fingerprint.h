@@ -5,10 +5,12 @@
 
 #include "mechanism/identify.h"
 
-/* User functions and names of elements do not affect a fingerprint. */
+/* Numbers that characterize a mechanism. User functions and the names of elements do not affect
+ * them. */
 typedef struct baum_i_fingerprint {
-  uint64_t structure; /* kinds of elements in their order, their bodies, names of inputs */
-  uint64_t numbers;   /* masses, lengths and all other parameters */
+  /* the kinds of elements in their order, the bodies they act on, and the names of inputs */
+  uint64_t structure;
+  uint64_t numbers; /* masses, lengths and all other parameters */
 } baum_i_fingerprint;
 
 baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *mechanism);

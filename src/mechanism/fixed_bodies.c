@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the fixed bodies, which are connected to ground by chains of welds, and their poses. */
+/* Finds the fixed bodies and their poses. A body is fixed if a chain of welds connects it to
+ * ground. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"
@@ -23,8 +24,9 @@ static bool fix_next(baum_mechanism *m, baum_i_joint *joint)
   return true;
 }
 
-/* Passes over the joints alternate in direction. A chain whose welds were added in ascending or
- * descending order from ground is then found in at most two passes. */
+/* The joints are visited in several passes, alternately forwards and backwards. If the welds of a
+ * chain were added in the order from ground outwards, or in the opposite order, at most two passes
+ * find all its bodies. */
 static void fix_bodies(baum_mechanism *m)
 {
   bool found = true;

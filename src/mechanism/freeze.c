@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Freezing turns definitions into the constant structure of a mechanism.
  *
- * It numbers columns and rows in the order in which elements were added, gathers elements of one
- * type into groups and writes all numbers to the parameter array. On failure everything is undone,
- * and the mechanism stays open for changes.
+ * Freezing numbers columns and rows in the order in which elements were added, collects elements
+ * of one type in groups, and writes all numbers to the parameter array. If freezing fails,
+ * everything is undone, and the mechanism can still be changed.
  */
 #include <limits.h>
 #include <math.h>
@@ -55,8 +55,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 
 /* ---- numbering ---- */
 
-/* Enlarge scratch_size for an element with these local columns and rows. Returns false if it is too
- * large. */
+/* Enlarge scratch_size so that it suffices for an element with this number of local columns and
+ * rows. Returns false if the size would not fit into an int. */
 static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
 {
   int64_t size = baum_i_scratch_size(columns, rows);
@@ -101,7 +101,8 @@ static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *spa
   return BAUM_OK;
 }
 
-/* Indices of the frozen structure are ints. Refuse mechanisms whose indices would overflow. */
+/* Give an element its columns, rows and blocks. Indices of the frozen structure are ints.
+ * Mechanisms whose indices would overflow are refused. */
 static baum_status number_element(baum_mechanism *mechanism, const baum_i_family *family,
                                   baum_i_element *element, baum_i_totals *totals)
 {
@@ -148,9 +149,9 @@ void baum_i_box_include(baum_i_box *box, double x, double y, double z)
   }
 }
 
-/* Return the size of the design configuration: the diagonal of the box around all bodies and all
- * points of joints, or 1 if there are no such points, as in a mechanism with only user
- * coordinates. */
+/* Return the size of the design configuration. This is the diagonal of the box around all bodies
+ * and all points of joints. If there are no such points, as in a mechanism that has only user
+ * coordinates, the size is 1. */
 static double design_size(const baum_mechanism *mechanism)
 {
   baum_i_box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -170,9 +171,8 @@ static double design_size(const baum_mechanism *mechanism)
   if (isfinite(diagonal) && diagonal > 0.0) {
     return diagonal;
   }
-  double offset =
-    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* if all points coincide: their distance from the
-                                                 * origin */
+  /* All points coincide. Take their distance from the origin. */
+  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]);
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 

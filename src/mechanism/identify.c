@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ids, labels, and checks of ids. */
+/* Ids, labels for messages, and checks of ids. */
 #include "mechanism/identify.h"
 
 #include <string.h>

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ids, owners of rows and columns, labels for messages, and checks of ids and of whether a
- * mechanism is frozen. */
+/* Functions for ids, for the owners of rows and columns, and for labels in messages. Others check
+ * ids, and whether a mechanism is frozen. */
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
 #include "base/text.h"
 #include "mechanism/family.h"
 
-/* The id of an element of any family. */
+/* An id of a body, joint or force, as used in code that is common to all families. */
 typedef struct baum_i_id {
   int32_t index1;
   uint32_t tag;
@@ -17,18 +17,21 @@ typedef struct baum_i_id {
  * of other mechanisms and ids out of range. */
 int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
 
-/* Return the number, from 0, of the first element with that name, or -1. */
+/* Return the number of the first element with that name, counted from 0. Returns -1 if there is
+ * none. */
 int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
                          const char *name);
 
-/* Return the index of a body, joint or input. Bodies have indices from 1. Returns -1 for the empty
- * id, ids of other mechanisms and ids out of range, and 0 for ground. */
+/* Return the index of a body, joint or input. Bodies have indices from 1, and ground has the index
+ * 0. Returns -1 for the empty id, ids of other mechanisms and ids out of range. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
-int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
-int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
+/* indices count from 0 */
+int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id);
+/* indices count from 0 */
+int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id);
 
-/* Check an id in a definition. The message tells whether the id is empty or of another
- * mechanism. */
+/* Check an id in a definition. If the check fails, the message tells whether the id is empty or
+ * belongs to another mechanism. */
 baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
                             baum_i_id id, const char *label, const char *field);
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
@@ -44,21 +47,25 @@ baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input
 /* Return the initial inputs (input_count), or NULL if there are none. */
 const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
 
-/* Check that a mechanism is not frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL) or BAUM_ERR_STATE. */
+/* Check that a mechanism is not frozen. Returns BAUM_OK, BAUM_ERR_ARGUMENT if the mechanism is
+ * NULL, or BAUM_ERR_STATE if it is frozen. */
 baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call);
 
-/* Check that a mechanism is frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL) or BAUM_ERR_STATE. */
+/* Check that a mechanism is frozen. Returns BAUM_OK, BAUM_ERR_ARGUMENT if the mechanism is NULL, or
+ * BAUM_ERR_STATE if it is not frozen. */
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
-/* The joint that owns a row, and the body that owns a velocity, of a frozen mechanism. */
+/* Find the joint that owns a row, or the body that owns a velocity. The mechanism must be
+ * frozen. */
 int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* Return a label such as `joint 2 "B"` (numbered from 1), or `ground`. */
+/* Return a label for messages: `ground`, or for example `joint 2 "B"`, where numbers count from
+ * 1. */
 baum_i_text baum_i_label(const baum_i_element *element);
-/* Return the label of a joint, or of the joint that owns a row; "no joint" if the number is
- * negative. */
+/* Return the label of a joint, given the joint or one of its rows. Returns "no joint" if the number
+ * is negative. */
 baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint);
 baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row);
 

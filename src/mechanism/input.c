@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs of a mechanism: names and initial values. Runs and workspaces hold the present values. */
+/* Inputs of a mechanism. The mechanism stores their names and initial values. Their present values
+ * are stored in runs and workspaces. */
 #include <math.h>
 
 #include "base/alloc.h"

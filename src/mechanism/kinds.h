@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of all kinds of elements. */
+/* The list of all element types, each as KIND(family, name). */
 #ifndef BAUM_I_MECHANISM_KINDS_H
 #define BAUM_I_MECHANISM_KINDS_H
 
 #include "mechanism/fields.h"
 
-/* KIND(family, name) */
+/* The argument is a macro KIND(family, name), which is expanded for every type. */
 #define BAUM_I_KINDS(KIND)            \
   KIND(body, planar_body)             \
   KIND(body, planar_particle)         \

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The configuration manifold of a mechanism, body by body. */
+/* Functions on the configuration manifold of a mechanism. They process one body after the other. */
 #include "mechanism/manifold.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- one body; q, v and dx begin at those of the body ---- */
+/* ---- one body; q, v and dx point to the first entry of this body ---- */
 
 static void rate_body(const baum_i_body *body, const double *q, const double *v, double *dq)
 {
@@ -20,8 +20,8 @@ static void move_body(const baum_i_body *body, double h, const double *v, double
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
-    body->manifold->normalize(body, q); /* without this, rounding errors of many moves would add
-                                         * up */
+    /* otherwise the rounding errors of many moves would add up */
+    body->manifold->normalize(body, q);
   } else {
     baum_i_add_scaled(body->nv, h, v, q);
   }
@@ -34,7 +34,7 @@ static void subtract(int count, const double *from, const double *to, double *dx
   }
 }
 
-/* out = q + h dq, normalized. */
+/* Set out = q + h dq, then normalize `out`. */
 static void shift_body(const baum_i_body *body, double h, const double *dq, const double *q,
                        double *out)
 {
@@ -44,8 +44,8 @@ static void shift_body(const baum_i_body *body, double h, const double *dq, cons
   body->manifold->normalize(body, out);
 }
 
-/* Step of central differences, relative to the scales. The truncation error is about STEP^2;
- * rounding errors are divided by STEP. */
+/* The step of central differences, relative to the scales of the coordinates. The truncation error
+ * is about STEP^2, and rounding errors are divided by STEP. */
 static const double STEP = 1e-5;
 
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
@@ -64,7 +64,7 @@ static void tangent_body(const baum_i_body *body, const double *scale, const dou
   }
 }
 
-/* Set dq = N v at the configuration that is reached from q by moving velocity coordinate j by h.
+/* Set dq = N v at a neighbouring configuration, which is q moved by h along velocity coordinate j.
  * direction (nv) and moved (nq) are scratch memory. */
 static void rate_beside(const baum_i_body *body, double h, int j, const double *q, const double *v,
                         double *dq, double *direction, double *moved)
@@ -77,8 +77,8 @@ static void rate_beside(const baum_i_body *body, double h, int j, const double *
   body->manifold->rate(body, moved, v, dq);
 }
 
-/* Set dq = N v at the end of a motion of duration h with constant a, which starts at q and v. work
- * (2 nq) is scratch memory. */
+/* Follow a motion with constant acceleration a from q and v for the duration h, and set dq = N v at
+ * its end. work (2 nq) is scratch memory. */
 static void rate_later(const baum_i_body *body, double h, const double *q, const double *v,
                        const double *a, double *dq, double *work)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The configuration manifold: positions q (nq), velocities v (nv) and q' = N(q) v.
+/* The configuration manifold. Positions are q (nq), velocities are v (nv), and q' = N(q) v.
  *
- * If q of every body is a vector (mechanism->flat), N is the identity and moving q is an addition.
- * Otherwise `move` moves q and `difference` compares configurations; vectors of length nv are never
- * added to q. Integrators that combine rates q' = N v, which have length nq, add these to q and
- * normalize the configurations that they accept.
+ * If q of every body is a vector, mechanism->flat is set. Then N is the identity, and moving q is
+ * an addition. Otherwise baum_i_move() moves q, baum_i_difference() compares two configurations,
+ * and vectors of length nv are never added to q. Some integrators add rates q' = N v, which have
+ * length nq, to q. They normalize the configurations that they accept.
  */
 #ifndef BAUM_I_MECHANISM_MANIFOLD_H
 #define BAUM_I_MECHANISM_MANIFOLD_H
@@ -13,7 +13,7 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; documented below under names without `bodies` ---- */
+/* ---- for mechanisms that are not flat; described below at the names without `bodies` ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -26,7 +26,7 @@ const double *baum_i_tangent_of_bodies(const baum_mechanism *mechanism, const do
 
 /* ---- for all mechanisms ---- */
 
-/* y += h x; x and y do not overlap. */
+/* Set y = y + h x. x and y must not overlap. */
 static inline void baum_i_add_scaled(int n, double h, const double *restrict x, double *restrict y)
 {
   for (int i = 0; i < n; i++) {
@@ -34,7 +34,8 @@ static inline void baum_i_add_scaled(int n, double h, const double *restrict x, 
   }
 }
 
-/* Set dq (nq) = N(q) v. q may be slightly off the manifold, as in the stages of an integrator. */
+/* Set dq (nq) = N(q) v. q may be slightly off the manifold, as it is in the stages of an
+ * integrator. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
 {
@@ -45,8 +46,8 @@ static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q,
   }
 }
 
-/* Move q by h v (nv). The result is the configuration after the time h at constant v, to second
- * order in h, and is on the manifold. */
+/* Move q by h v (nv). The result lies on the manifold. To second order in h, it is the
+ * configuration after the time h at constant v. */
 static inline void baum_i_move(const baum_mechanism *mechanism, double h, const double *v,
                                double *q)
 {
@@ -71,7 +72,8 @@ static inline void baum_i_move_from(const baum_mechanism *mechanism, const doubl
   }
 }
 
-/* Find dx (nv) such that baum_i_move() by dx with h = 1 leads from `from` to `to`. */
+/* Find the displacement dx (nv) that leads from `from` to `to`: baum_i_move() by dx with h = 1
+ * moves the first to the second. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
 
@@ -84,9 +86,10 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
 }
 
 /* The next three functions write their result to `room` and return `room`. If the mechanism is
- * flat, they return the argument before `room` instead, which equals the result. */
+ * flat, the result equals the last argument before `room`. They then return this argument and write
+ * nothing. */
 
-/* Return N(q) v (nq). room (nq). */
+/* Return N(q) v (nq). `room` has nq entries. */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,
                                          const double *v, double *room)
 {
@@ -97,29 +100,29 @@ static inline const double *baum_i_rates(const baum_mechanism *mechanism, const 
   return room;
 }
 
-/* Return q'' = N(q) a + (N v)_q N v (nq). room (4 nq). */
+/* Return q'' = N(q) a + (N v)_q N v (nq). `room` has 4 nq entries. */
 static inline const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q,
                                                 const double *v, const double *a, double *room)
 {
   return mechanism->flat ? a : baum_i_second_rates_of_bodies(mechanism, q, v, a, room);
 }
 
-/* Return v (nv) such that N(q) v is the tangential part of the rates dq (nq), written N^+ dq. q
- * must be on the manifold. room (3 nq) must not be dq. */
+/* Return the velocities v (nv) for which N(q) v is the tangential part of the rates dq (nq). This v
+ * is written N^+ dq. q must be on the manifold. `room` has 3 nq entries and must not be dq. */
 static inline const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q,
                                            const double *dq, double *room)
 {
   return mechanism->flat ? dq : baum_i_tangent_of_bodies(mechanism, q, dq, room);
 }
 
-/* Set blocks to N^+ (N v)_q N: the derivative of N v with respect to q at constant v, where both
- * the displacement of q and the result are expressed in velocity coordinates. The block (nv x nv)
- * of a body with a manifold begins at its `mass`; other blocks are not set. work (6 nq) is scratch
- * memory. */
+/* Set `blocks` to N^+ (N v)_q N. This is the derivative of N v with respect to q at constant v,
+ * where both the displacement of q and the result are expressed in velocity coordinates. The block
+ * (nv x nv) of a body with a manifold begins at the body's `mass`. Blocks of other bodies are not
+ * set. work (6 nq) is scratch memory. */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 
-/* Like baum_i_move(), for the local velocities (nl) and positions (ql) of a span. */
+/* Do what baum_i_move() does, for the local velocities (nl) and positions (ql) of a span. */
 void baum_i_span_move(const baum_mechanism *mechanism, const baum_i_span *span, double h,
                       const double *v, double *q);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism as an object: create, copy, share, destroy, and settings of the whole mechanism. */
+/* A mechanism as an object. This file creates, copies, shares and destroys mechanisms, and changes
+ * the settings that concern a whole mechanism. */
 #include "mechanism/mechanism.h"
 
 #include <math.h>
@@ -15,9 +16,9 @@
 
 /* ---- create, share, destroy ---- */
 
-/* Compute a tag from address and time (hash function "mix 13" of D. Stafford). Two mechanisms have
- * the same tag with a probability of 2^-32. A counter is not used, because it would be global
- * state. */
+/* Compute a tag from the address of the mechanism and the time, by the hash function "mix 13" of D.
+ * Stafford. Two mechanisms have the same tag with a probability of 2^-32. The tag does not come
+ * from a counter, because a counter would be global state. */
 static uint32_t make_tag(const void *address)
 {
   uint64_t x = (uint64_t)(uintptr_t)address;

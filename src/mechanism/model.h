@@ -4,11 +4,13 @@
  * mechanism are in mechanism.h.
  *
  * An element type is a const struct of functions. The file of a type contains this struct and the
- * four public functions of the type (definition.h). Functions process groups: all elements of one
- * type in one call. Structure and numbers are separate: after freeze the structure is constant, and
- * every mass, length and stiffness is in one parameter array.
+ * four public functions of the type (definition.h). Functions of a type process a group, which
+ * consists of all elements of one type, in one call. Structure and numbers are stored separately.
+ * After freeze the structure is constant, and every mass, length and stiffness is in one parameter
+ * array.
  *
- * Body 0 is ground. index1 of a body id is the index in `bodies`; that of BAUM_GROUND is -1.
+ * Body 0 is ground. The index1 of a body id is the index of the body in `bodies`. For BAUM_GROUND
+ * it is -1.
  */
 #ifndef BAUM_I_MECHANISM_MODEL_H
 #define BAUM_I_MECHANISM_MODEL_H
@@ -24,32 +26,32 @@
 
 /* ---- elements ---- */
 
-/* The first member of every element. */
+/* Every element struct begins with this struct. */
 typedef struct baum_i_element {
   const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
-  void *def;     /* own copy; its `name` points to `name` below or is NULL */
-  char *name;    /* the given name, or "body<k>", "joint<k>", "force<k>" */
+  void *def;     /* the element's own copy of the definition; its `name` is `name` below or NULL */
+  char *name;    /* the given name, or "body<k>", "joint<k>" or "force<k>" with k = index */
   int index;     /* in its family, from 1 */
-  int parameter; /* start of its numbers in the parameter array; set at freeze */
+  int parameter; /* where its numbers begin in the parameter array; set at freeze */
 } baum_i_element;
 
-/* The bodies on which an element acts, with their velocities and positions. The local columns are
- * those of the bodies one after the other, without ground. Freeze sets all members except bodies
- * and body_count. */
+/* The bodies on which an element acts, and where their velocities and positions are in v and q. The
+ * local columns of an element are the columns of these bodies, one body after the other. Ground has
+ * no columns. Freeze sets all members except bodies and body_count. */
 typedef struct baum_i_span {
   int body_count;
   int *bodies;    /* (body_count) indices, 0 = ground */
   int nl;         /* number of local velocities */
-  int *columns;   /* (nl) their indices in v */
+  int *columns;   /* (nl) indices of the local velocities in v */
   int ql;         /* number of local positions */
-  int *positions; /* (ql) their indices in q; in the memory of `columns` */
-  bool flat;      /* none of the bodies has a manifold */
+  int *positions; /* (ql) indices of the local positions in q; `columns` owns this memory */
+  bool flat;      /* true if none of the bodies has a manifold */
 } baum_i_span;
 
 /* Kinds of bodies, by the coordinates that determine their frame. */
 typedef enum baum_i_frame_kind {
-  BAUM_I_FRAME_NONE,     /* user coordinates: no position */
+  BAUM_I_FRAME_NONE,     /* user coordinates, which have no position */
   BAUM_I_FRAME_PARTICLE, /* x, y */
   BAUM_I_FRAME_BODY,     /* x, y, angle */
   BAUM_I_FRAME_GROUND,
@@ -70,14 +72,14 @@ typedef struct baum_i_force_type baum_i_force_type;
 typedef struct baum_i_body {
   baum_i_element element;
   const baum_i_body_type *type;
-  const baum_i_manifold *manifold; /* NULL: q is a vector and v = q' */
-  baum_i_span span;                /* the body itself; columns are set at freeze */
+  const baum_i_manifold *manifold; /* NULL if q is a vector and v = q' */
+  baum_i_span span;                /* contains only the body itself; columns are set at freeze */
   int q;                           /* first position */
   int nq;                          /* number of positions */
   int v;                           /* first velocity */
   int nv;                          /* number of velocities */
-  int mass;                        /* start of its nv x nv values in the mass blocks */
-  bool fixed;                      /* welded to ground */
+  int mass;                        /* where its nv x nv values begin in the mass blocks */
+  bool fixed;                      /* true if welds connect the body to ground */
   int outline_count;
   struct baum_outline *outlines; /* (outline_count) given by the user, or NULL */
 } baum_i_body;
@@ -88,17 +90,17 @@ typedef struct baum_i_joint {
   baum_i_span span;
   int row;
   int rows;
-  int jacobian; /* start of its rows x nl values */
-  int square;   /* start of its nl x nl values, for second derivatives */
-  bool fixed;   /* between fixed bodies */
-  bool fixes;   /* a weld that determines the pose of a fixed body */
+  int jacobian; /* where its rows x nl values begin in the Jacobian */
+  int square;   /* where its nl x nl values begin in arrays of second derivatives */
+  bool fixed;   /* true if all its bodies are fixed */
+  bool fixes;   /* true for a weld from which the pose of a fixed body follows */
 } baum_i_joint;
 
 typedef struct baum_i_force {
   baum_i_element element;
   const baum_i_force_type *type;
   baum_i_span span;
-  int square; /* start of its nl x nl values */
+  int square; /* where its nl x nl values begin in arrays of derivatives */
 } baum_i_force;
 
 typedef struct baum_i_body_group {
@@ -121,24 +123,25 @@ typedef struct baum_i_force_group {
 
 /* ---- a point in state space ---- */
 
-/* Pose and velocities of a body, in one cache line. Planar elements read this instead of q. */
+/* Pose and velocities of a body, in one cache line. Planar elements read this struct instead of
+ * q. */
 typedef struct baum_i_frame {
   double x, y;   /* origin */
-  double vx, vy; /* velocities; zero at position level */
+  double vx, vy; /* velocities; zero if the point has only positions */
   double c, s;   /* cos, sin of the angle */
-  double w;      /* angular velocity; zero at position level */
-  double angle;  /* continuous over revolutions */
+  double w;      /* angular velocity; zero if the point has only positions */
+  double angle;  /* continuous, so it may exceed a full revolution */
 } baum_i_frame;
 
-/* Pose and velocities of a body in space. Spatial elements read this instead of q. */
+/* Pose and velocities of a body in space. Spatial elements read this struct instead of q. */
 typedef struct baum_i_spatial_frame {
   double r[3];    /* origin */
-  double v[3];    /* velocities in ground axes; zero at position level */
-  double w[3];    /* angular velocity in ground axes */
-  double axes[9]; /* A, row-major: from body axes to ground axes */
+  double v[3];    /* velocities in ground axes; zero if the point has only positions */
+  double w[3];    /* angular velocity in ground axes; zero if the point has only positions */
+  double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
 } baum_i_spatial_frame;
 
-/* The coordinates from which the frame of a body is computed. */
+/* Where the coordinates of a body are from which its frame is computed. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
   int32_t v;    /* first velocity */
@@ -149,44 +152,46 @@ typedef struct baum_i_frames_kernel baum_i_frames_kernel;
 
 baum_i_frame_kind baum_i_frame_of(const baum_i_body *body);
 
-/* Return the frame of a body at its q, at rest. Bodies without a position are at the
- * origin. */
+/* Return the frame of a body with the coordinates q and zero velocities. Bodies without a position
+ * are at the origin. */
 baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q);
 
 /* A point in state space, at which functions are evaluated. Only one thread at a time may use
  * it. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
-  const double *parameters; /* those of the mechanism, or a caller's copy */
+  const double *parameters; /* the parameters of the mechanism, or of a caller's copy */
   double t;
-  const double *q;      /* if the mechanism is not flat, = normalized */
-  const double *v;      /* NULL at position level */
+  const double *q;      /* the same as `normalized` if the mechanism is not flat */
+  const double *v;      /* NULL if the point has only positions */
   double *normalized;   /* (nq) normalized q; NULL if the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   baum_i_spatial_frame *spatial; /* (body_count + 1); NULL if nothing is spatial */
-  /* Expected angles of spatial joints (general/coordinate.h): own_angles, or an array of a run. */
+  /* Expected angles of spatial joints, see general/coordinate.h. `angles` points to own_angles or
+   * to an array of a run. */
   double *angles;
   double *own_angles;
-  const double *inputs;  /* (input_count) present values; NULL: none */
-  const double *moments; /* (nv) in place of the gyroscopic moments of rigid bodies, or NULL */
-  double *scratch;       /* (mechanism->scratch_size) for user functions and differences */
-  bool retry;            /* a smaller step may avoid the last failure */
-  bool asking;           /* a user function is running and must not use this point */
+  const double *inputs; /* (input_count) present values, or NULL if there are no inputs */
+  /* (nv) if not NULL, used instead of the gyroscopic moments of rigid bodies */
+  const double *moments;
+  double *scratch; /* (mechanism->scratch_size) for user functions and differences */
+  bool retry;      /* set by a failure that a smaller step may avoid */
+  bool asking;     /* set while a user function runs, which must not use this point */
 } baum_i_point;
 
 /* Return the frame of a body in the design configuration at rest. May be called before freeze. */
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
-/* Create a point with the parameters and initial inputs of the mechanism. BAUM_OK or
+/* Create a point with the parameters and the initial inputs of the mechanism. Returns BAUM_OK or
  * BAUM_ERR_MEMORY. The point must be released even after a failure. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed point is allowed */
 
 /* ---- spatial/spatial_frames.c ---- */
 
-/* Return the frame of a body at its q and v. v = NULL means rest. Kinds without a position have the
- * frame of ground. */
+/* Return the frame of a body at the coordinates q and velocities v. If v is NULL, the velocities
+ * are zero. Kinds without a position have the frame of ground. */
 baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
                                              const double *v);
 
@@ -196,12 +201,13 @@ baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism
 /* Set the spatial frames of a point. */
 void baum_i_point_set_spatial(baum_i_point *point);
 
-/* The two cases of baum_i_point_set(): the mechanism is flat, or not. */
+/* Implement baum_i_point_set(), the first function for flat mechanisms and the second one for all
+ * others. */
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 
-/* Set t, q, v (or NULL) and the frames. The point refers to v, and if the mechanism is flat to q,
- * without a copy. */
+/* Set the time, q, v (or NULL) and the frames of a point. The point stores the pointer v without
+ * copying the numbers. If the mechanism is flat, it also stores the pointer q. */
 static inline void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
   if (point->normalized) {
@@ -222,17 +228,19 @@ typedef struct baum_i_box {
 void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
 /* Results of the evaluation of all constraint rows. Members that are NULL are not evaluated.
- * Scleronomic joints (Phi without t) do not set their rows of nu, which must be zeroed before. */
+ * Scleronomic joints, whose Phi does not depend on t, do not set their rows of nu. These rows must
+ * be zeroed before. */
 typedef struct baum_i_rows {
   double *phi;      /* (nc) */
   double *jacobian; /* (jacobian_size) */
   double *nu;       /* (nc) */
-  double *gamma;    /* (nc); requires velocities */
+  double *gamma;    /* (nc); the point must have velocities */
 } baum_i_rows;
 
 /* Arrays for the second derivatives of joints. The block of a joint is row-major over its local
- * columns and starts at its `jacobian` (rows x nl) or `square` (nl x nl). NULL: not evaluated.
- * Blocks are set, not added to. */
+ * columns. It begins at the joint's `jacobian` if it has rows x nl entries, and at its `square` if
+ * it has nl x nl entries. Members that are NULL are not evaluated. Functions set the blocks and do
+ * not add to them. */
 typedef struct baum_i_joint_blocks {
   double *jw_q;    /* (J w)_q, rows x nl */
   double *jtl_q;   /* (J^T lambda)_q, nl x nl */
@@ -241,16 +249,16 @@ typedef struct baum_i_joint_blocks {
   double *nu_q;    /* rows x nl */
 } baum_i_joint_blocks;
 
-/* Arrays for the derivatives of bodies. The block nv x nv of a body starts at its `mass`. Blocks
- * are set, not added to. */
+/* Arrays for the derivatives of bodies. The nv x nv block of a body starts at the body's `mass`.
+ * Functions set the blocks and do not add to them. */
 typedef struct baum_i_body_blocks {
   double *ma_q; /* (M a)_q */
   double *force_q;
   double *force_v;
 } baum_i_body_blocks;
 
-/* Arrays for the derivatives of forces. The block nl x nl of a force starts at its `square`. Blocks
- * are set, not added to. */
+/* Arrays for the derivatives of forces. The nl x nl block of a force starts at the force's
+ * `square`. Functions set the blocks and do not add to them. */
 typedef struct baum_i_force_blocks {
   double *force_q;
   double *force_v;
@@ -266,14 +274,18 @@ typedef enum baum_i_power {
   BAUM_I_POWERS
 } baum_i_power;
 
-/* Manifold of a body whose positions are not a vector: q' = N(q) v with q (nq) and v (nv). dx has
- * length nv. See manifold.h. */
+/* Functions for the manifold of a body whose positions are not a vector. Its positions are q (nq),
+ * its velocities are v (nv), and q' = N(q) v. Displacements dx have length nv. The file manifold.h
+ * has the same functions for whole mechanisms. */
 struct baum_i_manifold {
-  /* Set dq = N(q) v. q may be slightly off the manifold, as in the stages of an integrator. */
+  /* Set dq = N(q) v. q may be slightly off the manifold, as it is in the stages of an
+   * integrator. */
   void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
-  /* Move q by h v: to the configuration after the time h at constant v, to second order in h. */
+  /* Move q by h v. To second order in h, the result is the configuration after the time h at
+   * constant v. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
-  /* Find dx such that `move` by dx with h = 1 leads from `from` to `to`. */
+  /* Find the displacement dx that leads from `from` to `to`: `move` by dx with h = 1 moves the
+   * first to the second. */
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
   /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
@@ -282,39 +294,43 @@ struct baum_i_manifold {
 struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
-  bool scleronomic;                  /* mass and force never depend on t */
-  bool constant_force;               /* force depends only on parameters */
-  int nq, nv;                        /* of every body; 0: size() and positions() return them */
+  bool scleronomic;    /* whether mass and force never depend on t */
+  bool constant_force; /* whether the force depends only on parameters */
+  /* the same for all bodies of the type; 0 if size() and positions() return them */
+  int nq, nv;
   int (*size)(const void *def);      /* nv of a body, or NULL */
   int (*positions)(const void *def); /* nq of a body, or NULL */
-  /* Manifold of a body. If this or its result is NULL, q is a vector and v = q'. */
+  /* Return the manifold of a body. If this function or its result is NULL, q is a vector and
+   * v = q'. */
   const baum_i_manifold *(*manifold)(const void *def);
-  bool (*constant_mass)(const void *def);       /* NULL: always */
-  bool (*depends_on_velocity)(const void *def); /* whether force() does; NULL: never */
-  /* Rigid bodies in space: return the inertia tensor (9) in body axes. Velocities 3 to 5 of such a
-   * body are its angular velocity in body axes, and its force() depends on velocities only by the
-   * gyroscopic moment. NULL for other bodies. */
+  bool (*constant_mass)(const void *def); /* NULL if the mass is always constant */
+  /* whether force() depends on velocities; NULL if it never does */
+  bool (*depends_on_velocity)(const void *def);
+  /* Rigid bodies in space have this function. It returns the inertia tensor (9) in body axes.
+   * Velocities 3 to 5 of such a body are its angular velocity in body axes, and force() depends on
+   * velocities only through the gyroscopic moment. NULL for other bodies. */
   const double *(*inertia)(const baum_i_body *body, const double *parameters);
-  /* Set the parameters of a body. NULL: there are none. */
+  /* Set the parameters of a body. NULL if the body has no parameters. */
   void (*lower)(const baum_i_body *body, double *parameters);
-  /* Set the design pose, the given velocities (NaN: free), and whether assembly must not move
-   * it. */
+  /* Set the design pose and the given velocities of a body, and whether assembly must not move the
+   * body. Velocities that are not given are NaN. */
   void (*design)(const void *def, double *q, double *v, bool *held);
-  /* Set the scale (nv) of each coordinate, which is the size of a relevant change. */
+  /* Set the scale (nv) of each velocity coordinate, which is the size of a change that matters. */
   void (*scale)(const void *def, double length, double *scale);
-  /* Set the scale (nq) of each position. NULL if there is no manifold. */
+  /* Set the scale (nq) of each position coordinate. NULL if the body has no manifold. */
   void (*position_scale)(const void *def, double length, double *scale);
   /* Sets the mass blocks of the group. */
   baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
-  /* Adds to force (nv). */
+  /* Adds the forces of the group to force (nv). */
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
-  /* Adds the potential of one body to *sum. NULL: it is 0. */
+  /* Adds the potential of one body to *sum. NULL if the potential is 0. */
   baum_status (*potential)(const baum_i_body *body, baum_i_point *point, double *sum);
-  /* Sets the blocks of one body, which are zeroed before. a (nv). NULL: they are zero. */
+  /* Sets the blocks of one body, which the caller has zeroed. `a` has nv entries. NULL if the
+   * blocks are zero. */
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
-  /* Adds g^T v + v^T M' v / 2 of one body, including the power of the potential. NULL: all forces
-   * derive from the potential, and M' = 0. */
+  /* Adds g^T v + v^T M' v / 2 of one body to the power of its class. This includes the power of
+   * forces that have a potential. NULL if all forces derive from the potential, and M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
@@ -324,16 +340,17 @@ enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPAC
 /* Largest number of coordinates of a joint. */
 enum { BAUM_I_COORDINATES = 3 };
 
-/* A joint coordinate. Its gradient has `width` columns (of the joint type) for each of the two
- * bodies: in the plane x_a y_a angle_a x_b y_b angle_b. */
+/* A joint coordinate. Its gradient has `width` columns for each of the two bodies, where `width`
+ * belongs to the joint type. In the plane these are x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
   double gradient[BAUM_I_PAIR_COLUMNS];
-  double gamma; /* value'' = gradient a - gamma */
+  double gamma; /* defined by value'' = gradient a - gamma */
 } baum_i_coordinate;
 
-/* Second derivatives of a coordinate for w and a multiplier lambda, as in baum_i_joint_blocks. */
+/* Second derivatives of a coordinate for a vector w and a multiplier lambda, as in
+ * baum_i_joint_blocks. */
 typedef struct baum_i_coordinate_blocks {
   double jw_q[BAUM_I_PAIR_COLUMNS];
   double jtl_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
@@ -342,105 +359,112 @@ typedef struct baum_i_coordinate_blocks {
   double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */
 } baum_i_coordinate_blocks;
 
-/* One coordinate of a joint. */
+/* Identifies one coordinate of a joint. */
 typedef struct baum_i_joint_coordinate {
   const baum_i_joint *joint;
-  int number; /* index in `coordinates` of the joint's type */
+  int number; /* index of the coordinate in `coordinates` of the joint's type */
 } baum_i_joint_coordinate;
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  int width;        /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE; 0: its reaction is not a
-                     * force and a moment */
-  bool scleronomic; /* Phi never depends on t */
-  bool is_pin;      /* its rows are exactly those of a pin (planar/lower_pairs.c) */
+  /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE, or 0 if its reaction is not a force and a
+   * moment */
+  int width;
+  bool scleronomic; /* whether Phi never depends on t */
+  bool is_pin;      /* whether its rows are exactly those of a pin (planar/lower_pairs.c) */
   /* Return the coordinate that a driver prescribes. A driver has one row: this coordinate minus a
-   * function of time. NULL: the type is not a driver. */
+   * function of time. NULL for types that are not drivers. */
   baum_i_joint_coordinate (*driven)(const baum_mechanism *mechanism, const void *def);
   /* Set s to the prescribed value, rate and acceleration at the time of the point. NULL for joints
    * that are not drivers. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
-  /* Set the parameters of a driver such that its law becomes s + s' (t - t0) + s'' (t - t0)^2 / 2.
-   * NULL for joints that are not drivers. */
+  /* Replace the law of a driver by s + s' (t - t0) + s'' (t - t0)^2 / 2. The function stores the
+   * new law in the driver's parameters. NULL for joints that are not drivers. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int row_count;                /* of every joint; 0: rows() returns it */
+  int row_count;                /* the same for all joints of the type; 0 if rows() returns it */
   int (*rows)(const void *def); /* rows of a joint, or NULL */
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
-   * BAUM_ERR_ARGUMENT and sets the message. */
+   * BAUM_ERR_ARGUMENT after setting the message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets the rows and blocks of the group in members that are not NULL. baum_i_evaluate_each()
-   * calls evaluate_one() for every joint. */
+  /* Sets the rows and blocks of all joints of the group, in the members of `rows` that are not
+   * NULL. Types that have evaluate_one() use baum_i_evaluate_each() here, which calls it for every
+   * joint. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
                               const baum_i_rows *rows);
-  /* Sets the blocks of one joint, which are zeroed before. w (nv), lambda (nc). NULL: they are
-   * zero. */
+  /* Sets the blocks of one joint, which the caller has zeroed. w has nv entries, and lambda has nc
+   * entries. NULL if the blocks are zero. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
-  /* Welds: find the pose q of one body from the known pose of the other, which is body_a if from_a.
-   * known = NULL means ground. NULL: the type is not a weld. */
+  /* Welds have this function. From the known pose of one body it finds the pose q of the other. The
+   * known body is body_a if `from_a` is set. known = NULL means that the known body is ground. NULL
+   * for types that are not welds. */
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
   /* Find the joint's point on body_b in ground axes, for reactions and drawing. NULL if width is
    * 0. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
-  /* Spatial joints: add the generalized force -J^T lambda over all six columns of body_b, including
-   * those that a planar body or a particle does not have. */
+  /* Spatial joints have this function. It adds the generalized force -J^T lambda to all six columns
+   * of body_b, including those that a planar body or a particle does not have. */
   void (*force_on_b)(const baum_i_joint *joint, const baum_i_point *point, const double *lambda,
                      double six[BAUM_I_SPACE]);
-  /* Tell whether the constraints hold, but with axes that point in opposite instead of equal
-   * directions. NULL: never. */
+  /* Tell whether the rows are satisfied in a wrong way, with axes that point in opposite instead of
+   * equal directions. NULL if this cannot happen. */
   bool (*is_reversed)(const baum_i_joint *joint, const baum_i_point *point);
-  /* Extend a box to include the points of the joint in the design configuration. NULL: it has
-   * none. */
+  /* Extend a box so that it includes the points of the joint in the design configuration. NULL if
+   * the joint has no points. */
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
-  /* Its coordinates; the list ends with BAUM_COORDINATE_FIRST. */
+  /* The coordinates of the joint type. The list ends with BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinates[BAUM_I_COORDINATES + 1];
-  /* Check that a joint, whose definition has been checked, has these coordinates. NULL: all joints
-   * of the type have them. */
+  /* Check that a joint has the coordinates that its type lists. Its definition has already been
+   * checked. NULL if all joints of the type have them. */
   baum_status (*check_coordinate)(const baum_mechanism *mechanism, const void *def,
                                   const char *label);
   void (*coordinate)(const baum_i_joint *joint, int number, const baum_i_point *point,
                      baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, int number, const baum_i_point *point,
                                const double *w, double lambda, baum_i_coordinate_blocks *out);
-  /* Return the relative error of derivatives that are computed by differences. NULL: none are. */
+  /* Return the relative error of those derivatives that the joint computes by differences. NULL if
+   * the joint computes no derivatives by differences. */
   double (*noise)(const void *def);
 };
 
-/* The `evaluate` of types that evaluate one joint at a time. */
+/* Evaluates one joint after the other. The function `evaluate` of all types that have a function
+ * evaluate_one(). */
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
-/* The present length of a spring. For a torsion spring it is an angle, for a joint spring a
- * coordinate of a joint. */
+/* The present length of a spring. For a torsion spring this length is an angle, and for a joint
+ * spring it is a coordinate of a joint. */
 typedef struct baum_i_stretch {
   double length;
   double rate;
-  double scale;      /* size of a relevant change of the length */
-  bool no_direction; /* the spring is a line of length zero, so there is no force */
+  double scale;      /* the size of a change of the length that matters */
+  bool no_direction; /* set for a spring between points that coincide; it exerts no force */
 } baum_i_stretch;
 
 struct baum_i_force_type {
   baum_i_definition definition;
-  bool spatial; /* requires spatial frames */
+  bool spatial; /* whether elements of the type need spatial frames */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
-  /* Adds to force (nv). */
+  /* Adds the forces of the group to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
-  bool (*depends_on_velocity)(const baum_i_force *force); /* NULL: never */
-  /* Springs (general/spring_law.h): the offset of the first field of baum_i_spring_def in the
-   * definition, and a function that returns the present length of a spring. */
+  /* NULL if the force never depends on velocities */
+  bool (*depends_on_velocity)(const baum_i_force *force);
+  /* Springs have these two members (general/spring_law.h). The first is the offset of the first
+   * field of baum_i_spring_def in the definition, and the second returns the present length of a
+   * spring. */
   size_t spring_fields;
   baum_i_stretch (*stretch)(const baum_i_force *force, const baum_i_point *point);
-  /* Adds the potential of one force to *sum. NULL: it is 0. */
+  /* Adds the potential of one force to *sum. NULL if the potential is 0. */
   baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
-  /* Sets the blocks of one force, which are zeroed before. */
+  /* Sets the blocks of one force, which the caller has zeroed. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* Adds the power g^T v of one force by class. If the force has a potential, the power of this
-   * part is included only if power_is_whole. */
+  /* Adds the power g^T v of one force to the power of its class. If the force has a potential, the
+   * power of the part that derives from it is included only if power_is_whole is set. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
 };
@@ -449,13 +473,13 @@ struct baum_i_force_type {
 
 struct baum_mechanism {
   atomic_int references;
-  uint32_t tag; /* shared by copies */
+  uint32_t tag; /* copies of a mechanism have the same tag */
   bool frozen;
   double gravity[3];
-  double given_length; /* NaN: not set */
+  double given_length; /* [m] characteristic length given by the user; NaN if not set */
 
   int body_count;       /* without ground */
-  baum_i_body **bodies; /* (body_count + 1), [0] is ground */
+  baum_i_body **bodies; /* (body_count + 1); the first one is ground */
   int joint_count;
   baum_i_joint **joints;
   int force_count;
@@ -466,30 +490,31 @@ struct baum_mechanism {
   int break_count;
   double *breaks; /* (break_count) [s] ascending */
 
-  /* Set at freeze. */
+  /* Freeze sets the members from here on. */
   int nq, nv, nc;
-  int mass_size;     /* values in all mass blocks */
-  int jacobian_size; /* values in all row blocks */
+  int mass_size;     /* number of values in all mass blocks */
+  int jacobian_size; /* number of values in all blocks of the Jacobian */
   int joint_square_size;
   int force_square_size;
   int scratch_size;
   int parameter_count;
   bool constant_mass;
-  bool flat;                 /* no body has a manifold: nq = nv and q' = v */
+  bool flat;                 /* true if no body has a manifold; then nq = nv and q' = v */
   double length;             /* characteristic length */
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   bool spatial;              /* has a spatial body, joint or force */
   double *parameters;
-  double *design_q;               /* (nq) */
-  double *design_v;               /* (nv) NaN: free */
-  bool *held;                     /* (nv) */
-  double *scale;                  /* (nv) size of a relevant change of each coordinate */
-  double *position_scale;         /* (nq) size of a relevant change of each position */
-  int fixed_count;                /* fixed bodies without ground */
-  int fixed_nv;                   /* number of their velocities */
-  double *fixed_q;                /* (nq) their positions */
-  baum_i_body_group *body_groups; /* each list of groups ends with one without a type */
+  double *design_q; /* (nq) */
+  double *design_v; /* (nv) NaN where the velocity is not given */
+  bool *held;       /* (nv) whether assembly must not move the coordinate */
+  /* (nv) for each velocity coordinate, the size of a change that matters */
+  double *scale;
+  double *position_scale;         /* (nq) for each position, the size of a change that matters */
+  int fixed_count;                /* number of fixed bodies, without ground */
+  int fixed_nv;                   /* number of velocities of fixed bodies */
+  double *fixed_q;                /* (nq) contains the positions of fixed bodies */
+  baum_i_body_group *body_groups; /* each list of groups ends with a group that has no type */
   baum_i_joint_group *joint_groups;
   baum_i_force_group *force_groups;
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points in state space, and the frames of bodies at them. */
+/* Points in state space, and the frames of bodies at these points. */
 #include <math.h>
 
 #include "base/alloc.h"

@@ -1,34 +1,37 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account of a run.
+/* Computes the energy account of a run.
  *
- * The kinetic energy is T = v^T M v / 2. From M v' + J^T lambda = g and J v = nu + Phi' (3) it
- * follows that
+ * The kinetic energy is T = v^T M v / 2. From M v' + J^T lambda = g and J v = nu + Phi', equation
+ * (3), follows the change of T:
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * Forces with a potential V leave T + V unchanged and do not count as work. The powers are
- * integrated over each step by Gauss' rule. At the nodes inside the step, lambda is computed from
- * the integrated equations, (5) or (7). (5) is also used for the formulations of index 2 and 3,
- * because the second line of (5) is the derivative of J v = nu or Phi = 0, which the motion by
- * these formulations satisfies. The power of the gains,
+ * Forces with a potential V do not change T + V, so they do not count as work. The powers of all
+ * other forces are integrated over each step by a Gauss rule. At the nodes of this rule, which are
+ * inside the step, lambda is computed from the equations that the run integrates, (5) or (7).
+ * Equation (5) is also used for the formulations of index 2 and 3. Motions by these formulations
+ * satisfy J v = nu or Phi = 0, and the second line of (5) is the derivative of these equations. The
+ * gains of the stabilization change the multipliers. The power of this change is
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5),
  *
- * is part of the work of drivers and of the work of the violation (docs/theory/energy.md).
+ * This power is contained in the work of the drivers and in the work of the violation
+ * (docs/theory/energy.md).
  *
- * States inside a step are computed by the method's own interpolant. For fixed steps of methods up
- * to order 4 it consists of Hermite polynomials of degree 5 in q and 3 in v, whose error over a
- * step is of order 5. For fixed steps of methods above order 4 the states are ends of shorter steps
- * from the same start. Variable steps with a large projection, for example after a start off the
- * constraints, are also replaced by shorter steps from the same start, because the interpolant of a
- * Runge-Kutta pair ends at the projected state and not at the state before the projection.
- *
- * IDA first moves a given start onto the constraints of its formulation. This move counts as a
+ * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
+ * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
+ * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
+ * the end of a shorter step from the same start. The same is done within variable steps after which
+ * the projection is large, for example after a start off the constraints. The reason is that the
+ * interpolant of a Runge-Kutta pair ends at the projected state and not at the state before the
  * projection.
  *
- * The account has a separate workspace, so its evaluations do not touch the run's solver or
- * counters. */
+ * IDA first moves the given initial state onto the constraints of its formulation. The account
+ * treats this move as a projection.
+ *
+ * The account has its own workspace. Its evaluations therefore do not change the solver or the
+ * counters of the run. */
 #include "simulate/account.h"
 
 #include <math.h>
@@ -41,28 +44,32 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* A projection by more than this many tolerances does not correct an error of the method. It
- * removes an initial violation, for example. */
+/* If a projection moves the state by more than this many tolerances, it does not merely correct an
+ * error of the method. It may remove an initial violation, for example. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
-  /* The members before `workspace` are plain numbers, which are saved. */
-  double before[BAUM_I_WORKS]; /* works up to the last step */
-  double last[BAUM_I_WORKS];   /* works of the last step */
-  double read[BAUM_I_WORKS];   /* works up to the requested state */
-  int32_t broken;              /* a work could not be evaluated */
+  /* The members before `workspace` are plain numbers. They are part of a saved run. */
+  /* Works from the start of the account to the start of the last step. */
+  double before[BAUM_I_WORKS];
+  double last[BAUM_I_WORKS]; /* works of the last step */
+  double read[BAUM_I_WORKS]; /* works from the start of the account to the state requested last */
+  int32_t broken;            /* not 0 if a work could not be evaluated */
 
   baum_workspace *workspace;
-  baum_i_problem problem; /* the run's problem, with this workspace */
+  baum_i_problem problem; /* the problem of the run, but with the workspace of the account */
   int nodes;
-  bool fresh;        /* no step since the last restart of the method */
-  bool far;          /* the last projection moved the state far (FAR) */
-  void *stepper;     /* second instance of the method, for shorter steps; NULL: none */
-  baum_i_state from; /* start of the last step */
+  bool fresh; /* whether the method has taken no step since its last restart */
+  bool far;   /* whether the last projection moved the state far (see FAR) */
+  /* Second instance of the method for shorter steps, or NULL if it is not needed. */
+  void *stepper;
+  baum_i_state from; /* state at the start of the last step */
   baum_i_state node;
-  double *unprojected; /* (nq + nv) end of the last step, or a sample, before projection */
-  double *end_a;       /* (nv) acceleration at the end of a step; if `far`, at its start */
-  double *lambda;      /* (nc) multipliers by (5) */
+  /* (nq + nv) state before projection, at the end of the last step or at a sample. */
+  double *unprojected;
+  /* (nv) acceleration at the end of a step, or at its start if `far` is true. */
+  double *end_a;
+  double *lambda; /* (nc) multipliers by equation (5) */
 };
 
 /* Nodes of Gauss' rules over (-1, 1). Row n - 1 is the rule with n nodes. */
@@ -79,14 +86,14 @@ static const double WEIGHT[MOST_NODES][MOST_NODES] = {
   {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538},
 };
 
-/* A part of the motion, from account->from to the state (q, v) at t. */
+/* A part of the motion between the state account->from and the state (q, v) at time t. */
 typedef struct stretch {
   double t;
   const double *q;
   const double *v;
-  const double *from_a; /* (nv) accelerations at its ends, for Hermite's polynomials */
+  const double *from_a; /* (nv) accelerations at the start and at the end of the stretch */
   const double *to_a;
-  void *stepper; /* for shorter steps, or NULL */
+  void *stepper; /* instance of the method that takes shorter steps, or NULL */
 } stretch;
 
 /* ---- powers ---- */
@@ -100,8 +107,8 @@ static double product(int n, const double *x, const double *y)
   return sum;
 }
 
-/* Find lambda of the integrated equations, in the workspace, and lambda of (5), in
- * account->lambda. */
+/* Compute two sets of multipliers: those of the integrated equations, in the workspace, and those
+ * of equation (5), in account->lambda. */
 static baum_status solve(baum_i_account *account, const baum_i_state *at)
 {
   baum_workspace *w = account->workspace;
@@ -130,8 +137,8 @@ static baum_status power_at(baum_i_account *account, const baum_i_state *at,
 
 /* ---- states inside a step ---- */
 
-/* Evaluate the polynomials of degree 5 in q and 3 in v through values and rates at both ends, at
- * the fraction x of the stretch. */
+/* Set account->node to the state at the fraction x of the stretch. The polynomials, of degree 5 in
+ * q and 3 in v, have the given values and rates at both ends of the stretch. */
 static void find_by_hermite(baum_i_account *account, const stretch *s, double x)
 {
   const baum_mechanism *m = account->workspace->mechanism;
@@ -188,8 +195,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potential energies to `works`. This includes only potentials of elements
- * whose power was computed from all of their forces, also from those that have the potential. */
+/* Add `factor` times the potential energies to `works`. If the power of an element was computed
+ * from all of its forces, it includes forces that have a potential. Only the potentials of such
+ * elements are added here. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {
@@ -222,7 +230,8 @@ static baum_status integrate_powers(baum_simulation *run, const stretch *s,
   return add_potentials(account, 1.0, s->t, s->q, s->v, works);
 }
 
-/* Add the change of energy by a projection from one state to another. */
+/* A projection has moved the state from `from` to (q, v). Add the change of energy to the work of
+ * the projection. */
 static baum_status add_projection(baum_i_account *account, double t, const double *from,
                                   const double *q, const double *v, double works[BAUM_I_WORKS])
 {
@@ -235,21 +244,21 @@ static baum_status add_projection(baum_i_account *account, double t, const doubl
   return BAUM_OK;
 }
 
-/* Move account->from to the state from which IDA started, which may differ from the given state. */
+/* IDA may have started from another state than the given one. Move account->from to this state. */
 static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
   const baum_i_state *from = &account->from;
   const baum_i_state *node = &account->node;
   BAUM_I_TRY(run->integrator->interpolate(run->self, &account->problem, from->t, node->q, node->v));
-  /* q and v of a state are contiguous. */
+  /* The arrays q and v of a state follow each other in memory, so from->q contains both. */
   BAUM_I_TRY(add_projection(account, from->t, from->q, node->q, node->v, works));
   account->node.t = from->t;
   baum_i_run_copy(run, node, &account->from);
   return BAUM_OK;
 }
 
-/* Tell whether the projection has displaced a state by far more than the tolerances. */
+/* Tell whether the projection has moved a state by far more than the tolerances. */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -265,7 +274,7 @@ static bool moved_far(const baum_simulation *run, const baum_i_state *state)
   return far;
 }
 
-/* Choose the method that finds states inside a stretch. */
+/* Choose how states inside the stretch are found. */
 static baum_status choose_nodes(baum_simulation *run, stretch *s)
 {
   baum_i_account *account = run->account;
@@ -289,8 +298,8 @@ static baum_status choose_nodes(baum_simulation *run, stretch *s)
   return status;
 }
 
-/* Add the works from account->from to a state, including that of the projection if the formulation
- * includes projection. */
+/* Add the works of the motion from account->from to `state`. If the formulation includes
+ * projection, add the work of the projection, too. */
 static baum_status work_to(baum_simulation *run, const baum_i_state *state,
                            double works[BAUM_I_WORKS])
 {
@@ -314,7 +323,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
     return;
   }
   baum_i_run_share_equations(run, &run->account->problem);
-  /* Only IDA may start from another state than the given one. */
+  /* Only IDA with variable steps may start from another state than the given one. */
   bool moves =
     account->fresh && run->integrator->solves_residuals && !baum_i_run_has_fixed_step(run);
   baum_status status = moves ? move_start(run, account->before) : BAUM_OK;
@@ -375,7 +384,7 @@ void baum_i_account_accept(baum_simulation *run)
   memset(run->account->last, 0, sizeof run->account->last);
 }
 
-/* Find a state inside the last step before its projection. */
+/* Find the state at time t, which is inside the last step, before its projection. */
 static baum_status find_unprojected(baum_simulation *run, double t)
 {
   baum_i_account *account = run->account;
@@ -389,9 +398,9 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* With a fixed step, a sample is the end of a trial step, which is not part of the motion. With
- * variable steps, a sample may be inside the last step, and powers are integrated up to the
- * sample. */
+/* With fixed steps, a sample is the end of a trial step. This trial step is not part of the motion.
+ * With variable steps, a sample may be inside the last step. Powers are then integrated from the
+ * start of the step up to the sample. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
@@ -430,7 +439,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
 
 /* ---- life ---- */
 
-/* Return the number of nodes that the order of the method requires. */
+/* Return the number of Gauss nodes that the order of the method requires. */
 static int node_count(const baum_simulation *run)
 {
   int order = run->integrator->order;
@@ -456,7 +465,7 @@ static baum_status make_memory(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Create the second instance of the method if projections may be large. */
+/* If projections may be large, create the second instance of the method. */
 static baum_status make_stepper(baum_simulation *run)
 {
   const baum_integrator *method = run->integrator;

@@ -266,14 +266,20 @@ static void begin_call(baum_simulation *run, public_call *c)
 {
   c->start = baum_i_wall_seconds();
   run->last_progress = c->start;
+  run->deadline = c->start + run->time_limit;
   c->taken = 0;
   c->before = baum_i_message_keep();
 }
 
-/* End a call. Evaluate and monitor its last state, which no step has evaluated. */
+/* End a call. Evaluate and monitor its last state, which no step has evaluated. If its time limit
+ * has passed, leave this to the next call, so that nothing depends on the speed of the machine. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
+  if (status == BAUM_STOP_TIME) {
+    run->counters.wall += baum_i_wall_seconds() - c->start;
+    return status;
+  }
   baum_i_kept_message reason = baum_i_message_keep();
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
@@ -418,6 +424,7 @@ static baum_status sample_all(baum_simulation *run, const double *times, int64_t
   for (; *done < n; ++*done) {
     const baum_i_state *at = NULL;
     BAUM_I_TRY(baum_i_run_is_wanted(run));
+    BAUM_I_TRY(*done > 0 ? baum_i_run_has_time(run) : BAUM_OK);
     BAUM_I_TRY(sample_one(run, times[*done], *done == n - 1, taken, &at));
     BAUM_I_TRY(baum_i_output(run, at, channels, count, rows + *done * width));
   }

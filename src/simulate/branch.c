@@ -1,52 +1,58 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Decides which branch a motion has taken after a singular configuration.
  *
- * Several branches of motion cross at a singular configuration, each with its own direction. The
- * smooth motion is the one whose velocity is continuous. Clear states are states far enough from
- * the configuration. Polynomials p through positions and velocities of the clear states before the
- * configuration are extrapolated to the first clear state after it, and p' is compared with the
- * velocity v there:
+ * In a singular configuration several branches of motion cross, and each branch has its own
+ * direction. The smooth motion is the motion whose velocity is continuous. States are called clear
+ * if they are far enough from the singular configuration. Polynomials p through positions and
+ * velocities of the clear states before the singular configuration are extrapolated to the first
+ * clear state after it. There their derivative p' is compared with the velocity v of the run:
  *
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
  *   error   the same for the difference of two polynomials of degrees 2 m - 1 and 2 m - 3
  *
- * m is chosen for the least error.
+ * m is chosen so that the error is as small as possible.
  *
- * Whether branches cross at all depends on the mechanism. If they only come close, the motion turns
- * sharply, and a step that jumps over the turn continues smoothly on the wrong branch. There is
- * then a gap between the branches, and the singular configurations in this gap violate the
- * constraints. The constraints are therefore evaluated where the motion has its smallest pivot. If
- * the violation there is larger than can be explained by the violation of the run and the error of
- * the polynomial, there is a gap. Runs whose steps resolve the turn follow the right branch. */
+ * It depends on the mechanism whether its branches really cross. If the branches only come close to
+ * each other, the true motion turns sharply from one branch to the other. A step that jumps over
+ * this turn continues smoothly, but on the wrong branch. In this case there is a gap between the
+ * branches, and the singular configurations inside the gap violate the constraints. To detect a
+ * gap, the constraints are evaluated where the motion has its smallest pivot. There is a gap if the
+ * violation at this point is larger than the violation of the run and the error of the polynomial
+ * together can explain. Runs whose steps are short enough to resolve the turn follow the right
+ * branch. */
 #include <math.h>
 #include <string.h>
 
 #include "base/least.h"
 #include "simulate/crossing.h"
 
-/* The velocities of two branches differ by about the size of the velocity: runs that changed to
- * another branch had jumps of at least 0.9. Over the longest steps the error of polynomials is
- * 0.06. */
+/* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
+ * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
+ * Over the longest steps, the error of the polynomials is 0.06. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
-/* Jumps above KICK and above SURELY times their estimated error are caused by steps with inaccurate
- * accelerations. None of 2688 correct runs had such a jump. */
+/* A jump that is both above KICK and above SURELY times its estimated error is caused by steps with
+ * inaccurate accelerations. None of 2688 correct runs had such a jump. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* Above LARGE_KICK the multiple LIKELY suffices, because such runs are mostly wrong after the next
- * crossing. The estimated error depends on the steps, and therefore on the tolerance; in correct
- * runs it may be more than ten times too small. */
+/* For jumps above LARGE_KICK, the smaller multiple LIKELY of the estimated error is enough, because
+ * such runs are mostly wrong after the next crossing. The estimated error depends on the steps and
+ * therefore on the tolerance. In correct runs it may be more than ten times smaller than the true
+ * error. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
-static const double KNOWN = 0.1;      /* a jump with a larger estimated error is not judged */
-static const double SMALL_TURN = 0.4; /* relative change of v in a step that resolves a turn */
-/* A violation of the constraints opens a gap where branches would otherwise cross. Smallest pivots
- * of up to OPENED times the violation are explained by it; in an example the factor was about five.
- * If the pivot is below GAP_OF_VIOLATION times the violation, the violation may have opened the
- * gap. */
+/* A jump whose estimated error is larger than this is not judged. */
+static const double KNOWN = 0.1;
+/* The steps resolve a turn if v changes by less than this fraction from step to step. */
+static const double SMALL_TURN = 0.4;
+/* If the constraints are violated, branches that would otherwise cross are separated by a gap. A
+ * smallest pivot of up to OPENED times the violation is explained by the violation alone. In an
+ * example the factor was about five. If the pivot is below GAP_OF_VIOLATION times the violation,
+ * the violation may have caused the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-/* Smallest violation, as a displacement, that shows a gap. Where branches cross it is 0. */
+/* Smallest violation that shows a gap, expressed as a displacement. Where branches cross, the
+ * violation is 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
@@ -59,7 +65,8 @@ static void follow(const baum_simulation *run, const baum_i_knot *knots, int cou
   baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
 }
 
-/* The motion whose smallest pivot is searched, and the joint of the smallest pivot so far. */
+/* The part of the motion in which the smallest pivot is searched, and the joint that has the
+ * smallest pivot so far. */
 typedef struct look {
   baum_simulation *run;
   const baum_i_knot *knots;
@@ -68,7 +75,7 @@ typedef struct look {
   int joint;
 } look;
 
-/* Return the pivot of the motion at t, relative to the usual one. */
+/* Return the pivot at time t of the motion, relative to the usual pivot. */
 static double pivot_at(void *user, double t)
 {
   look *in = user;
@@ -89,8 +96,8 @@ static double pivot_at(void *user, double t)
   return pivot;
 }
 
-/* The time is located to a millionth of the interval, and the error of the pivot is the square of
- * that. */
+/* The search finds the time to within a millionth of the interval. The relative error of the pivot
+ * is the square of this, because the pivot is smallest there. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {
@@ -105,7 +112,8 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 
 /* ---- gap ---- */
 
-/* Return the largest violation as a scaled displacement, or INFINITY if it cannot be evaluated. */
+/* Return the largest violation as a scaled displacement. If it cannot be evaluated, return
+ * INFINITY. */
 static double violation_at(baum_simulation *run, const baum_i_knot *at)
 {
   baum_workspace *w = run->workspace;
@@ -114,7 +122,7 @@ static double violation_at(baum_simulation *run, const baum_i_knot *at)
   return status == BAUM_OK ? baum_i_row_sizes(w, w->phi, &row) : (double)INFINITY;
 }
 
-/* Return the largest scaled difference of two configurations. */
+/* Return the largest scaled difference between two configurations. */
 static double apart(const baum_simulation *run, const double *q, const double *p)
 {
   baum_workspace *w = run->workspace;
@@ -122,8 +130,8 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
-/* A small pivot at a state of the run shows a gap unless the violation of the state explains its
- * size. */
+/* A small pivot at a state of the run itself shows a gap, unless the violation of the state
+ * explains why the pivot is small. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -131,8 +139,8 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
-/* Between two states a violation shows a gap if it is larger than the violation of the run and the
- * error of the polynomial. */
+/* Between two states of the run, a violation shows a gap if it is larger than the violation of the
+ * run and the error of the polynomial together. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;
@@ -148,8 +156,8 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   return violation > noise || (pivot > noise && pivot > OPENED * violation);
 }
 
-/* If the constraints are violated, branches that cross are separated by a gap, and the motion of a
- * run that has drifted turns sharply from one branch to the other. */
+/* If the constraints are violated, a gap separates branches that would otherwise cross. A run that
+ * has drifted off the constraints then turns sharply from one branch to the other. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
   const baum_i_crossings *p = run->crossings;

@@ -1,35 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks of the mechanism and of scheduled inputs. A break divides time into an earlier
- * and a later side. At the time b of the break functions already have the values of the later side.
- * A step forward in time therefore ends a few roundings before b, where all functions have the
- * values of the earlier side, and the next step begins at b. Backward in time a step ends at b, and
- * the next step begins a few roundings before b. The state does not change in between. Methods with
- * a history restart there (restart.c). */
+/* Handles the breaks that elements of the mechanism declare, and the breaks of scheduled inputs. A
+ * break is a time b that has an earlier and a later side. At the time b itself, the functions
+ * already have their values of the later side. A step forward in time therefore ends a few rounding
+ * errors before b, where all functions still have their values of the earlier side. The next step
+ * begins at b. Backward in time, a step ends at b, and the next step begins a few rounding errors
+ * before b. The state does not change between the two times. Methods that use a history restart at
+ * a break (restart.c). */
 #include <float.h>
 #include <math.h>
 
 #include "base/hot.h"
 #include "simulate/run.h"
 
-/* Distance of the earlier side from b, relative to the largest time with which the method computes.
- * It must be so large that times of stages are not rounded to b. */
+/* Distance of the earlier side from b in rounding errors of the largest time with which the method
+ * computes. It must be so large that the times of a method's stages are not rounded to b. */
 static const double ROUNDINGS = 16.0;
 
-/* Return the distance of the earlier side of a break from b. */
+/* Return the distance from the earlier side of a break to b. */
 static double gap(const baum_simulation *run, double b)
 {
   double largest = fmax(fmax(fabs(b), fabs(run->origin)), 1.0 / run->problem.rate);
   return ROUNDINGS * DBL_EPSILON * largest;
 }
 
-/* Tell whether t is on the later side of b, which includes times equal to b up to rounding. */
+/* Tell whether t is on the later side of b. A time that equals b up to rounding is on the later
+ * side. */
 static bool is_later(const baum_simulation *run, double t, double b)
 {
   return b <= (run->problem.direction > 0.0 ? t : t + 0.5 * gap(run, b));
 }
 
-/* Return the next of `count` ascending times after t in the direction of the run, or an infinite
- * time if there is none. The times are `stride` bytes apart. */
+/* Return the next time after t, in the direction of the run, from a list of `count` ascending
+ * times. If there is none, return an infinite time. In memory, successive times are `stride` bytes
+ * apart. */
 BAUM_I_INLINE double find_next(const baum_simulation *run, const void *times, size_t stride,
                                int count, double t)
 {
@@ -58,7 +61,7 @@ baum_i_break baum_i_run_next_break(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_schedule *jumps = &run->schedule;
-  if (m->break_count == 0 && jumps->count == 0) { /* as in most runs */
+  if (m->break_count == 0 && jumps->count == 0) { /* this is so in most runs */
     double never = run->problem.direction * (double)INFINITY;
     return (baum_i_break){never, never};
   }

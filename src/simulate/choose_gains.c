@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chooses the gains of a run. Finds the rate of the motion, which the rule `auto` requires. */
+/* Chooses the gains of a run. For this purpose, it finds the rate of the motion, which the rule
+ * `auto` requires. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -7,10 +8,11 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) below which accelerations count as rounding errors in mechanisms without
- * gravity. With gravity, AT_REST is the limit. */
+/* [1/s] In a mechanism without gravity, accelerations count as rounding errors if sqrt(|a| / scale)
+ * is below this. With gravity, AT_REST is the limit. */
 static const double ROUNDING_RATE = 1e-7;
-static const double AT_REST = 1e-3; /* relative to the rate at which gravity swings the mechanism */
+/* Relative to the rate at which gravity makes the mechanism swing. */
+static const double AT_REST = 1e-3;
 
 double baum_i_rest_rate(const baum_mechanism *m)
 {
@@ -19,8 +21,9 @@ double baum_i_rest_rate(const baum_mechanism *m)
   return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
 }
 
-/* At rest in an equilibrium the accelerations are only rounding errors. The rate is then that at
- * which gravity swings the mechanism, or 0 without gravity. */
+/* When a mechanism is at rest in an equilibrium, its accelerations are only rounding errors and
+ * give no rate. The function then returns the rate at which gravity makes the mechanism swing, or 0
+ * without gravity. */
 double baum_i_run_start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -33,7 +36,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
 }
 
 /* Find the rate of the motion. For a mechanism that hardly moves, it is the rate at which gravity
- * swings the mechanism. */
+ * makes the mechanism swing. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -88,7 +91,7 @@ static baum_status copy_row_gains(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Update the worst amplification of all rows of the run. */
+/* Keep the worst amplification that any row of the run has. */
 static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 {
   baum_i_gain_choice *all = &run->gains;
@@ -98,14 +101,14 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
-/* Add the name of the row to the message of a refusal. */
+/* A factor of a row was refused. Add the name of the row to the message. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row],
                      baum_i_row_label(run->workspace->mechanism, row).text, baum_message());
 }
 
-/* Check the gains of all rows. Equal factors of successive rows are checked once. */
+/* Check the gains of all rows. Successive rows with the same factor are checked only once. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
   double last = 1.0;

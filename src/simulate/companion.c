@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A second integration of the motion beside a run.
+/* The companion of a run is a second integration of the same motion. It estimates the error of the
+ * run.
  *
- * Fixed-step methods have no tolerance and take many short steps where rk8 with projection takes
- * one long step. Beside a fixed-step run the companion therefore uses rk8, which costs little. It
- * starts as soon as the error of the run may matter: when the sum of the run's local errors,
- * amplified by 1e4, could be large. If a variable-step run has a loose tolerance, the companion
- * starts at the first singularity crossing, because crossings amplify errors. The companion starts
- * from a state some steps earlier, which was still accurate. If run and companion differ by more
- * than DOUBTFUL for some time, the run warns. Short peaks are ignored; they occur, for example, if
- * a light rod flips a little too late.
+ * Fixed-step methods have no tolerance, and they take many short steps where rk8 with projection
+ * takes one long step. Beside a fixed-step run, the companion therefore uses rk8, and this costs
+ * little compared with the run. The companion starts as soon as the error of the run may matter.
+ * This is so when the sum of the run's local errors, multiplied by 1e4, would be large. Beside a
+ * variable-step run with a loose tolerance, the companion starts when the run first crosses a
+ * singular configuration, because crossings amplify errors. The first state of the companion is a
+ * state that the run had some steps earlier, when it was still accurate. If run and companion
+ * differ by more than DOUBTFUL for some time, the run warns. Short peaks of the difference are
+ * ignored. They occur, for example, if a light rod flips a little too late.
  *
- * With the option error_check the companion starts with the run. Beside a variable-step run it then
- * uses the same method with 0.03 times the tolerance. With 0.1 times the tolerance, run and
- * companion had the same wrong motion in one of 2000 mechanisms.
+ * With the option error_check, the companion starts together with the run. Beside a variable-step
+ * run it then uses the method of the run with 0.03 times the tolerance. With 0.1 times the
+ * tolerance, run and companion had the same wrong motion in one of 2000 mechanisms.
  *
- * The companion has a separate workspace, so its evaluations do not touch the run's solver or
- * counters. If it fails, or costs too much compared with the run, for example because of stiff
- * forces, it ends and the error is unknown. */
+ * The companion has its own workspace. Its evaluations therefore do not change the solver or the
+ * counters of the run. The companion ends if it fails, or if it costs too much compared with the
+ * run, for example because of stiff forces. The error of the run is then unknown. */
 #include "simulate/companion.h"
 
 #include <math.h>
@@ -29,59 +31,61 @@
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
 
-/* Difference, relative to the scales, above which the run is doubtful. The error of a correct
- * result is below 0.01, that of a wrong one above 0.1. */
+/* If run and companion differ by more than this, relative to the scales, the run is doubtful.
+ * Correct results have errors below 0.01, and wrong results have errors above 0.1. */
 static const double DOUBTFUL = 0.03;
-/* The run warns if the difference lasts longer than this fraction of 1/rate. */
+/* The run warns if the difference stays above DOUBTFUL for longer than this fraction of 1/rate. */
 static const double LASTING = 0.1;
-/* The warning recommends the step at which the run would have about this error. It is well below
+/* The warning recommends a step with which the run would have about this error. FINE is well below
  * DOUBTFUL, because the error continues to grow after the warning. */
 static const double FINE = 0.002;
-/* Sum of local errors below which no companion is necessary. Amplified by 1e3 it is negligible, and
- * amplified by 1e4 it does not make the result wrong. */
+/* If the sum of local errors is below this, no companion is necessary. Multiplied by 1e3, such a
+ * sum is negligible. Multiplied by 1e4, it does not make the result wrong. */
 static const double NEGLIGIBLE = 1e-5;
-/* If (angle of a step)^order is above this, errors may matter before the first error has been
- * estimated. */
+/* Errors may matter before the first local error has been estimated, if (angle of a step)^order is
+ * above this. */
 static const double COARSE = 1e-3;
-/* rtol of rk8. Even if errors are amplified by 1e3, the error of the companion stays below 0.01, as
- * in a correct result. */
+/* Tolerance rtol of rk8 as a companion. Even if errors are multiplied by 1e3 during the motion, the
+ * error of the companion stays below 0.01. A result with this error counts as correct. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-static const double LEAST_RTOL = 1e-13; /* below this, rounding dominates */
-/* Largest number of evaluations of the companion per evaluation of the run: MOST_COST for a check
- * that was not requested, so that it does not slow the run down much. FREE further evaluations are
- * allowed, because short runs with long steps take few evaluations. */
+static const double LEAST_RTOL = 1e-13; /* with smaller tolerances, rounding errors dominate */
+/* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST is for a
+ * companion that the user has not requested, so that it does not slow the run down much. FREE
+ * further evaluations are always allowed, because short runs with long steps take only few
+ * evaluations. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
 
 enum {
-  STRIDE = 8, /* number of steps between stored states */
-  /* The error of the run is unknown if the local error is unknown in more steps than this, and in
-   * more than a quarter of all steps. */
+  STRIDE = 8, /* number of steps between two stored states */
+  /* The local errors of some steps are unknown. The error of the run is unknown if these are more
+   * than UNSEEN steps and more than a quarter of all steps. */
   UNSEEN = 16
 };
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
-  /* The members before `method` are plain numbers, which are saved. */
+  /* The members before `method` are plain numbers. They are part of a saved run. */
   int64_t unseen; /* number of steps whose local errors are unknown */
-  int64_t begun;  /* number of evaluations of the run before the companion started */
+  int64_t begun;  /* number of evaluations of the run when the companion started */
   double sum;     /* sum of local errors */
-  double apart;   /* [s] time since which run and companion differ; NaN: they agree */
-  int32_t doing;  /* a state_of_companion */
+  double apart;   /* [s] time at which run and companion began to differ, or NaN while they agree */
+  int32_t doing;  /* a value of the enum state_of_companion */
 
   const baum_integrator *method;
   baum_workspace *workspace;
-  baum_i_problem problem; /* of the companion */
+  baum_i_problem problem; /* the problem that the companion integrates */
   void *self;
-  baum_i_local_error local; /* local errors of the run */
-  baum_i_state state;       /* start of the companion's next step */
-  baum_i_state at;          /* present state of the run */
-  baum_i_state kept[2]; /* earlier states of the run: [0] at least STRIDE steps old, [1] newer */
+  baum_i_local_error local; /* the local errors of the run */
+  baum_i_state state;       /* state at the start of the companion's next step */
+  baum_i_state at;          /* the present state of the run */
+  /* Earlier states of the run: [0] is at least STRIDE steps old, [1] is newer. */
+  baum_i_state kept[2];
 };
 
 /* ---- life ---- */
@@ -186,8 +190,8 @@ static void compare_positions(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-/* Warn if the difference has lasted long enough. At the end of a call, warn even if it has lasted a
- * short time only, because the state is reported. */
+/* Warn if run and companion have differed for long enough. At the end of a call, warn even if they
+ * have differed for a short time only, because the user receives this state. */
 static void warn_if_apart(baum_simulation *run, double t, bool ends)
 {
   const baum_i_companion *c = run->companion;
@@ -199,7 +203,8 @@ static void warn_if_apart(baum_simulation *run, double t, bool ends)
 
 /* ---- following the run ---- */
 
-/* Find the companion's state at the time of the run, which is inside the companion's last step. */
+/* Find the companion's state at time t of the run. This time is inside the last step of the
+ * companion. */
 static baum_status interpolate_at(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
@@ -230,7 +235,8 @@ static baum_status go_to(baum_simulation *run, double t)
   return interpolate_at(run, t);
 }
 
-/* Follow the run to a state and compare. A failure of the companion does not concern the run. */
+/* Follow the run to a state, and compare the companion with this state. If the companion fails, the
+ * run continues without it. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
@@ -302,7 +308,7 @@ void baum_i_companion_begin(baum_simulation *run)
   }
 }
 
-/* Tell whether errors may matter, so that the companion must start. */
+/* Tell whether the errors of the run may matter. If so, the companion must start. */
 static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
@@ -311,7 +317,8 @@ static bool may_matter(baum_simulation *run)
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;
   if (c->unseen > UNSEEN && 4 * c->unseen > run->counters.steps) {
-    run->counters.error_estimate = (double)NAN; /* unknown, because inputs change every few steps */
+    /* The error is unknown, because inputs change every few steps. */
+    run->counters.error_estimate = (double)NAN;
   }
   c->sum += baum_i_local_error_of_step(&c->local, run);
   return !(c->sum <= NEGLIGIBLE);

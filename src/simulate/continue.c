@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run that continues from the present state of another run of the same mechanism, with its own
- * options. */
+/* Creates a run that continues from the present state of another run. Both runs belong to the same
+ * mechanism, but the new run has its own options. */
 #include "base/alloc.h"
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* Copies of the present state, inputs and driver laws of a run. */
+/* Copies of the present state, the inputs and the driver laws of a run. */
 typedef struct standing {
-  double *q;          /* (nq) */
-  double *v;          /* (nv) */
-  double *inputs;     /* (input_count) */
-  double *parameters; /* own parameters of the run; NULL: those of the mechanism */
+  double *q;      /* (nq) */
+  double *v;      /* (nv) */
+  double *inputs; /* (input_count) */
+  /* The parameters of elements that this run has changed, or NULL if it uses those of the
+   * mechanism. */
+  double *parameters;
   baum_i_schedule schedule;
 } standing;
 
@@ -38,7 +40,7 @@ static void clear_standing(standing *s)
   baum_i_free(s->schedule.jumps);
 }
 
-/* Exchange these inputs, parameters and schedule with those of the run. */
+/* Exchange the inputs, parameters and schedule in *s with those of the run. */
 static void exchange(baum_simulation *run, standing *s)
 {
   baum_workspace *w = run->workspace;
@@ -76,8 +78,8 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
-    /* The other run may have a violation that this one does not accept. Projection removes it by
-     * the least change of q and v. */
+    /* The state of the other run may violate the constraints by more than this run accepts.
+     * Projection then removes the violation and changes q and v as little as possible. */
     if (simulation->options.start != BAUM_START_AS_GIVEN) {
       status = baum_i_project(simulation->workspace, from->state.t, theirs.q, theirs.v);
     }

@@ -1,19 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The search for events, which is the same for all integrators (docs/theory/events.md). g(t) is the
- * value of an event in the motion that outputs show. With variable steps this motion is the
- * interpolant of the last step, projected if the formulation includes projection. With fixed steps
- * it is the end of a shorter step from the same start.
+/* Searches for events. The search is the same for all integrators (docs/theory/events.md). The
+ * value of an event at time t is g(t). It is computed from the state that outputs would show at
+ * this time. With variable steps, this state is the interpolant of the last step. If the
+ * formulation includes projection, the interpolated state is projected. With fixed steps, this
+ * state is the end of a shorter step from the same start.
  *
- * Signs of g are compared at the quarters of a step, at outputs and at the end of the step. A
- * quarter is first checked cheaply, on the interpolant without projection or on the cubic
- * polynomial through both ends. g is evaluated only if this check shows another sign. The side of
- * zero of each event is stored from check to check, also from step to step, because interpolants of
- * successive steps do not meet exactly. Therefore no event is found twice or lost.
+ * The sign of g is compared at the quarters of each step, at outputs, and at the end of the step.
+ * At a quarter, g is first computed for an approximate state that costs little: the interpolant
+ * without projection, or the cubic polynomial through both ends of the step. The accurate state is
+ * computed only if the approximate state shows another sign. Interpolants of successive steps do
+ * not meet exactly. The side of zero on which each event was is therefore stored from one check to
+ * the next, and from one step to the next. Because of this, no event is found twice, and none is
+ * lost.
  *
- * Between two times with different signs the secant method finds the zero of g, with the weights of
- * Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects. New times are at
- * least half the tolerance away from both ends, and the search stops when the distance of the ends
- * is one tolerance. The event is at the later time, where g has passed zero. */
+ * When g has different signs at two times, the secant method finds the zero between them. It uses
+ * the weights of Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects the
+ * interval instead. New times keep a distance of half the tolerance from both ends of the interval.
+ * The search stops when the ends are one tolerance apart. The time of the event is the later end,
+ * where g has already passed zero. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -24,15 +28,15 @@
 
 enum { QUARTERS = 4, MOST_TRIES = 300 };
 
-/* Times that differ by less than ROUNDINGS rounding errors, or by less than SAME_TIME / rate, count
- * as equal. */
+/* Two times count as equal if they differ by less than ROUNDINGS rounding errors or by less than
+ * SAME_TIME / rate. */
 static const double ROUNDINGS = 4.0;
 static const double SAME_TIME = 1e-12;
 
-/* An interval of time in which an event passes zero. */
+/* An interval of time in which the value of an event passes zero. */
 typedef struct bracket {
-  double a, b;   /* earlier and later time along the run */
-  double fa, fb; /* of opposite signs */
+  double a, b;   /* the ends of the interval: the run reaches a first, then b */
+  double fa, fb; /* the values at a and b, which have opposite signs */
   enum { NOT_MOVED, BEFORE, AFTER } last_moved;
 } bracket;
 
@@ -53,8 +57,9 @@ static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out
   baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
-/* For fractions of a step below this, the cubic polynomial equals the motion up to rounding. It is
- * used instead of a step, because some methods divide by the step. */
+/* If only a smaller fraction than this of a step is wanted, the cubic polynomial equals the motion
+ * up to rounding. The polynomial is then used instead of a step, because some methods divide by the
+ * length of the step. */
 static const double SHORTEST = 1e-9;
 
 static baum_status find_state_by_step(baum_simulation *run, double t)
@@ -70,7 +75,7 @@ static baum_status find_state_by_step(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Set the trial state to the state that outputs show at t. */
+/* Set the trial state to the state that outputs would show at time t. */
 static baum_status find_state(baum_simulation *run, double t)
 {
   if (baum_i_run_has_fixed_step(run)) {
@@ -83,7 +88,8 @@ static baum_status find_state(baum_simulation *run, double t)
   return baum_i_run_inside(run, t);
 }
 
-/* Set events->look to an approximation of the state at t that costs less than find_state(). */
+/* Set events->look to an approximation of the state at time t. This costs less than
+ * find_state(). */
 static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
@@ -109,8 +115,8 @@ static bool has_passed(const baum_i_events *events, int k)
   return side != 0 && baum_i_sign(events->list[k].next) != side;
 }
 
-/* Return the direction in which event k passes zero as time increases, also if the run goes
- * backward. */
+/* Return the direction in which the value of event k passes zero as time increases. The direction
+ * refers to increasing time even if the run goes backward. */
 static int32_t direction_of(const baum_simulation *run, int k)
 {
   return run->events->marks[k].side * run->problem.direction < 0.0 ? 1 : -1;
@@ -128,7 +134,7 @@ static double tolerance_of(const baum_i_event *event, double t)
   return event->def.tolerance > rounding ? event->def.tolerance : rounding;
 }
 
-/* Choose the next time to evaluate. */
+/* Choose the next time at which the value is evaluated. */
 static double choose_time(const bracket *is, double tolerance, int try)
 {
   double width = is->b - is->a;
@@ -143,8 +149,9 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Replace one end by x: a if x is before the event, otherwise b. If the same end was replaced last
- * time, halve the value at the other end (Illinois). */
+/* Replace one end of the interval by x. If x is before the event, it replaces a, otherwise b. If
+ * the same end was also replaced in the last iteration, halve the value at the other end. This is
+ * the Illinois method. */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -157,7 +164,7 @@ static void narrow_bracket(bracket *is, double x, double value, bool before)
   is->last_moved = before ? BEFORE : AFTER;
 }
 
-/* Return the bracket from events->t to t, in which event k has passed zero. */
+/* Return the interval from events->t to t as a bracket. The value of event k passes zero in it. */
 static bracket bracket_of(const baum_simulation *run, int k, double t)
 {
   const baum_i_event_mark *mark = &run->events->marks[k];
@@ -168,7 +175,8 @@ static bracket bracket_of(const baum_simulation *run, int k, double t)
                    .fb = run->events->list[k].next};
 }
 
-/* Locate event k, which has passed zero between events->t and t. Changes `next` of all events. */
+/* Locate event k, which has passed zero between events->t and t. This changes `next` of all
+ * events. */
 static baum_status locate(baum_simulation *run, int k, double t)
 {
   baum_i_event *event = &run->events->list[k];
@@ -198,7 +206,7 @@ static void record_event(baum_simulation *run, int k, double t)
   events->recorded++;
 }
 
-/* Tell whether event k leaves zero at the start, which does not count as an event. */
+/* Tell whether event k only leaves zero after the start. This does not count as an event. */
 static bool leaves_zero(const baum_simulation *run, int k)
 {
   const baum_i_events *events = run->events;
@@ -220,7 +228,8 @@ static int first_found(const baum_simulation *run)
   return first;
 }
 
-/* Return the last of the event times that count as equal to that of event `first`. */
+/* Some events may happen at times that count as equal to the time of event `first`. Return the last
+ * of these times. */
 static double end_of_group(const baum_simulation *run, int first)
 {
   const baum_i_events *events = run->events;
@@ -237,7 +246,8 @@ static double end_of_group(const baum_simulation *run, int first)
   return end;
 }
 
-/* Record all events up to `end`, with the time `end`. Returns a terminal event, or -1. */
+/* Record all events that happen up to the time `end`. Each is recorded with the time `end`. If a
+ * terminal event is among them, return its index, otherwise -1. */
 static int record_group(baum_simulation *run, double end)
 {
   baum_i_events *events = run->events;
@@ -276,7 +286,7 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
-/* Deliver events in order of time, up to the first terminal one. */
+/* Deliver events to the user in the order of their times. Stop after the first terminal event. */
 static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
@@ -289,8 +299,8 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Tell whether any event has changed its side of zero. If `leaving`, leaving zero counts as a
- * change. */
+/* Tell whether the value of any event has changed its side of zero. If `leaving` is true, a value
+ * that leaves zero also counts. */
 static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
   bool any = false;
@@ -301,8 +311,8 @@ static bool any_has_passed(const baum_i_events *events, bool leaving)
   return any;
 }
 
-/* Locate all events that have passed zero at t, where the values are known. Afterwards the values
- * are again those at t. */
+/* The values at time t are known. Locate all events whose value has passed zero before t.
+ * Afterwards `next` again contains the values at time t. */
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
@@ -315,7 +325,7 @@ static baum_status locate_all(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* Store the values and sides at t. */
+/* Store the values and the sides of zero at time t. */
 static void keep_values(baum_i_events *events, double t)
 {
   events->t = t;
@@ -327,7 +337,7 @@ static void keep_values(baum_i_events *events, double t)
   }
 }
 
-/* Search for events from events->t to t. */
+/* Search for events between events->t and t. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;

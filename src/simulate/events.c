@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a run: definitions, values, start and records. event_search.c searches. */
+/* Manages the events of a run: their definitions, their values, the start of the search, and the
+ * records. The search itself is in event_search.c. */
 #include "simulate/events.h"
 
 #include <assert.h>
@@ -90,7 +91,8 @@ void baum_i_events_destroy(baum_i_events *events)
   }
 }
 
-/* Allocate memory for one more event and copy its name. The count does not change. */
+/* Allocate memory for one more event and copy its name. The number of events does not change
+ * yet. */
 static baum_status make_room(baum_i_events *events, const baum_event_def *def)
 {
   assert(events);
@@ -155,8 +157,8 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 
 /* ---- start of the search ---- */
 
-/* Fraction of 1/rate within which times are equal, for methods that start exactly at the given
- * state. */
+/* Fraction of 1/rate within which times count as equal. It applies to methods that start exactly at
+ * the given state. */
 static const double NO_TIME = 1e-10;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
@@ -167,7 +169,7 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-/* Start the search at the present state with the values there. */
+/* Start the search at the present state, with the values of the events there. */
 static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
@@ -186,9 +188,9 @@ void baum_i_events_begin(baum_simulation *run)
   take_values(run, true);
 }
 
-/* An event that has just been recorded may seem to recur at once, because a method starts with a
- * small difference from the state or because the run changes its direction. This counts as leaving
- * zero. */
+/* An event that has just been recorded may seem to happen again at once. This is so if a method
+ * starts with a small difference from the state, or if the run changes its direction. It then
+ * counts as an event that leaves zero, which is not recorded. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   take_values(run, false);
@@ -236,7 +238,7 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK && number == 0) { /* a run without events needs no memory for them */
+  if (status != BAUM_OK && number == 0) { /* a run without events needs no memory for events */
     baum_i_events_destroy(simulation->events);
     simulation->events = NULL;
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a run: on which side of zero the value of each event is, and the search for the times
- * at which it passes zero. */
+/* The events of a run. A run stores on which side of zero the value of each event is, and searches
+ * for the times at which a value passes zero. */
 #ifndef BAUM_I_SIMULATE_EVENTS_H
 #define BAUM_I_SIMULATE_EVENTS_H
 
@@ -10,56 +10,62 @@
 
 enum { BAUM_I_EVENT_RECORDS = 1024 };
 
-/* State of an event at the time up to which the run has been searched. */
+/* The state of one event at the time up to which the run has been searched. */
 typedef struct baum_i_event_mark {
   double value;
-  double last;   /* [s] time of its last record; NaN: none */
-  int32_t side;  /* side of zero: -1, 1, or 0 while the value is exactly zero */
-  int32_t fresh; /* 1: value has not passed zero since the start, so leaving zero is not an event */
+  double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
+  int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
+  /* 1 if the value has not passed zero since the start; if it then leaves zero, this is not an
+   * event. */
+  int32_t fresh;
 } baum_i_event_mark;
 
 typedef struct baum_i_event {
-  baum_event_def def; /* owns its `name` */
-  int joint;          /* joint whose coordinate is the value, or -1 */
-  double next;        /* value at the state evaluated last */
-  double found;       /* time at which it passes zero in the present interval; NaN: none */
+  baum_event_def def; /* this struct owns the string `name` of the definition */
+  int joint;          /* the joint whose coordinate is the value of the event, or -1 */
+  double next;        /* value in the state that was evaluated last */
+  /* [s] time at which the value passes zero in the present interval, or NaN if it does not. */
+  double found;
 } baum_i_event;
 
 struct baum_i_events {
-  /* The members before `list` are plain numbers, which are saved. */
+  /* The members before `list` are plain numbers. They are part of a saved run. */
   int64_t recorded;
   double t;     /* the motion has been searched up to t */
-  double begin; /* time of the last start of the search */
-  double from;  /* variable step: start of the last step */
+  double begin; /* [s] time at which the search was last started */
+  double from;  /* [s] start of the last step, for variable steps */
 
   baum_i_event *list;       /* (count) */
   baum_i_event_mark *marks; /* (count) */
   int count;
-  double *memory;                                  /* memory of `look` */
-  baum_i_state look;                               /* a state inside the present step */
-  baum_event_record records[BAUM_I_EVENT_RECORDS]; /* the last records; record k is at k mod size */
+  double *memory;    /* memory of `look` */
+  baum_i_state look; /* a state inside the present step */
+  /* The last records: record k is stored at index k modulo the size of the array. */
+  baum_event_record records[BAUM_I_EVENT_RECORDS];
 };
 
 void baum_i_events_destroy(baum_i_events *events);
 
-/* Call the following functions only if run->events is not NULL. */
+/* The following functions may be called only if run->events is not NULL. */
 
-/* Evaluate all events at a state and write the values to `next`. Returns BAUM_OK, BAUM_ERR_CALLBACK
- * or BAUM_ERR_NOT_FINITE. */
+/* Evaluate all events in a state and write their values to `next`. Returns BAUM_OK,
+ * BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
-/* Start the search at the present state, whose values have just been evaluated. begin() is for a
- * new start, go_on() for a motion that continues after a change of equations or direction. */
+/* Start the search at the present state. The events must have been evaluated in this state. begin()
+ * is for a new start. go_on() is for a motion that continues after its equations or its direction
+ * have changed. */
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 
-/* Search the motion up to time `to`. Fixed step: the trial state is the end of a step to `to`; if
- * the search has used the trial state, the step is repeated. Returns BAUM_OK, BAUM_STOP_EVENT with
- * the trial state at the event, or a failure. */
+/* Search the motion for events up to the time `to`. With fixed steps, the trial state must be the
+ * end of a step to `to`. The search may overwrite the trial state, and then it repeats this step.
+ * Returns BAUM_STOP_EVENT if an event has stopped the run, with the trial state at the event.
+ * Otherwise returns BAUM_OK or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
-/* [s] Return the time after a start of the search, or after the last record of the event, within
- * which the event may leave zero without being recorded again. */
+/* [s] After a start of the search or after the last record of the event, the value may still leave
+ * zero. Return the time within which this is not recorded as another event. */
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
 
 static inline int32_t baum_i_sign(double x)

@@ -79,7 +79,8 @@ static void explain_solver(baum_simulation *run)
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
   } else if (run->integrator->solves_residuals) {
-    /* The solver for accelerations solves (5) at the start and for outputs. */
+    /* The integrator solves with its own matrix. The solver for accelerations solves equation (5)
+     * only at the start and for outputs. */
     say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n",
         text.text);
   } else {

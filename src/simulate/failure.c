@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Completes the message of a failed step: the state of the run, the joint and body that are
- * probably the cause, and what may help. The function that failed has already set a message with
- * time and step.
+/* Completes the message of a failed step. It adds the state of the run, the joint and the body that
+ * are probably the cause, and advice. The function that failed has already set a message with the
+ * time and the step.
  *
- * At the last good step, one solution of (5) is computed. It gives
+ * For this purpose, equation (5) is solved once at the last good step. The solution shows
  *
  *   the joint with the largest violation, if it is large, otherwise with the largest multiplier
  *   the body with the largest acceleration
  *
- * All are relative to the scales. */
+ * All these quantities are compared relative to the scales. */
 #include <math.h>
 
 #include "base/text.h"
 #include "simulate/run.h"
 
-/* Smallest violation, as a scaled displacement, that the message mentions. */
+/* The message mentions a violation only if it is larger than this scaled displacement. */
 static const double VIOLATED = 1e-3;
 
 static const char *advice_for(baum_status status)
@@ -33,7 +33,8 @@ static const char *advice_for(baum_status status)
   }
 }
 
-/* Find the largest |x_i| n_i if `times`, otherwise |x_i| / n_i. */
+/* If `times` is true, find the row i with the largest |x_i| n_i, otherwise the row with the largest
+ * |x_i| / n_i. */
 static int find_largest(const double *x, const double *n, int count, bool times, double *largest)
 {
   int row = -1;
@@ -76,7 +77,7 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Add the data that do not require a solution. */
+/* Add the facts about the run for which no solution is needed. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;
@@ -87,7 +88,8 @@ static void append_history(const baum_simulation *run, char *text, size_t size)
   }
 }
 
-/* Add the state of the run. The evaluations for this message are not counted. */
+/* Add facts about the state of the run. This function evaluates the mechanism, but these
+ * evaluations are not counted. */
 static void append_place(baum_simulation *run, const baum_i_state *at, char *text, size_t size)
 {
   baum_workspace *w = run->workspace;

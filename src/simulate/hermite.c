@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Let l_k be the Lagrange polynomials of the times t_i: l_k(t_i) = 1 for i = k, otherwise 0. With
- * s_k = l_k'(t_k) the polynomial is
+/* Computes a polynomial p(t) that passes through several states, called knots, with their
+ * velocities. Let l_k be the Lagrange polynomials of the times t_i. Each is 1 at its own time,
+ * l_k(t_k) = 1, and 0 at the other times. With s_k = l_k'(t_k) the polynomial is
  *
  *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 q'_k,  q'_k = N(q_k) v_k
  *
- * and v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The
- * factors of q_k and q'_k are the same for all coordinates. The factors of q_k add up to 1 and
- * their derivatives to 0. p is therefore q_0 plus the combination of the differences q_k - q_0, and
- * angles after many revolutions lose no digits.
+ * The velocity is v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section
+ * 2.1.5.) The factors of q_k and of q'_k are the same for all coordinates. The factors of q_k add
+ * up to 1, and the derivatives of these factors add up to 0. p is therefore computed as q_0 plus
+ * the combination of the differences q_k - q_0. Computed in this way, angles lose no digits even
+ * after many revolutions.
  */
 #include "simulate/hermite.h"
 
 #include <string.h>
 
-/* Factors of q_k and q'_k of a knot. */
+/* The factors by which q_k and q'_k of one knot are multiplied. */
 typedef struct factors {
   double q;
   double v;
@@ -24,7 +26,7 @@ typedef struct factors {
 static factors find_factors(const baum_i_knot *knots, int count, int k, double t)
 {
   double l = 1.0;
-  double rate = 0.0; /* derivative of l */
+  double rate = 0.0; /* derivative of the Lagrange polynomial l */
   double slope = 0.0;
   for (int i = 0; i < count; i++) {
     if (i != k) {
@@ -46,7 +48,7 @@ static factors find_factors(const baum_i_knot *knots, int count, int k, double t
 void baum_i_hermite(const baum_mechanism *m, const baum_i_knot *knots, int count, double t,
                     double *q, double *v, double *work)
 {
-  double *slope = m->flat ? v : work; /* q' */
+  double *slope = m->flat ? v : work; /* q', the derivative of p */
   double *room = work + m->nq;
   for (int i = 0; i < m->nq; i++) {
     q[i] = slope[i] = 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* External changes during a run: values and schedules of inputs, and new driver laws. All change
- * the right side of the equations abruptly (restart.c). */
+/* Handles changes from outside during a run: new values of inputs, schedules of inputs, and new
+ * driver laws. Each of them changes the right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -44,7 +44,8 @@ double baum_simulation_input(const baum_simulation *simulation, baum_input_id in
 
 /* ---- a schedule of an input ---- */
 
-/* The values of an input from given times on, and its value before the first of these times. */
+/* The values that an input has from given times on, and the value before the first of these
+ * times. */
 typedef struct given {
   int64_t input;
   const double *times;  /* (count) */
@@ -53,8 +54,8 @@ typedef struct given {
   double before;
 } given;
 
-/* Append the jumps of other inputs, beginning with the k-th, up to and including time t. Returns
- * the index of the next jump. */
+/* Append the jumps of other inputs up to and including time t. Begin with jump k of the old list.
+ * Returns the index of the next jump in the old list. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {
@@ -67,7 +68,8 @@ static int append_others(const baum_i_schedule *old, int k, double t, int64_t in
   return k;
 }
 
-/* Merge the jumps in order of time. A value equal to the last one is not a jump. */
+/* Merge the new jumps of one input with the jumps of the other inputs, in the order of time. If a
+ * new value equals the value before it, it is not a jump and is left out. */
 static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);
@@ -84,7 +86,8 @@ static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_sched
   (void)append_others(old, next, (double)INFINITY, g->input, out);
 }
 
-/* Use a new list in the run, and restart the run, because its last step may end after a jump. */
+/* Let the run use a new list of jumps. The run is restarted, because its last step may end after a
+ * jump of the new list. */
 static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *made, int64_t input)
 {
   double *present = &run->workspace->inputs[input];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks before each step whether the run must stop: because of baum_simulation_cancel(), the
- * result of progress(), too many steps, or steps that are too short.
+ * result of progress(), its time limit, too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
@@ -30,6 +30,17 @@ baum_status baum_simulation_set_progress_interval(baum_simulation *simulation, d
                        interval);
   }
   simulation->options.progress_interval = interval;
+  return BAUM_OK;
+}
+
+baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit)
+{
+  const char *call = "baum_simulation_set_time_limit";
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  if (!(limit > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: limit is %g s, must be > 0", call, limit);
+  }
+  simulation->time_limit = limit;
   return BAUM_OK;
 }
 
@@ -102,10 +113,20 @@ baum_status baum_i_run_is_wanted(baum_simulation *run)
            : BAUM_OK;
 }
 
+baum_status baum_i_run_has_time(const baum_simulation *run)
+{
+  if (run->deadline == (double)INFINITY || baum_i_wall_seconds() < run->deadline) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_STOP_TIME, "t = %.9g s: the time limit of the call, %g s, has passed",
+                     baum_i_run_last_end(run), run->time_limit);
+}
+
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
 {
   double t = baum_i_run_last_end(run);
   BAUM_I_TRY(baum_i_run_is_wanted(run));
+  BAUM_I_TRY(taken > 0 ? baum_i_run_has_time(run) : BAUM_OK);
   if (taken >= run->options.max_steps) {
     return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
                        (long long)run->options.max_steps);

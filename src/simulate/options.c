@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Defaults and checks of the options of a run. */
+/* Sets the defaults of the options of a run, and checks options. */
 #include "simulate/options.h"
 
 #include <math.h>
@@ -34,10 +34,11 @@ static baum_status refuse(const char *field, const char *unit, double value, con
 
 /* ---- numbers ---- */
 
-/* The kind of steps that a method takes with the given options. */
+/* The kind of steps that a method takes when it has the given options. */
 typedef enum stepping { FIXED_STEP, VARIABLE_STEP, NO_STEP } stepping;
 
-/* Why a method refuses a number, by the kind of its steps. */
+/* The reason why a method refuses a number. It depends on the kind of steps that the method
+ * takes. */
 static const char *const WHY_NOT[] = {
   [FIXED_STEP] = "has a fixed step; give step alone",
   [VARIABLE_STEP] = "chooses its own steps; give rtol alone",
@@ -45,13 +46,13 @@ static const char *const WHY_NOT[] = {
                "tolerance"),
 };
 
-/* A number of the options and its limits. */
+/* A number among the options, with its limits. */
 typedef struct number {
   const char *name;
   const char *unit;
   size_t offset;
-  bool takes[3]; /* by `stepping`: the number may be given */
-  bool required; /* the number must be given if it may be given */
+  bool takes[3]; /* for each kind of stepping: whether the number may be given */
+  bool required; /* whether the number must be given if it may be given */
   double unset;  /* value that means "not given" */
   double least;
   double most;
@@ -74,8 +75,9 @@ typedef struct number {
     [VARIABLE_STEP] = true, [NO_STEP] = true \
   }
 
-/* The table of all numbers. The factors on tolerances are last; methods without a tolerance refuse
- * them. check_multipliers() refuses tolerance_lambda if it does not apply. */
+/* The table of all numbers among the options. The factors on tolerances are at the end of the
+ * table. Methods without a tolerance refuse them. If tolerance_lambda is not allowed,
+ * check_multipliers() refuses it. */
 /* clang-format off */
 static const number NUMBERS[] = {
   {NUMBER(step, "s"), {[FIXED_STEP] = true}, .required = true, .unset = NAN, .most = INFINITY,
@@ -125,7 +127,8 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
   return check_range(n, x);
 }
 
-/* Check all numbers. A method with both kinds of steps uses the kind whose number is given. */
+/* Check all numbers. If a method has both kinds of steps, the kind depends on which number is
+ * given. */
 static baum_status check_numbers(const baum_simulation_options *o)
 {
   const baum_integrator *method = o->integrator;
@@ -160,7 +163,8 @@ static baum_status check_choices(const baum_simulation_options *o)
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }
 
-/* Check that the integrator offers the formulation, and replace the default. */
+/* Check that the integrator offers the formulation. If the formulation is the default, replace it
+ * by the integrator's first one. */
 static baum_status check_pair(baum_simulation_options *o)
 {
   const baum_formulation *offered = o->integrator->formulations;
@@ -209,9 +213,9 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* Check tolerance_lambda. It is allowed at index 1 only, where multipliers are as smooth as
- * accelerations. In other forms the error estimate of an implicit method does not decrease with the
- * step as it should. */
+/* Check tolerance_lambda. It is allowed only at index 1, because multipliers are as smooth as
+ * accelerations there. In the other forms, the error estimate of an implicit method does not
+ * decrease with the step as fast as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {

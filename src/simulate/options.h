@@ -5,8 +5,9 @@
 
 #include <baum/simulation.h>
 
-/* Check all fields except struct_size, and their combinations. Returns BAUM_OK, BAUM_ERR_ARGUMENT
- * or BAUM_ERR_UNSUPPORTED. On success, the default formulation is replaced by the actual one. */
+/* Check all fields except struct_size, and check that the fields are compatible. Returns BAUM_OK,
+ * BAUM_ERR_ARGUMENT or BAUM_ERR_UNSUPPORTED. If the formulation is the default, it is replaced by
+ * the formulation that is actually used. */
 baum_status baum_i_options_check(baum_simulation_options *options);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Channels: the outputs of a run at a state. Accelerations, multipliers and reactions need one
- * solution of (5), which is computed once per row of output, and only if a channel needs it. */
+/* Computes the channels, which are the outputs of a run in one state. Accelerations, multipliers
+ * and reactions require a solution of equation (5). It is computed only if a channel needs it, and
+ * only once for each row of output. */
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -15,7 +16,7 @@
 
 /* ---- quantities ---- */
 
-/* What the columns describe. */
+/* The objects to which the columns of a quantity belong. */
 typedef enum object {
   OF_NOTHING,
   OF_Q,
@@ -27,7 +28,7 @@ typedef enum object {
   OF_JOINT
 } object;
 
-/* What a quantity requires. Each level includes the levels before. */
+/* What must be evaluated for a quantity. Each level includes all levels before it. */
 typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
 
 typedef struct facts {
@@ -36,7 +37,7 @@ typedef struct facts {
   const char *word;
 } facts;
 
-/* Indexed by quantity. 0 is not a quantity. */
+/* The table is indexed by the quantity. There is no quantity 0. */
 static const facts table[] = {
   [0] = {OF_NOTHING, DEPTH_FRAMES, "nothing"},
   [BAUM_Q] = {OF_Q, DEPTH_FRAMES, "positions"},
@@ -61,14 +62,14 @@ static facts facts_of(baum_quantity quantity)
   return table[k < sizeof table / sizeof *table ? k : 0];
 }
 
-/* A part of a vector of length nq, nv or nc. */
+/* A part of a vector whose length is nq, nv or nc. */
 typedef struct slice {
   int first;
   int count;
 } slice;
 
-/* Return the slice of a channel, whose ids have been checked: that of a body, of a joint, or the
- * whole vector. */
+/* Return the slice that a channel shows: the entries of a body, the entries of a joint, or the
+ * whole vector. The ids of the channel must have been checked. */
 static slice slice_of(const baum_mechanism *m, const baum_channel *c)
 {
   object of = facts_of(c->quantity).of;
@@ -187,8 +188,8 @@ baum_channel baum_i_channel(const baum_channel *channels, int k)
   return channel;
 }
 
-/* Check struct_size. The size of the first channel is the distance between channels in the
- * array. */
+/* Check struct_size. The struct_size of the first channel is also the distance between channels in
+ * the array. */
 static baum_status check_size(const baum_channel *channels, int k)
 {
   const size_t size = channels->struct_size;
@@ -257,7 +258,7 @@ static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
 
 /* ---- values; each returns its width ---- */
 
-/* Return the vector of which the quantity is a slice. */
+/* Return the whole vector to which the quantity belongs. */
 static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
                                baum_quantity quantity)
 {
@@ -281,7 +282,7 @@ static int fill_slice(const baum_workspace *w, const baum_i_state *state, const 
   return s.count;
 }
 
-/* r'' = a + alpha p' - w^2 p (mechanism/planar/planar.h) */
+/* Compute r'' = a + alpha p' - w^2 p, as in mechanism/planar/planar.h. */
 static void fill_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
 {
   const double *p = marker->arm;
@@ -291,7 +292,7 @@ static void fill_acceleration(const baum_i_marker *marker, const double a[3], do
   out[2] = a[2];
 }
 
-/* r'' = a + A (w' x s + w x (w x s)) */
+/* Compute r'' = a + A (w' x s + w x (w x s)). */
 static void fill_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
                                       const double a[6], double out[6])
 {
@@ -361,7 +362,8 @@ static int fill_joint(const baum_workspace *w, const baum_channel *c, double *ou
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    out[0] = -w->lambda[joint->row]; /* because its row of J is the gradient of the coordinate */
+    /* The row of J of this coordinate is the gradient of the coordinate. */
+    out[0] = -w->lambda[joint->row];
     return 1;
   }
   const baum_i_joint_coordinate of =
@@ -382,15 +384,15 @@ static int fill_channel(const baum_workspace *w, const baum_i_state *state, cons
   case OF_ROWS: return fill_slice(w, state, c, out);
   case OF_BODY: return fill_body(w, state, c, out);
   case OF_JOINT: return fill_joint(w, c, out);
-  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled by fill_energies() */
+  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* fill_energies() writes the values */
   case OF_ENERGY:
   case OF_NOTHING:
-  default: return 2; /* energies, also filled by fill_energies() */
+  default: return 2; /* energies; fill_energies() writes the values */
   }
 }
 
-/* Check that values are finite. Velocities of distant points and reactions may overflow. Energies
- * and the account are filled later. */
+/* Check that values are finite. Velocities of distant points may overflow, and so may reactions.
+ * Energies and the energy account are filled later, so they are not checked here. */
 static baum_status check_channel(const baum_channel *c, int k, const double *out, int width)
 {
   facts f = facts_of(c->quantity);

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pilot run, which finds the mean rate of the motion over its first radians.
+/* A pilot is a short run that finds the mean rate of a motion over its first radians.
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
- * The run takes 5 steps of order 3 with 3 evaluations each, by a Runge-Kutta method that does not
- * store stages (J. H. Williamson, J. Comput. Phys. 35 (1980) 48-56, case 7):
+ * The pilot takes 5 steps. It uses a Runge-Kutta method of order 3 with 3 evaluations for each
+ * step, which does not store its stages (J. H. Williamson, J. Comput. Phys. 35 (1980) 48-56, case
+ * 7):
  *
  *   d := A_i d + h f(y),   y := y + B_i d
  *
- * So few steps need no stabilization. The rate need only be accurate to a tenth. All steps cover
- * about the same angle, so a short fast phase or a singular configuration has little weight. A step
- * is not longer than the time in which gravity swings the mechanism by this angle, so the rate of a
- * mechanism that starts slowly is found from its later motion, too.
+ * The constraints need no stabilization, because there are only few steps. An error of a tenth in
+ * the rate does no harm. All steps cover about the same angle. A short fast phase or a singular
+ * configuration therefore has little influence on the mean rate. No step is longer than the time in
+ * which gravity turns the mechanism by this angle. If a mechanism starts slowly, the pilot
+ * therefore also sees its later motion.
  */
 #include <math.h>
 #include <string.h>
@@ -23,21 +25,21 @@ static const double A[STAGES] = {0.0, -5.0 / 9.0, -153.0 / 128.0};
 static const double B[STAGES] = {1.0 / 3.0, 15.0 / 16.0, 8.0 / 15.0};
 static const double C[STAGES] = {0.0, 1.0 / 3.0, 3.0 / 4.0};
 
-static const double ANGLE = 0.75; /* [rad] per step */
-static const double GROWTH = 2.0; /* largest growth of a step */
+static const double ANGLE = 0.75; /* [rad] angle that the mechanism covers in a step */
+static const double GROWTH = 2.0; /* a step is at most this many times as long as the step before */
 
 typedef struct pilot {
   baum_workspace *workspace;
   baum_i_state *y;
   baum_i_state *d;
-  double swing;  /* [1/s] rate at which gravity swings the mechanism */
-  double h;      /* [s] last step; infinite before the first */
-  double turned; /* [rad] path length so far */
-  double time;   /* [s] */
-  bool ready;    /* accelerations at y are in the workspace */
+  double swing;  /* [1/s] rate at which gravity makes the mechanism swing */
+  double h;      /* [s] length of the last step; infinite before the first step */
+  double turned; /* [rad] angle covered so far */
+  double time;   /* [s] time covered so far */
+  bool ready;    /* whether the workspace contains the accelerations in the state y */
 } pilot;
 
-/* Evaluate the accelerations. Returns false if this fails. */
+/* Evaluate the accelerations. Returns false if the evaluation fails. */
 static bool evaluate(pilot *p)
 {
   const baum_i_state *y = p->y;

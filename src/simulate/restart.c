@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restarts after an abrupt change: of an input, the law of a driver, the omitted rows, or a
- * function at a break.
+/* Restarts a run after an abrupt change. The change may be that of an input, of the law of a
+ * driver, of the set of omitted rows, or of a function at a break.
  *
- * A fixed-step method without a history starts every step from the state alone, so no restart is
- * necessary. A variable-step method has a history and restarts from the present state, which may be
- * before the end of its last step. */
+ * A fixed-step method without a history computes every step from the present state alone, so it
+ * needs no restart. A variable-step method has a history, and it must restart from the present
+ * state. The present state may be before the end of the method's last step. */
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"
@@ -56,8 +56,8 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  /* Kinematics has computed the configuration on the far side of the break. Its velocities may
-   * differ. */
+  /* Kinematics has already computed the configuration on the far side of the break. Its velocities
+   * may differ from those on the near side. */
   return run->integrator->without_freedom
            ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,
                                           run->state.v)

@@ -7,8 +7,8 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 
-/* Pass the omitted rows to the account and the companion. If out of memory, they keep the previous
- * omitted rows, which are still valid. */
+/* Copy the set of omitted rows to the workspaces of the account and of the companion. If there is
+ * not enough memory, they keep their previous omitted rows, which are still valid. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -18,10 +18,10 @@ static void tell_others(baum_simulation *run)
   }
 }
 
-/* Project the present state before other rows are omitted. If active rows are ill-conditioned, the
- * violation of the omitted rows is larger than that of the active rows. Without projection the
- * violation would grow tenfold with each new choice of rows. A state that the user has just given
- * is not changed. */
+/* Project the present state before other rows are omitted. If the kept rows are ill-conditioned,
+ * the omitted rows are violated more than the kept rows. Without the projection, the violation
+ * would grow tenfold each time other rows are chosen. A state that the user has just given with
+ * BAUM_START_AS_GIVEN is not changed. */
 static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
@@ -34,12 +34,13 @@ static void project_present(baum_simulation *run)
   }
 }
 
-static const double WHILE = 0.1; /* [rad] motion between two checks */
+static const double WHILE = 0.1; /* [rad] motion between two checks of the rows */
 
-/* Replace the smallest pivot in the check of the rows if KLU or QR solves: pivots of KLU vary
- * irregularly, and pivots of QR fall only very close to a singular configuration. Return 0, which
- * causes a check, after every WHILE of motion, otherwise 1. The checks cost little compared with
- * the other work of these solvers. */
+/* If KLU or QR solves, there is no suitable smallest pivot for the check of the rows: pivots of KLU
+ * vary irregularly, and pivots of QR become small only very close to a singular configuration. This
+ * function returns a number in place of the pivot. It returns 0, which causes a check, each time
+ * the mechanism has moved by WHILE, and otherwise 1. These checks cost little compared with the
+ * other work of the two solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -51,11 +52,12 @@ static double guess_pivot(baum_simulation *run)
   return 0.0;
 }
 
-/* Tell whether the method keeps its history when other rows are omitted. It may if the positions
- * satisfy the constraints, because the motion then does not depend on the choice of rows.
- * Multipliers jump, but variable-step methods do not test their error. GGL restarts because the
- * jump would increase the error (three cranks at rtol 1e-10: 1.5e-7 instead of 1e-9), and INDEX2
- * because the violation of positions would grow with each choice. */
+/* Tell whether the method may keep its history when other rows are omitted. It may keep the history
+ * if the positions satisfy the constraints, because the motion then does not depend on the choice
+ * of rows. The multipliers jump, but variable-step methods do not control the error of multipliers.
+ * GGL restarts, because the jump would increase the error (three cranks at rtol 1e-10: 1.5e-7
+ * instead of 1e-9). INDEX2 restarts, because the violation of positions would grow with each new
+ * choice of rows. */
 static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;
@@ -68,7 +70,7 @@ static baum_status restart(baum_simulation *run)
   project_present(run);
   baum_status status = baum_i_run_restart(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    run->integrator->forget(run->self); /* pivots belong to other rows */
+    run->integrator->forget(run->self); /* its pivots belong to the previous rows */
   }
   return status;
 }

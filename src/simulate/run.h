@@ -89,6 +89,8 @@ struct baum_simulation {
 
   atomic_int cancelled;
   double last_progress; /* [s] */
+  double time_limit;    /* [s] of wall time of a call */
+  double deadline;      /* [s] wall time at which the present call stops */
   bool reporting;       /* within progress() */
   double paced_at;      /* [s] time of the last check of the pace of this call */
 };
@@ -221,6 +223,10 @@ baum_status baum_i_run_restart(baum_simulation *run);
  * this call, or makes no progress. The run then stays at the end of its last step, which is in
  * `ahead` for a variable-step method. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
+
+/* Check after the first step or sample of a call whether its time limit has passed. Returns BAUM_OK
+ * or BAUM_STOP_TIME. */
+baum_status baum_i_run_has_time(const baum_simulation *run);
 
 /* Check before every sample, which may not need a step, whether the run was cancelled. Returns
  * BAUM_OK or BAUM_STOP_CANCELLED. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes parts as bytes: for each part the number of its entries, then the entries, padded to whole
- * words. */
+/* Writes the parts of saved data as bytes. For each part it writes the number of its entries and
+ * then the entries, followed by unused bytes up to a whole word. */
 #include "simulate/saved.h"
 
 #include <assert.h>
@@ -76,7 +76,7 @@ unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to)
   return to;
 }
 
-/* Tell whether counters are so far from overflow that no run reaches it. */
+/* Tell whether counters are so small that no run can make them overflow. */
 static bool counters_are_sound(const unsigned char *at, int counters)
 {
   bool sound = true;

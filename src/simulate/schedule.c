@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scheduled inputs: one list of the jumps of all inputs, in order of time. A jump stores the values
- * before and after it, so that a run can pass it in either direction. An input has the value after
- * its last jump up to the present time. */
+/* The schedule of the inputs of a run. It is one list of the jumps of all inputs, in the order of
+ * time. Each jump stores the value before and the value after it, so that a run can pass the jump
+ * forward and backward in time. At any time, an input has the value after its last jump up to this
+ * time. */
 
 #include <math.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "base/alloc.h"
 #include "simulate/run.h"
 
-/* Return the number of jumps up to and including t. */
+/* Return the number of jumps up to and including the time t. */
 static int count_until(const baum_i_schedule *schedule, double t)
 {
   int first = 0;

@@ -187,6 +187,8 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   BAUM_I_TRY(baum_i_check_memory(run));
   run->options = checked;
   run->integrator = checked.integrator;
+  run->time_limit = (double)INFINITY;
+  run->deadline = (double)INFINITY;
   atomic_init(&run->cancelled, 0);
   baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = baum_i_message_settle(prepare(run, mechanism), &kept);

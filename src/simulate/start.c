@@ -11,13 +11,14 @@
 #include "simulate/crossing.h"
 #include "simulate/events.h"
 
-/* Largest displacement by assembly: LARGEST_MOVE for lengths, relative to the characteristic
- * length, LARGEST_TURN for angles in radians. If the displacement is larger, the branch is probably
- * not the intended one. */
+/* Largest displacement that assembly may cause. LARGEST_MOVE is for lengths and relative to the
+ * characteristic length. LARGEST_TURN is for angles, in radians. If the displacement is larger,
+ * assembly has probably found another branch than the user intended. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
-enum { DRIVER_STEPS = 256 };      /* largest number of steps of assembly along the drivers */
-static const double EXACT = 1e-9; /* violation of an exact start, relative to the scales */
+/* Largest number of steps in which assembly follows the drivers. */
+enum { DRIVER_STEPS = 256 };
+static const double EXACT = 1e-9; /* largest violation of an exact start, relative to the scales */
 
 /* ---- assembled ---- */
 
@@ -30,8 +31,8 @@ static int first_angle(const baum_i_body *body)
                                                          : body->nv);
 }
 
-/* The coordinates of a body from i on form one displacement or rotation vector. Return the index
- * after its last coordinate. */
+/* The coordinates of a body from i on form one displacement vector or one rotation vector. Return
+ * the index after the last coordinate of this vector. */
 static int vector_end(const baum_i_body *body, int i)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
@@ -40,7 +41,8 @@ static int vector_end(const baum_i_body *body, int i)
   return i < first_angle(body) ? first_angle(body) : body->v + body->nv;
 }
 
-/* Return the unit of a coordinate. The user chooses the units of user coordinates. */
+/* Return the unit of a coordinate. User coordinates have units that the user chooses, so their unit
+ * is empty. */
 static const char *unit_of(const baum_i_body *body, int coordinate)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
@@ -49,7 +51,7 @@ static const char *unit_of(const baum_i_body *body, int coordinate)
   return coordinate >= first_angle(body) ? " rad" : " m";
 }
 
-/* Find the name of the joint with the largest violation in the design configuration. */
+/* Return the name of the joint that is violated most in the design configuration. */
 static baum_i_text name_worst_joint(baum_simulation *run, double t, const double *design)
 {
   baum_workspace *w = run->workspace;
@@ -74,7 +76,7 @@ static baum_status fail_far(baum_simulation *run, const double *design, const ba
     limit * scale, unit_of(body, coordinate), joint.text);
 }
 
-/* Find the largest displacement by assembly, and fail if it is too large. */
+/* Find the largest displacement that assembly has caused, and fail if it is too large. */
 static baum_status check_displacement(baum_simulation *run, const double *design, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -109,8 +111,9 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
   return check_displacement(run, before, moved);
 }
 
-/* Write the violations of drivers in the design configuration to their rows; other rows stay zero.
- * Return false if no driver is violated, so that the drivers begin in the design configuration. */
+/* Find by how much each driver is violated in the design configuration, and write this to the rows
+ * of the drivers. The other rows are zero. Return false if no driver is violated. The drivers then
+ * begin in the design configuration. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
@@ -128,8 +131,9 @@ static bool find_driver_violations(baum_simulation *run, double *violations)
   return found;
 }
 
-/* Assemble first with the drivers at their values in the design configuration. Then move the
- * drivers in equal steps to the values at which they begin, and assemble after each step. */
+/* Assemble first with the drivers at the values that they have in the design configuration. Then
+ * move the drivers in equal steps to the values with which the run begins, and assemble after each
+ * step. */
 static baum_status follow_drivers(baum_simulation *run, const double *violations, int steps,
                                   double *left, double *before)
 {
@@ -144,8 +148,9 @@ static baum_status follow_drivers(baum_simulation *run, const double *violations
   return BAUM_OK;
 }
 
-/* Assemble the design configuration. If this fails, the drivers may begin at values far from the
- * design configuration. Then follow the drivers to these values, in more and more steps. */
+/* Assemble the design configuration. This may fail because the drivers begin at values that are far
+ * from the design configuration. In this case follow the drivers to these values. Try this with
+ * more and more steps. */
 static baum_status assemble_positions(baum_simulation *run, const double *design, double *work)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -206,16 +211,22 @@ static baum_status check_exact(baum_simulation *run)
 
 /* ---- velocities that ill-conditioned rows do not determine ---- */
 
-/* Velocities may satisfy ill-conditioned rows up to rounding although the rows do not determine
- * them accurately. For example, if two bodies are connected by two pins a nanometre apart, a
- * relative angular velocity of 1 rad/s violates the rows by only 1e-9 m/s. Accelerations then have
- * errors of the size by which projection would change the velocities. */
-static const double OPEN = 1e-6; /* relative change of velocities above which the run warns */
-static const double CONTRADICTS = 1e-3; /* relative change above which the start is refused */
-static const double ROUNDING = 1e-13;   /* rounding of the rows, relative to the velocities */
+/* Velocities may satisfy ill-conditioned rows up to rounding, although the rows do not determine
+ * these velocities accurately. For example, two bodies may be connected by two pins that are a
+ * nanometre apart. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s.
+ * The accelerations then have errors. Their size is the size of the change of velocities that a
+ * projection would cause. */
+/* If a projection changes the velocities by more than this, relative to their size, the run
+ * warns. */
+static const double OPEN = 1e-6;
+/* If a projection changes the velocities by more than this, relative to their size, the start is
+ * refused. */
+static const double CONTRADICTS = 1e-3;
+/* Rounding errors of the rows, relative to the velocities. */
+static const double ROUNDING = 1e-13;
 
-/* Find the largest velocity violation relative to the size of the velocities, and its row. Returns
- * 0 if nothing moves. */
+/* Find the largest violation of velocities, relative to the size of the velocities, and the row in
+ * which it occurs. If nothing moves, return 0. */
 static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
 {
   double nu = baum_i_row_sizes(w, w->nu, row);
@@ -244,8 +255,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
   return BAUM_OK;
 }
 
-/* Find the relative change of the velocities by projection; 1 if projection fails. If rows depend
- * exactly on others, the change counts as 0. */
+/* Find by how much a projection changes the velocities, relative to their size. If the projection
+ * fails, the change is 1. If some rows depend exactly on others, the change counts as 0. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -279,7 +290,8 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
 
 /* ---- the whole ---- */
 
-/* Set the trial state to the given state, and free velocities to zero. */
+/* Set the trial state to the state that the user has given. Velocities that are free become
+ * zero. */
 static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -291,7 +303,8 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-/* Move fixed bodies to the poses that the welds determine, and ignore given poses. */
+/* Move fixed bodies to the poses that their welds determine. Poses that the user has given for them
+ * are ignored. */
 static void place_fixed_bodies(baum_simulation *run)
 {
   baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
@@ -305,7 +318,7 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
   if (run->options.start == BAUM_START_ASSEMBLE) {
     BAUM_I_TRY(start_assembled(run, v));
   } else {
-    w->point.t = t; /* for the message */
+    w->point.t = t; /* the time that the message shows */
     BAUM_I_TRY(baum_i_check_sizes(w, "velocity", run->trial.v));
     BAUM_I_TRY(run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK);
   }
@@ -353,8 +366,8 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
-/* Check that q is so close to the manifold that its distance can be rounding of the given
- * numbers. */
+/* Rounding of the given numbers may move q off the manifold of valid positions. Check that q is not
+ * farther from it than such rounding explains. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -392,8 +405,9 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* Tell whether a state without free velocities violates the constraints by no more than earlier
- * states of this run. Such a state is not changed, so that a run can return to an earlier state. */
+/* A state without free velocities belongs to this run if it violates the constraints by no more
+ * than earlier states of the run. Tell whether this is so. Such a state is not changed. A run can
+ * therefore return exactly to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
@@ -411,7 +425,7 @@ static bool is_of_this_run(baum_simulation *run, double t, const double *q, cons
   return phi <= run->counters.max_phi && phi_rate <= run->counters.max_phi_rate;
 }
 
-/* Set the trial state to the given state and do everything that can fail. */
+/* Set the trial state to the given state. Do everything here that can fail. */
 static baum_status prepare(baum_simulation *run, double t, const double *q, const double *v,
                            double *energy)
 {
@@ -428,7 +442,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   }
   baum_i_run_choose_rows_anew(run, &run->trial);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    /* last, because a restart cannot be undone */
+    /* this comes last, because a restart cannot be undone */
     BAUM_I_TRY(run->integrator->restart(run->self, &run->problem, &run->trial));
     run->counters.restarts++;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Amplification of a constraint violation by one step.
+/* Computes by which factor one step amplifies a constraint violation.
  *
  *   Phi'' + 2 alpha Phi' + beta^2 Phi = 0                                            (6)
  *   s^2 + 2 alpha s + beta^2 = 0                                                     (17)
@@ -18,11 +18,11 @@
  *                       whether all are inside a circle. Bisection gives the largest |z|, and
  *                       Newton's method in w = z - 1 its last digits.
  *
- * Rounding: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1) is
- * accurate even if gains are small and |z| is close to 1. A^2 - B is set to zero if it is zero up
- * to the rounding of alpha h and beta h. Otherwise a double root on the unit circle, such as that
- * of explicit Euler at (2, 4), would become two roots at a distance of 1e-8, one of them
- * unstable. */
+ * Rounding: everything is computed with w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
+ * is accurate even if the gains are small and |z| is close to 1. If A^2 - B is zero up to the
+ * rounding errors of alpha h and beta h, it is set to zero. Otherwise rounding would split a double
+ * root on the unit circle, such as that of explicit Euler at (2, 4), into two roots at a distance
+ * of 1e-8, and one of them would be unstable. */
 #include "stabilization/amplification.h"
 
 #include <float.h>
@@ -31,21 +31,21 @@
 
 #include "stabilization/schur_cohn.h"
 
-/* A root counts as on the unit circle up to this value of | |z| - 1 |, which is about a hundred
- * times the rounding of gains and step. */
+/* If | |z| - 1 | is at most this, the root z is considered to be on the unit circle. The value is
+ * about a hundred times the rounding errors of gains and step. */
 static const double MARGIN = 1e-12;
 
-/* A^2 - B counts as zero below this multiple of A^2, which allows for the rounding of alpha h and
- * beta h. */
+/* If |A^2 - B| is below this multiple of A^2, it is considered zero. The value allows for the
+ * rounding errors of alpha h and beta h. */
 static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
 
-/* Tolerance for roots on a circle. The radius of a double root is accurate only to about
- * 1e-16^(1/3), see schur_cohn.h. */
+/* Tolerance by which a root may be off a circle. The radius of a double root is accurate only to
+ * about 1e-16^(1/3), see schur_cohn.h. */
 static const double ROOT_TOLERANCE = 1e-4;
 
-/* The result of the test of Schur and Cohn is not used if its margin is below this. */
+/* If the test of Schur and Cohn gives a margin below this, its result is not used. */
 static const double UNDECIDED = 1e-12;
 
 enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
@@ -58,8 +58,8 @@ typedef struct number {
   double im;
 } number;
 
-/* Computes the roots of mu^2 + 2 A mu + B = 0. The smaller of two real roots is computed from their
- * product, which avoids cancellation. */
+/* Computes the roots of mu^2 + 2 A mu + B = 0. The smaller of two real roots is computed from the
+ * product of both, which avoids cancellation. */
 static void characteristic_roots(double A, double B, number mu[2])
 {
   double square = A * A - B;
@@ -94,6 +94,16 @@ static number polynomial_increment(const baum_i_method *method, number mu)
   return w;
 }
 
+/* Does the same for real mu. */
+static double real_increment(const baum_i_method *method, double mu)
+{
+  double w = 0.0;
+  for (int k = method->degree; k > 0; k--) {
+    w = (w + method->coefficients[k]) * mu;
+  }
+  return w + (method->coefficients[0] - 1.0);
+}
+
 /* ---- Adams-Bashforth ------------------------------------------------------ */
 
 /* Returns the polynomial z^k - z^(k-1) - mu sum_j b_j z^(k-1-j). */
@@ -110,7 +120,7 @@ static baum_i_polynomial characteristic(const baum_i_method *method, number mu)
   return p;
 }
 
-/* Evaluates z^(k-1) w - mu sum_j b_j z^(k-1-j) at z = 1 + w, and its derivative. */
+/* Evaluates z^(k-1) w - mu sum_j b_j z^(k-1-j) and its derivative at z = 1 + w. */
 static number evaluate(const baum_i_method *method, number mu, number w, number *slope)
 {
   const number z = {1.0 + w.re, w.im};
@@ -146,7 +156,7 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* Returns |p| at point k of the circle of this radius. */
+/* Returns |p| at point number k of a circle about 0 with this radius. */
 static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -156,7 +166,8 @@ static double size_on_circle(const baum_i_method *method, number mu, double radi
   return hypot(value.re, value.im);
 }
 
-/* Returns the root to which Newton's method converges from point k of the circle of this radius. */
+/* Starts Newton's method at point number k of a circle about 0 with this radius, and returns the
+ * root to which it converges. */
 static number polish(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -167,9 +178,9 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
   return w;
 }
 
-/* Finds w of the largest |z|. Newton's method starts at the points of least |p| on the circle of
- * the largest |z|. Of the roots that it finds, the one on the circle is returned; other roots may
- * be close to the circle, but inside. */
+/* Finds w for the root with the largest |z|. The circle on which this root lies is known. Newton's
+ * method starts at those points of the circle where |p| is smallest. Of the roots that it finds,
+ * the one on the circle is returned. Other roots may be close to the circle, but inside of it. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);
@@ -201,9 +212,9 @@ static number increment(const baum_i_method *method, number mu)
   return several ? largest_root(method, mu) : polynomial_increment(method, mu);
 }
 
-/* ---- Both modes ----------------------------------------------------------- */
+/* ---- Both modes: the two roots mu ---------------------------------------- */
 
-/* Returns |1 + w| - 1, or infinity on overflow. */
+/* Returns |1 + w| - 1. If this overflows, returns infinity. */
 static double excess(number w)
 {
   double size = hypot(1.0 + w.re, w.im);
@@ -219,7 +230,7 @@ static void find_modes(const baum_i_method *method, double A, double B, number m
   characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
 }
 
-/* Computes both w, the one with the larger |1 + w| first. */
+/* Computes w for both roots mu. The one with the larger |1 + w| comes first. */
 static void increments(const baum_i_method *method, double A, double B, number w[2])
 {
   bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;
@@ -262,9 +273,27 @@ double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, 
   return excess(w[0]);
 }
 
+/* Tells whether |R(mu)| <= 1 for both mu of a one-step method. Conjugate and equal mu are evaluated
+ * once. */
+static bool is_one_step_stable(const baum_i_method *method, double A, double B)
+{
+  number mu[2];
+  bool stable = true;
+  characteristic_roots(A, B, mu);
+  for (int k = 0; k < (mu[0].re == mu[1].re ? 1 : 2) && stable; k++) {
+    const number w = mu[k].im == 0.0 ? (number){real_increment(method, mu[k].re), 0.0}
+                                     : polynomial_increment(method, mu[k]);
+    stable = 2.0 * w.re + w.re * w.re + w.im * w.im <= 0.0;
+  }
+  return stable;
+}
+
 bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, double beta2_h2,
                                  double growth)
 {
+  if (method->kind == BAUM_I_METHOD_ONE_STEP && growth == 0.0) {
+    return is_one_step_stable(method, alpha_h, beta2_h2);
+  }
   if (method->kind != BAUM_I_METHOD_ADAMS_BASHFORTH || !(growth > -1.0)) {
     return baum_i_amplification_growth(method, alpha_h, beta2_h2) <= growth;
   }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Amplification of a constraint violation by one step of a method, with Phi'' + 2 alpha Phi' +
- * beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta h)^2. */
+/* The factor by which one step of a method amplifies a constraint violation that satisfies
+ * Phi'' + 2 alpha Phi' + beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta
+ * h)^2. */
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H
 
@@ -10,89 +11,96 @@
 
 /* Kinds of method. */
 typedef enum baum_i_method_kind {
-  BAUM_I_METHOD_VARIABLE_STEP = 0, /* no fixed region of stability; see baum_i_method_family */
-  BAUM_I_METHOD_ONE_STEP,          /* z = R(mu), R(mu) = sum coefficients[k] mu^k */
-  BAUM_I_METHOD_SEMI_IMPLICIT,     /* z^2 + (B + 2 A - 2) z + (1 - 2 A) */
-  BAUM_I_METHOD_ADAMS_BASHFORTH,   /* z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), k = degree
-                                    */
-  BAUM_I_METHOD_WITHOUT_GAINS      /* fixed step; enforces the constraints without gains */
+  BAUM_I_METHOD_VARIABLE_STEP = 0, /* has no fixed region of stability; see baum_i_method_family */
+  BAUM_I_METHOD_ONE_STEP,          /* z = R(mu) with R(mu) = sum coefficients[k] mu^k */
+  BAUM_I_METHOD_SEMI_IMPLICIT,     /* z is a root of z^2 + (B + 2 A - 2) z + (1 - 2 A) */
+  /* Z is a root of z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), with k = degree. */
+  BAUM_I_METHOD_ADAMS_BASHFORTH,
+  /* A fixed-step method that enforces the constraints without gains. */
+  BAUM_I_METHOD_WITHOUT_GAINS
 } baum_i_method_kind;
 
 /* Families of methods of kind BAUM_I_METHOD_VARIABLE_STEP. */
 typedef enum baum_i_method_family {
   BAUM_I_FAMILY_EXPLICIT = 0, /* explicit methods */
-  BAUM_I_FAMILY_ADAMS,        /* Adams-Moulton methods, implicit in the constraints */
-  BAUM_I_FAMILY_BDF           /* BDF methods, A(alpha)-stable up to order 5 */
+  BAUM_I_FAMILY_ADAMS,        /* Adams-Moulton methods, which treat the constraints implicitly */
+  BAUM_I_FAMILY_BDF           /* BDF methods, which are A(alpha)-stable up to order 5 */
 } baum_i_method_family;
 
 enum { BAUM_I_METHOD_DEGREE = 12 };
 
-/* Stability properties of a method; member of its integrator. */
+/* How stable a method is. This struct is a member of its integrator. */
 typedef struct baum_i_method {
   baum_i_method_kind kind;
   int degree; /* degree of R, or number k of steps */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
-  double best[2]; /* stored result of baum_i_stability_best() if its search is slow, otherwise 0 */
+  /* The result of baum_i_stability_best(), stored if its search is slow, otherwise 0. */
+  double best[2];
 } baum_i_method;
 
-/* Returns a static text on the effect of gains with a method. chooses_step: the method chooses its
- * steps. */
+/* Returns a constant text that says what gains do with a method. `chooses_step` tells whether the
+ * method chooses its steps itself. */
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
                                     bool chooses_step);
 
-/* Fills all fields of out except struct_size. A and B may be any finite numbers. A radius that
- * overflows is infinite. */
+/* Sets all members of `out` except struct_size. The numbers A and B may be any finite numbers. If a
+ * radius overflows, it is infinite. */
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,
                           baum_amplification *out);
 
-/* Returns spectral radius - 1, which is accurate even for small gains. This and all functions below
- * are for fixed-step methods only. */
+/* Returns the spectral radius minus 1. The result is accurate even for small gains. This function
+ * and all functions below are only for methods with fixed steps. */
 double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, double beta2_h2);
 
-/* Tells whether spectral radius - 1 <= growth. For Adams-Bashforth methods this is much cheaper
- * than the radius. */
+/* Tells whether the spectral radius minus 1 is at most `growth`. For Adams-Bashforth methods this
+ * is much cheaper than computing the radius. */
 bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, double beta2_h2,
                                  double growth);
 
-/* ---- Along a ray alpha = damping_ratio beta; damping_ratio > 0, finite ---- */
+/* ---- Along a ray alpha = damping_ratio * beta; damping_ratio is > 0 and finite ---- */
 
-/* Returns the alpha h at which the ray becomes unstable: 0 if no point is stable, infinity if all
- * are. */
+/* Returns alpha h at the point where the ray becomes unstable. The result is 0 if no point of the
+ * ray is stable, and infinity if all points are stable. */
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
-/* Finds all stable intervals of alpha h, in order; the first `capacity` are stored. Gaps and
- * intervals shorter than 1 % of their alpha h may be missed. Returns the number of intervals. */
+/* Finds all stable intervals of alpha h, in ascending order. Only the first `capacity` intervals
+ * are stored. Gaps and intervals shorter than 1 % of their alpha h may be missed. Returns the
+ * number of intervals. */
 int baum_i_stability_intervals(const baum_i_method *method, double damping_ratio, int capacity,
                                double *from, double *to);
 
-/* Returns alpha h of the least spectral radius on the ray, or 0 if no point is stable. */
+/* Returns alpha h at the point of the ray that has the smallest spectral radius. Returns 0 if no
+ * point of the ray is stable. */
 double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_ratio);
 
 /* ---- In the plane --------------------------------------------------------- */
 
-/* Finds the point of least spectral radius with alpha h > 0, which is the dead-beat point if there
- * is one. Of several such points it is the one with the smallest gains. */
+/* Finds the point with the smallest spectral radius for which alpha h > 0. If there is a dead-beat
+ * point, this is that point. If there are several such points, the one with the smallest gains is
+ * found. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Finds the dead-beat point, where all z are 0. Returns false and stores nothing if there is
- * none. */
+/* Finds the dead-beat point, which is the point where all z are 0. If there is none, returns false
+ * and stores nothing. */
 bool baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Finds the nearest point with spectral radius <= 0.9, or the point of least spectral radius if
- * there is none. The distance is at most 1 % above the least. */
+/* Finds the nearest point that has a spectral radius of at most 0.9. If there is no such point,
+ * finds the point with the smallest spectral radius. Its distance is at most 1 % larger than the
+ * distance of the nearest such point. */
 void baum_i_stability_nearest(const baum_i_method *method, double alpha_h, double beta2_h2,
                               double *good_alpha_h, double *good_beta2_h2);
 
-/* Closed curves. A point of NaN separates each from the next. */
+/* A list of points that form closed curves. After each curve except the last, there is a point
+ * whose coordinates are NaN. */
 typedef struct baum_i_outline {
   int capacity;
   double *alpha_h;  /* (capacity) */
   double *beta2_h2; /* (capacity) */
-  int count;        /* number of all points, including those beyond capacity */
+  int count;        /* number of all points, including those that did not fit into the arrays */
 } baum_i_outline;
 
-/* Finds the curves where spectral radius - 1 = growth; growth > -1. There are no points if no point
- * has this radius or the region is unbounded. */
+/* Finds the curves on which the spectral radius minus 1 equals `growth`. `growth` must be > -1. The
+ * list is empty if no point has this radius, or if the region is unbounded. */
 void baum_i_stability_outline(const baum_i_method *method, double growth, baum_i_outline *out);
 
 #endif

@@ -1,38 +1,44 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points of fastest decay.
+/* Finds the points at which violations decay fastest.
  *
- * Dead-beat: all z = 0. If mu and its conjugate are zeros of R, A = -Re mu and B = |mu|^2.
+ * At a dead-beat point, all z are 0. If mu and its conjugate are zeros of R, then A = -Re mu and
+ * B = |mu|^2.
  *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
  *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
- *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
- * If both zeros differ, one step removes the whole violation; a double zero requires two steps. For
- * RK3 the complex pair is therefore chosen instead of the real zero at (1.596, 2.547). Of several
- * pairs the one with the smallest |mu| is chosen, because its gains are the smallest. Re mu must be
- * negative, because alpha must be positive.
+ *   semi-implicit Euler: explicit Euler's point, transformed back: (1 - 1/2, 1)
+ * If both zeros differ, one step removes the whole violation. If they are a double zero, two steps
+ * are needed. For RK3, the pair of complex zeros is therefore chosen, and not the real zero at
+ * (1.596, 2.547). If there are several pairs, the one with the smallest |mu| is chosen, because its
+ * gains are the smallest. Only zeros with negative Re mu are possible, because alpha must be
+ * positive.
  *
- * Adams-Bashforth methods have a history and therefore no dead-beat point. Their smallest spectral
- * radius is at complex mu: if both mu were real and different, the worse one would determine the
- * radius, and a double root at the better mu would not be worse. The point is searched in the chart
- * (chart.h) on a lattice, which is refined around the best point so far, beginning with the best
- * point of critical damping. As a function of the point, the largest of several |z| has valleys
- * with a sharp bottom. A descent method would get stuck there; a lattice search does not. */
+ * Adams-Bashforth methods use the past of the motion. They therefore have no dead-beat point. Their
+ * spectral radius is smallest at a complex mu. If both mu were real and different, the worse one
+ * would determine the radius, and a double root at the better mu would not be worse. The point is
+ * searched on a lattice in the chart (chart.h). The lattice is refined around the best point found
+ * so far, which at first is the best point with critical damping. The largest of several |z| is, as
+ * a function of the point, a surface with sharp valleys. A descent method would stop in such a
+ * valley. A search on a lattice does not. */
 #include <math.h>
 #include <stdbool.h>
 
 #include "stabilization/chart.h"
 
 static const double PI = 3.14159265358979323846;
-static const double ZERO = 1e-10; /* limit on |R| of a zero, and on |Im mu| of a real zero */
-/* Radii that differ by less are equal; the radius of AB2 has a plateau. */
+/* A zero has |R| below this, and a real zero has |Im mu| below this. */
+static const double ZERO = 1e-10;
+/* Radii that differ by less than this are considered equal, because the radius of AB2 has a
+ * plateau. */
 static const double EQUAL = 1e-12;
 static const double CLOSE_IN = 0.6;
-static const double FARTHEST = 1e3; /* extent of the lattice if the region is unbounded */
+static const double FARTHEST = 1e3; /* how far the lattice extends if the region is unbounded */
 enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 30 };
 
 /* ---- Dead-beat ------------------------------------------------------------ */
 
-/* Makes Newton's step mu := mu - R(mu) / R'(mu) for complex mu. Returns |R| before the step. */
+/* Makes one step of Newton's method for complex mu: mu := mu - R(mu) / R'(mu). Returns |R| at the
+ * point where the step begins. */
 static double newton_step(const baum_i_method *method, double mu[2])
 {
   double r[2] = {0.0, 0.0};
@@ -62,9 +68,9 @@ static bool is_better_zero(const double mu[2], const double best[2])
   return pair != best_is_pair ? pair : size < best_size * (1.0 - 1e-6);
 }
 
-/* Finds the best zero of R with Re mu < 0. Returns false if there is none. Newton's method starts
- * from many points around 0 at distances up to the degree. No zero of a method is farther away, so
- * every zero is found. */
+/* Finds the best zero of R that has Re mu < 0. Returns false if there is none. Newton's method
+ * starts from many points around 0, at distances up to the degree of R. No zero is farther away for
+ * any of our methods, so every zero is found. */
 static bool find_zero(const baum_i_method *method, double best[2])
 {
   bool found = false;
@@ -86,17 +92,18 @@ static bool find_zero(const baum_i_method *method, double best[2])
   return found;
 }
 
-/* ---- Least radius --------------------------------------------------------- */
+/* ---- Least spectral radius ----------------------------------------------- */
 
 typedef struct search {
   const baum_i_method *method;
-  double growth; /* the least so far */
-  double s;      /* (s, m): where it is in the chart */
+  double growth; /* the smallest growth found so far */
+  double s;      /* the best point (s, m) in the chart */
   double m;
   double point[2];
 } search;
 
-/* Updates the best point. A cheap test rejects most points before their radius is computed. */
+/* Stores a point if it is better than the best one so far. A test that costs little rejects most
+ * points before their radius is computed. */
 static void try_point(search *best, double s, double m)
 {
   double point[2];
@@ -128,7 +135,7 @@ static void search_window(search *best, const baum_i_chart_window *w, int cells)
   }
 }
 
-/* Searches a window and then, LEVELS times, smaller windows around the best point. */
+/* Searches a window, and then LEVELS times a smaller window around the best point. */
 static void close_in(search *best, baum_i_chart_window window)
 {
   search_window(best, &window, LATTICE);
@@ -171,7 +178,7 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
-  /* often the best point */
+  /* This point is often the best one. */
   try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0));
   close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Extent of a region of stability. The search starts from a guaranteed bound on m, which is too
- * wide for drawings, and goes inwards. The bound follows from
+/* Finds how far a region of stability extends. The search starts at a bound that m certainly does
+ * not exceed. This bound is too wide for drawings, so the search goes inwards from it. The bound
+ * follows from these facts:
  *
  *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k, which grows once it is positive
  *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k
@@ -10,7 +11,7 @@
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
-static const double FARTHEST = 1e6; /* regions that are larger count as unbounded */
+static const double FARTHEST = 1e6; /* regions that extend farther are considered unbounded */
 enum { COLUMNS = 48, ROWS = 512 };
 
 void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
@@ -50,7 +51,7 @@ void baum_i_chart_edge(const baum_i_method *method, double growth, int bisection
   }
 }
 
-/* Tells whether |R| > radius for all larger m. */
+/* Tells whether |R| > radius at m and for all larger m. */
 static bool polynomial_is_beyond(const baum_i_method *method, double m, double radius)
 {
   double power = 1.0;
@@ -96,7 +97,8 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      return most * (k + 3) / ROWS; /* a maximum may be between two columns */
+      /* Adds a few rows, because a maximum may be between two columns. */
+      return most * (k + 3) / ROWS;
     }
   }
   return 0.0;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Messages about gains.
  *
- * The text warns if a choice is near the edge of the region of stability. In (6) the slower mode
- * decays by exp(-p) per step, where p = Re(A - sqrt(A^2 - B)). The damping of a method agrees with
- * p up to O(p^2), so small gains never cause this warning. If the spectral radius is above 0.95 and
- * the damping is less than a quarter of p, the point is near the edge. */
+ * A message contains a warning if the gains are near the edge of the region of stability. In the
+ * exact solution of (6), the slower mode decays by the factor exp(-p) per step, with
+ * p = Re(A - sqrt(A^2 - B)). The damping of a method differs from p only by terms of order p^2, so
+ * small gains never cause this warning. A point is considered near the edge if its spectral radius
+ * is above 0.95 and its damping is less than a quarter of p. */
 #include "stabilization/gain_text.h"
 
 #include <math.h>
@@ -12,12 +13,13 @@
 #include "base/text.h"
 
 static const double BDF_DAMPING_RATIO = 0.618;
-static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95; refusals propose 0.9 */
-static const double EDGE_SHARE = 0.25;   /* fraction of the damping of (6) */
+/* A spectral radius of 0.95; messages about refused gains propose points with 0.9. */
+static const double EDGE_GROWTH = -0.05;
+static const double EDGE_SHARE = 0.25; /* fraction of p, the damping that equation (6) promises */
 
 /* ---- numbers ---- */
 
-/* Prints a radius with enough digits to differ from 1. */
+/* Formats a spectral radius with enough digits to distinguish it from 1. */
 static baum_i_text radius_text(double radius)
 {
   double growth = radius - 1.0;
@@ -26,8 +28,8 @@ static baum_i_text radius_text(double radius)
                : baum_i_text_of("%.6g", radius);
 }
 
-/* Returns alpha h up to which the ray from 0 through a point is stable, or NaN if the point does
- * not define a ray. */
+/* The point of the gains lies on a ray that starts at 0. Returns the largest alpha h up to which
+ * this ray is stable. Returns NaN if the point does not define a ray of its own. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -52,7 +54,7 @@ static baum_i_text region_text(const baum_i_method *method, const baum_i_gain_dr
                             limit, gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
 }
 
-/* ---- refusals ---- */
+/* ---- refused gains ---- */
 
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius)
@@ -86,7 +88,7 @@ baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, doub
                      alpha_h, beta2_h2, radius, alpha_h / h, sqrt(beta2_h2) / h);
 }
 
-/* ---- why ---- */
+/* ---- why gains were chosen ---- */
 
 static const char *const class_text[] = {
   [BAUM_STABLE] = "stable",
@@ -96,7 +98,7 @@ static const char *const class_text[] = {
 
 static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
 
-/* Returns the damping p per step of the slower mode of (6). */
+/* Returns the damping p per step of the slower mode of (6), as defined above. */
 static double promised_damping(const baum_i_gain_draft *gains)
 {
   double A = gains->alpha_h;
@@ -110,7 +112,7 @@ static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_d
   return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
 }
 
-/* A clause on stability. */
+/* A part of the message that is about stability. */
 typedef struct clause {
   baum_i_text text;
   bool warns;
@@ -137,8 +139,8 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
                   !stable || undamped || near_edge};
 }
 
-/* With explicit and Adams methods, the error test ensures that violations decay. BDF may use orders
- * and steps with which they grow (statement.c). */
+/* With explicit methods and Adams methods, the error test ensures that violations decay. BDF
+ * methods may use orders and steps with which violations grow (statement.c). */
 static clause variable_step_clause(baum_i_method_family family, const baum_i_gain_draft *gains,
                                    double max_step)
 {

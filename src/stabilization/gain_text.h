@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages on why gains were chosen or refused. */
+/* Messages that explain why gains were chosen or refused. */
 #ifndef BAUM_I_STABILIZATION_GAIN_TEXT_H
 #define BAUM_I_STABILIZATION_GAIN_TEXT_H
 
@@ -7,26 +7,27 @@
 
 enum { BAUM_I_GAIN_NOTE_SIZE = 128 };
 
-/* Gains in 1/s and relative to the step, and a note on them. */
+/* Gains, both in 1/s and multiplied by the step, and a note about them. */
 typedef struct baum_i_gain_draft {
   double alpha;
   double beta;
-  double alpha_h; /* alpha_h and beta2_h2 are NaN without a step */
+  double alpha_h; /* alpha_h and beta2_h2 are NaN if there is no step */
   double beta2_h2;
   char note[BAUM_I_GAIN_NOTE_SIZE];
 } baum_i_gain_draft;
 
-/* Sets `why` and `doubtful` of a choice. All its numbers must be set. */
+/* Sets the members `why` and `doubtful` of a choice. All numbers of the choice must have been
+ * set. */
 void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
                          const baum_i_gain_draft *gains, baum_i_gain_choice *choice);
 
-/* Fails with BAUM_ERR_UNSTABLE. The message contains the region, the requested point and the
- * nearest good point. */
+/* Fails with BAUM_ERR_UNSTABLE. The message gives the region of stability, the requested point and
+ * the nearest good point. */
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
 
-/* Fails with BAUM_ERR_UNSUPPORTED. The message tells why a method has no dead-beat point and which
- * point is its best. */
+/* Fails with BAUM_ERR_UNSUPPORTED. The message says why the method has no dead-beat point, and
+ * gives its best point. */
 baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, double alpha_h,
                                         double beta2_h2, double radius);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes gains by a rule. The table `rules` has one row per rule.
+/* Computes gains by a rule. The table `rules` below has one row for each rule.
  *
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               A and B as given
@@ -9,18 +9,19 @@
  *   best       scaled, with the point of least spectral radius
  *   auto       alpha = beta = c x rate, h alpha <= 0.3          this limit preserves cost and order
  *
- * A and B are stored in addition to alpha and beta, so that the stability of a rule relative to the
- * step is checked exactly at its point.
+ * A and B are stored together with alpha and beta. The stability of a rule that is relative to the
+ * step is thus checked at exactly the point that the rule gives.
  *
- * auto: with degrees of freedom, stabilization disturbs the motion, and most if alpha is close to
- * the rate of the motion. c is below 1 and was chosen by measurements over 12 decades of constant
- * gains (docs/theory/gain_rules.md). If drivers prescribe all degrees of freedom, the violation is
- * the whole error, and c is as large as possible without additional cost.
+ * About the rule `auto`: if the mechanism has degrees of freedom, stabilization disturbs the
+ * motion. The disturbance is largest if alpha is close to the rate of the motion. The factor c is
+ * therefore below 1. It was chosen by measurements over 12 decades of constant gains
+ * (docs/theory/gain_rules.md). If drivers prescribe all degrees of freedom, the violation is the
+ * only error. Then c is as large as possible without additional cost.
  *
- * Variable steps: the step of an explicit method is limited such that (alpha h, beta^2 h^2) is in
- * the region of stability. BDF of order 5 is A(51.84 degrees) stable: it damps violations for any
- * alpha h if alpha / beta is at least cos 51.84 = 0.618. alpha / beta is the cosine of the angle
- * between the roots of s^2 + 2 alpha s + beta^2 and the negative real axis. */
+ * About variable steps: the step of an explicit method is limited so that (alpha h, beta^2 h^2) is
+ * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. It damps violations for
+ * any alpha h if alpha / beta is at least cos 51.84 = 0.618, because alpha / beta is the cosine of
+ * the angle between the roots of s^2 + 2 alpha s + beta^2 and the negative real axis. */
 #include "stabilization/gains.h"
 
 #include <math.h>
@@ -30,9 +31,10 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Factors c of auto. FIXED: fixed steps of Runge-Kutta methods, with another factor for order 2.
- * OTHERS: fixed steps of other methods. MULTISTEP: CVODE and IDA. EXPLICIT: explicit methods with
- * variable steps. DRIVEN: drivers prescribe all degrees of freedom. */
+/* The factors c of the rule `auto`. FIXED is for fixed steps of Runge-Kutta methods, which have
+ * another factor for order 2. OTHERS is for fixed steps of other methods. MULTISTEP is for CVODE
+ * and IDA. EXPLICIT is for explicit methods with variable steps. DRIVEN is for mechanisms in which
+ * drivers prescribe all degrees of freedom. */
 static const double AUTO_FIXED = 0.35;
 static const double AUTO_FIXED_ORDER_2 = 0.05;
 static const double AUTO_OTHERS = 0.2;
@@ -41,12 +43,15 @@ static const double AUTO_EXPLICIT = 0.1;
 static const double AUTO_DRIVEN_FIXED = 0.6;
 static const double AUTO_DRIVEN_EXPLICIT = 2.0;
 static const double AUTO_DRIVEN_MULTISTEP = 40.0;
-static const double AUTO_CAP = 0.3;      /* alpha h up to which order and cost do not change */
-static const double AUTO_AT_REST = 0.01; /* alpha h if nothing moves */
-static const double REST = 1e-9;         /* rate h below this counts as rest */
-static const double DEAD = 1e-6;         /* largest spectral radius of a dead-beat point */
+/* Up to this alpha h, order and cost of a method do not change. */
+static const double AUTO_CAP = 0.3;
+static const double AUTO_AT_REST = 0.01; /* alpha h that is chosen if nothing moves */
+/* A mechanism is considered at rest if rate h is below this. */
+static const double REST = 1e-9;
+/* A dead-beat point has a spectral radius of at most this. */
+static const double DEAD = 1e-6;
 static const double WITHIN_REGION = 0.9; /* fraction of the largest stable step */
-static const double OVERDAMPED = 1e9;    /* alpha / beta if beta is 0 */
+static const double OVERDAMPED = 1e9;    /* value of alpha / beta if beta is 0 */
 
 typedef void apply_rule(const double value[2], const baum_i_gain_context *context,
                         baum_i_gain_draft *out);
@@ -54,9 +59,9 @@ typedef void apply_rule(const double value[2], const baum_i_gain_context *contex
 typedef struct rule_type {
   const char *name;
   apply_rule *apply;
-  bool needs_step;       /* requires h to compute the gains */
-  bool positive;         /* value[] must be > 0, otherwise >= 0 */
-  const char *number[2]; /* names of value[]; NULL: none */
+  bool needs_step;       /* whether the gains can only be computed from a step h */
+  bool positive;         /* whether value[] must be > 0; otherwise it must be >= 0 */
+  const char *number[2]; /* names of value[] in messages, or NULL */
   const char *unit[2];
 } rule_type;
 
@@ -153,7 +158,8 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
                context->driven ? "; no freedom is left" : "");
 }
 
-/* Sets alpha h to the wanted value, but at most AUTO_CAP and half of the stability limit. */
+/* Sets alpha h to the wanted value. The value is limited by AUTO_CAP, and by half of the stability
+ * limit. */
 static double auto_with_step(const baum_i_gain_context *context, double wanted,
                              baum_i_gain_draft *out)
 {
@@ -213,7 +219,7 @@ static baum_status check_step(const baum_i_gain_context *context)
   return BAUM_OK;
 }
 
-/* Returns NULL and sets a message if there is no such rule. */
+/* Returns a rule of the table. If there is no such rule, returns NULL and sets a message. */
 static const rule_type *find_rule(int32_t number)
 {
   if (number > BAUM_GAINS_DEFAULT && number < RULE_COUNT) {
@@ -277,7 +283,7 @@ static bool is_without_step(const baum_i_gain_context *context)
   return context->method->kind == BAUM_I_METHOD_ONE_STEP && !has_step(context);
 }
 
-/* Returns the largest step for which an explicit method with variable steps is stable. */
+/* Returns the largest step with which an explicit method that chooses its steps is stable. */
 static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
 {
   if (!is_without_step(context) || !(gains->alpha > 0.0)) {

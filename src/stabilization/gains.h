@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains from a rule. */
+/* Gains that are computed by a rule. */
 #ifndef BAUM_I_STABILIZATION_GAINS_H
 #define BAUM_I_STABILIZATION_GAINS_H
 
@@ -7,16 +7,16 @@
 
 #include "stabilization/amplification.h"
 
-/* Data that a rule may depend on. */
+/* The data on which a rule may depend. */
 typedef struct baum_i_gain_context {
   const baum_i_method *method;
-  baum_i_method_family family; /* of a method with variable steps */
-  const char *integrator;      /* name, for messages */
-  double step;                 /* [s] > 0, or NaN for variable step */
-  double rate;                 /* [1/s] >= 0 angular rate of the motion */
-  const char *rate_is;         /* what the rate is, for messages */
-  bool driven;                 /* drivers prescribe all degrees of freedom */
-  baum_gain_rule rule_default; /* meaning of BAUM_GAINS_DEFAULT for this integrator */
+  baum_i_method_family family; /* for methods with variable steps */
+  const char *integrator;      /* name of the integrator, for messages */
+  double step;                 /* [s] > 0, or NaN if the step is variable */
+  double rate;                 /* [1/s] >= 0, the angular rate of the motion */
+  const char *rate_is;         /* describes the rate, for messages */
+  bool driven;                 /* whether drivers prescribe all degrees of freedom */
+  baum_gain_rule rule_default; /* the rule that BAUM_GAINS_DEFAULT means for this integrator */
   bool allow_unstable;
 } baum_i_gain_context;
 
@@ -25,18 +25,20 @@ typedef struct baum_i_gain_choice {
   double alpha;                     /* [1/s] */
   double beta;                      /* [1/s] */
   baum_gain_rule rule;              /* the rule that was applied */
-  baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
-  /* [s] largest stable step of an explicit method with variable steps; otherwise infinite */
+  baum_amplification amplification; /* at the point (alpha h, beta^2 h^2) */
+  /* [s] The largest stable step of an explicit method with variable steps. It is infinite for other
+   * methods. */
   double max_step;
-  char why[400]; /* message with rule, numbers and stability */
-  bool doubtful; /* `why` is a warning: violations may stay or grow */
+  char why[400]; /* message that gives the rule, the numbers and the stability */
+  bool doubtful; /* whether `why` is a warning that violations may stay or grow */
 } baum_i_gain_choice;
 
-/* Applies a rule and checks the stability of its gains. Returns BAUM_OK, BAUM_ERR_ARGUMENT (invalid
- * numbers, or a rule that requires a fixed step), BAUM_ERR_UNSUPPORTED (the method has no dead-beat
- * point), BAUM_ERR_UNSTABLE (the message contains (alpha h, beta^2 h^2), the spectral radius, the
- * stable region and the nearest good pair, in 1/s and scaled). Marginal pairs are accepted with
- * BAUM_OK, and the caller warns. */
+/* Applies a rule and checks the stability of its gains. Returns BAUM_OK if the gains can be used.
+ * Returns BAUM_ERR_ARGUMENT for invalid numbers, and for a rule that requires a fixed step. Returns
+ * BAUM_ERR_UNSUPPORTED if the method has no dead-beat point. Returns BAUM_ERR_UNSTABLE if the gains
+ * are unstable. The message then gives (alpha h, beta^2 h^2), the spectral radius, the stable
+ * region and the nearest good pair, in 1/s and scaled. Gains at which violations neither decay nor
+ * grow are accepted with BAUM_OK, and the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

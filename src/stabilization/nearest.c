@@ -1,33 +1,33 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nearest good point. The good region has spectral radius <= 0.9. The search finds the points
- * at which the lines of a lattice cross the edge of the region. It repeats with finer lattices
- * around the crossing that is nearest in the plane (A, B). The lattice is in the chart (chart.h),
- * where regions have no sharp tips between lines. The region may have any shape and any number of
- * parts. */
+/* Finds the nearest good point. A point is good if its spectral radius is at most 0.9. The search
+ * finds the points at which the lines of a lattice cross the edge of the good region. It is
+ * repeated with finer lattices around the crossing that is nearest in the plane (A, B). The
+ * lattices are in the chart (chart.h). Regions have no sharp tips there that could lie between
+ * lines. The region may have any shape and consist of any number of parts. */
 #include <math.h>
 #include <stdbool.h>
 
 #include "stabilization/chart.h"
 
-static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
-static const double FARTHEST = 1e3;     /* extent of the lattice if the region is unbounded */
-/* Half the extent of the next lattice, in cells of the last one. */
+static const double GOOD_GROWTH = -0.1; /* a spectral radius of 0.9 */
+static const double FARTHEST = 1e3;     /* how far the lattice extends if the region is unbounded */
+/* Half the extent of the next lattice, as a number of cells of the last one. */
 static const double AROUND = 2.0;
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
 typedef struct lattice {
   const baum_i_method *method;
   double wanted[2];
-  double origin[2]; /* (s, m) */
+  double origin[2]; /* first node (s, m) */
   double step[2];
   int cells;
   double least;    /* distance of the nearest crossing so far */
-  double place[2]; /* (s, m) of this crossing */
+  double place[2]; /* the place (s, m) of this crossing */
   bool found;
 } lattice;
 
-/* Locates the crossing between a node and the node before it in direction d, exactly one of which
- * is good. Stores the crossing if it is the nearest so far. */
+/* Locates the crossing between a node and its neighbour before it in direction d. Exactly one of
+ * these two nodes is good. Stores the crossing if it is nearer than all others so far. */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
   double before[2] = {node[0], node[1]};
@@ -54,11 +54,11 @@ static bool is_good_node(const lattice *l, int i, int j, double at[2])
   return baum_i_chart_within(l->method, at, GOOD_GROWTH);
 }
 
-/* Examines all lines of the lattice. One more node on every side makes the border of the chart an
- * edge of the region. */
+/* Examines all lines of the lattice. The lattice has one more node on every side. The border of the
+ * chart thus counts as an edge of the region. */
 static void cross_all(lattice *l)
 {
-  bool column[CELLS + 3] = {false}; /* which nodes of the last column are good */
+  bool column[CELLS + 3] = {false}; /* whether each node of the previous column is good */
   for (int i = -1; i <= l->cells + 1; i++) {
     bool below = false;
     for (int j = -1; j <= l->cells + 1; j++) {

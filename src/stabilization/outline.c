@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the curves of constant spectral radius by marching through the squares of a lattice in the
- * chart (Lorensen, Cline 1987, in two dimensions). In the chart the region is to the left of a
- * curve. The plane (A, B) is a mirror image of the chart, so there the region is to the right. The
- * border of the chart, A = 0 and B = 0, is an edge of every region.
+/* Finds the curves of constant spectral radius. It marches through the squares of a lattice in the
+ * chart (Lorensen, Cline 1987, here in two dimensions). In the chart, the region is to the left of
+ * a curve. The plane (A, B) is a mirror image of the chart. In the plane, the region is therefore
+ * to the right of a curve. The border of the chart, A = 0 and B = 0, is an edge of every region.
  *
  *   3 --2-- 2     edge k is between corners k and k + 1
  *   |       |     a curve enters through k if corner k is inside and k + 1 is not,
@@ -15,15 +15,18 @@
 
 #include "stabilization/chart.h"
 
-enum { BISECTIONS = 42 };                /* reduce 1/160 to a few rounding errors */
-enum { CELLS = 160, NODES = CELLS + 3 }; /* one node beyond the chart on every side */
-enum { INSIDE = 1, ENTERED = 2 }; /* ENTERED: a curve has entered through edge 0 of the square */
+/* Reduce the width 1/160 of a cell to a few rounding errors. */
+enum { BISECTIONS = 42 };
+/* The lattice has one node beyond the chart on every side. */
+enum { CELLS = 160, NODES = CELLS + 3 };
+/* ENTERED: a curve has already entered the square through its edge 0. */
+enum { INSIDE = 1, ENTERED = 2 };
 
 typedef struct march {
   const baum_i_method *method;
   double growth;
   double extent;
-  unsigned char node[NODES][NODES]; /* INSIDE, ENTERED */
+  unsigned char node[NODES][NODES]; /* INSIDE and ENTERED, added */
   baum_i_outline *out;
 } march;
 
@@ -41,7 +44,7 @@ static void fill(march *m)
     for (int j = 0; j < NODES; j++) {
       double at[2];
       place(m, i, j, at);
-      bool beyond = j == NODES - 1; /* so that every curve closes */
+      bool beyond = j == NODES - 1; /* treated as outside, so that every curve closes */
       m->node[i][j] = !beyond && baum_i_chart_within(m->method, at, m->growth) ? INSIDE : 0;
     }
   }
@@ -64,7 +67,7 @@ static void put(baum_i_outline *out, const double point[2])
   out->count++;
 }
 
-/* Finds where a curve enters through an edge. */
+/* Finds the point where a curve enters a square through one of its edges. */
 static void cross(const march *m, const int square[2], int edge, double point[2])
 {
   double inside[2];
@@ -79,8 +82,8 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 
 /* ---- Curves --------------------------------------------------------------- */
 
-/* Returns the edge through which a curve leaves. If only two opposite corners are inside, they are
- * connected if the middle is inside. */
+/* Returns the edge through which a curve leaves a square. If only two opposite corners are inside,
+ * the curve connects them if the middle of the square is inside. */
 static int leave(const march *m, const int square[2], int edge)
 {
   bool opposite = is_inside(m, square, edge + 2);
@@ -114,7 +117,8 @@ static void follow_curve(march *m, const int start[2])
     edge = (exit + 2) & 3;
     double point[2];
     cross(m, square, edge, point);
-    if (point[0] != last[0] || point[1] != last[1]) { /* all points with m = 0 are A = B = 0 */
+    /* Different, because all points with m = 0 are the point A = B = 0. */
+    if (point[0] != last[0] || point[1] != last[1]) {
       put(m->out, point);
       memcpy(last, point, sizeof last);
     }

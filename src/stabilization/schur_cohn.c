@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The test of Schur (1917) and Cohn (1922).
+/* The test of Schur (1917) and Cohn (1922) whether all roots of a polynomial are inside a circle.
  *
  *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)) with coefficients conj(c_(n-k))
  *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
  *
- * On the unit circle |p| = |p*|. If |c_0| < |c_n|, the term with p is therefore larger there than
- * the term with p*, and Tp has one root less inside than p (Rouche). Hence all n roots of p are
- * inside if and only if |c_0| < |c_n| and all n - 1 roots of Tp are inside. |c_0 / c_n| is the
- * product of the |roots|, so if |c_0| >= |c_n| some root is not inside. For a circle of radius r,
- * c_k is replaced by c_k r^k.
+ * On the unit circle, |p| = |p*|. If |c_0| < |c_n|, the term with p is therefore larger there than
+ * the term with p*. By Rouche's theorem, Tp then has one root less inside the circle than p. Hence
+ * all n roots of p are inside if and only if |c_0| < |c_n| and all n - 1 roots of Tp are inside. If
+ * |c_0| >= |c_n|, at least one root is not inside, because |c_0 / c_n| is the product of the
+ * |roots|. For a circle of radius r, each c_k is replaced by c_k r^k.
  *
- * A bisection of r then gives the largest |z|.
+ * A bisection of r gives the largest |z|.
  */
 #include "stabilization/schur_cohn.h"
 
@@ -24,8 +24,8 @@ static double square(const double c[2])
   return c[0] * c[0] + c[1] * c[1];
 }
 
-/* Scales the circle to radius 1 and the largest coefficient to 1. Only ratios of coefficients
- * matter. */
+/* Scales the polynomial so that the circle has radius 1 and the largest coefficient is 1. This is
+ * allowed because only ratios of coefficients matter. */
 static void scale(baum_i_polynomial *p, double radius)
 {
   double power = 1.0;
@@ -42,7 +42,7 @@ static void scale(baum_i_polynomial *p, double radius)
   }
 }
 
-/* p := Tp / |c_n|^2 */
+/* Replace p by Tp / |c_n|^2. */
 static void reduce(baum_i_polynomial *p)
 {
   const int n = p->degree;
@@ -83,11 +83,11 @@ double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius)
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p)
 {
   double inside = 0.0;
-  double outside = 1.0; /* upper bound of all |z|: 1 + the sum of |c_k| */
+  double outside = 1.0; /* 1 + the sum of |c_k|, which is larger than all |z| */
   for (int k = 0; k < p->degree; k++) {
     outside += hypot(p->c[k][0], p->c[k][1]);
   }
-  if (!(pow(outside, p->degree) < HUGE_VAL)) { /* or not a number */
+  if (!(pow(outside, p->degree) < HUGE_VAL)) { /* also true if it is not a number */
     return HUGE_VAL;
   }
   for (int k = 0; k < MOST_BISECTIONS && outside - inside > RADIUS_TOLERANCE * outside; k++) {

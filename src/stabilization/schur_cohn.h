@@ -6,21 +6,21 @@
 
 enum { BAUM_I_SCHUR_COHN_DEGREE = 12 };
 
-/* The polynomial c[0] + c[1] z + ... + c[degree] z^degree. c[k] consists of real and imaginary
- * part. */
+/* The polynomial c[0] + c[1] z + ... + c[degree] z^degree. Each coefficient c[k] consists of a real
+ * and an imaginary part. */
 typedef struct baum_i_polynomial {
   int degree; /* 0 .. BAUM_I_SCHUR_COHN_DEGREE */
   double c[BAUM_I_SCHUR_COHN_DEGREE + 1][2];
 } baum_i_polynomial;
 
-/* Returns a positive margin if all roots have |z| < radius, otherwise a margin <= 0. A small margin
- * means that a root is close to the circle; below about 1e-12 rounding determines the sign. radius
- * > 0. */
+/* Returns a positive margin if all roots have |z| < radius. Otherwise returns a margin that is zero
+ * or negative. A small margin means that a root is close to the circle. If the margin is below
+ * about 1e-12, rounding determines its sign. `radius` must be > 0. */
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
-/* Returns the largest |z|, or infinity on overflow. The relative error is below 1e-9 if no other
- * root is as large, and about 1e-16^(1/(m+1)) for a root of multiplicity m, because the test
- * divides by the distance to the last root. Requires c[degree] = 1. */
+/* Returns the largest |z| of all roots, or infinity on overflow. The relative error is below 1e-9
+ * if no other root is as large. For a root of multiplicity m it is about 1e-16^(1/(m+1)), because
+ * the test divides by the distance to the last root. c[degree] must be 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

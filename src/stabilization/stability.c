@@ -1,21 +1,32 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stability for a fixed damping ratio zeta = alpha / beta, as a function of b = |beta h|. In the
- * plane (A, B) = (|alpha h|, (beta h)^2) these are the points A = zeta b, B = b^2, called a ray.
+/* Finds where a method is stable if the damping ratio zeta = alpha / beta is fixed. Stability is
+ * then a function of b = |beta h|. In the plane (A, B) = (|alpha h|, (beta h)^2), this function is
+ * taken along the points A = zeta b, B = b^2, which are called a ray.
  *
- * mu is proportional to b. Changes between stable and unstable are searched on a geometric scale
- * and then located by bisection. The smallest limits occur on weakly damped rays with methods that
- * are unstable on the imaginary axis: b = 2 zeta for explicit Euler. No explicit method is stable
- * for |mu| above about twice the degree. */
+ * Along a ray, mu is proportional to b. The search steps through b in equal ratios until the
+ * stability changes, and locates the change by bisection. The smallest limits occur on weakly
+ * damped rays of methods that are unstable on the imaginary axis. For explicit Euler, the limit is
+ * b = 2 zeta. No explicit method is stable if |mu| exceeds about twice its degree.
+ *
+ * One-step methods are stable where |mu| is small, and the search skips this part. With
+ * R = 1 + c_1 mu + ..., c_1 > 0, and Q = sum |c_k| |mu|^k over k >= 2,
+ *
+ *   |R|^2 <= 1 + 2 c_1 Re mu + 2 Q + (c_1 |mu| + Q)^2
+ *         <= 1   if   2 Q + (c_1 |mu| + Q)^2 <= -2 c_1 Re mu.
+ *
+ * -Re mu / |mu| is at least min(zeta, 1), and Q / |mu| grows with |mu|. If the condition holds for
+ * one |mu|, it therefore holds for all smaller ones. */
 #include "stabilization/amplification.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-static const double SCAN_RATIO = 1.01; /* ratio of successive b */
-static const double SCAN_END = 1e3;    /* |mu| above which no explicit method is stable */
-static const double OVERDAMPED = 1e9;  /* zeta above which limits do not change */
-static const double LEAST = 1e-18;     /* a ray that is stable only for smaller b is unstable */
-static const double EQUAL = 1e-13;     /* radii that differ by less are equal */
+static const double SCAN_RATIO = 1.01; /* ratio of each b to the one before */
+static const double SCAN_END = 1e3;    /* no explicit method is stable for larger |mu| */
+static const double OVERDAMPED = 1e9;  /* the limits do not change for larger zeta */
+/* A ray that is stable only for smaller b is considered unstable. */
+static const double LEAST = 1e-18;
+static const double EQUAL = 1e-13; /* radii that differ by less are considered equal */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
 static bool is_stable(const baum_i_method *method, double damping_ratio, double b)
@@ -23,8 +34,8 @@ static bool is_stable(const baum_i_method *method, double damping_ratio, double 
   return baum_i_amplification_within(method, damping_ratio * b, b * b, 0.0);
 }
 
-/* Returns the b between from and to at which the stability changes. It has the stability of
- * `from`. */
+/* Returns the b between `from` and `to` at which the stability changes. The method has the same
+ * stability at this b as at `from`. */
 static double bisect(const baum_i_method *method, double damping_ratio, double from, double to)
 {
   bool stable = !is_stable(method, damping_ratio, to);
@@ -41,16 +52,39 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* b at which the search begins; if stable, all smaller b are stable */
+  double begin; /* b at which the search begins; if it is stable, all smaller b are stable */
   double end;
 } ray;
+
+/* Tells whether the bound above proves that a one-step method is stable for all mu of this size or
+ * smaller. */
+static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
+{
+  double first = method->coefficients[1]; /* c_1 */
+  double rest = 0.0;                      /* Q / |mu| */
+  for (int k = method->degree; k > 1; k--) {
+    rest = (rest + fabs(method->coefficients[k])) * size;
+  }
+  double growth = 2.0 * rest + size * (first + rest) * (first + rest);
+  return growth <= 2.0 * first * fmin(damping_ratio, 1.0);
+}
 
 static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
-  double steepest = fmax(1.0, 2.0 * damping_ratio); /* largest |mu| / b */
+  double steepest = fmax(1.0, 2.0 * damping_ratio); /* the largest |mu| / b on the ray */
   double begin = fmax(1e-3 * fmin(damping_ratio, 1.0 / steepest), LEAST);
   return (ray){damping_ratio, begin, SCAN_END / steepest};
+}
+
+/* Skips the part of a ray that is surely stable. */
+static void begin_later(const baum_i_method *method, ray *r)
+{
+  double steepest = SCAN_END / r->end;
+  bool one_step = method->kind == BAUM_I_METHOD_ONE_STEP;
+  while (one_step && is_surely_stable(method, r->damping_ratio, 2.0 * r->begin * steepest)) {
+    r->begin *= 2.0;
+  }
 }
 
 /* Returns the next b at which the stability changes, or infinity. `stable` is the stability at
@@ -70,6 +104,7 @@ static double next_change(const baum_i_method *method, const ray *r, double b, b
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   if (!is_stable(method, r.damping_ratio, r.begin)) {
     return 0.0;
   }
@@ -80,6 +115,7 @@ int baum_i_stability_intervals(const baum_i_method *method, double damping_ratio
                                double *from, double *to)
 {
   ray r = make_ray(damping_ratio);
+  begin_later(method, &r);
   int count = 0;
   double b = r.begin;
   double low = 0.0;
@@ -105,7 +141,8 @@ typedef struct lowest {
   double b;
 } lowest;
 
-/* Updates the best point. A cheap test rejects most points before their radius is computed. */
+/* Stores a point if it is better than the best one so far. A test that costs little rejects most
+ * points before their radius is computed. */
 static void try_point(const baum_i_method *method, double damping_ratio, double b, lowest *best)
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {

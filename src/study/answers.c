@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Front, cost at an error, and recommendation.
+/* This file answers three questions about the results of a study: which entries are on the front,
+ * what an error costs, and which setting is recommended.
  *
  * Between two entries of a method, error and cost are interpolated linearly over the logarithm of
- * step or rtol. A recommendation for the error E requires
+ * the step or of rtol. A recommendation for the error E requires
  *
  *   error_validated x margin <= E
  *
- * for an entry and for the next finer entry, so that an accidentally small error is not sufficient.
- * The margin is the factor by which MORE_WORK reduces the error of the method. If no entry
- * satisfies this, error <= E is required instead. */
+ * both for an entry and for the next finer entry. An entry whose error is small only by accident is
+ * thus not sufficient. The margin is the factor by which the error of the method decreases when its
+ * work increases by the factor MORE_WORK. If no entry satisfies this condition, only error <= E is
+ * required. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +21,10 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MORE_WORK = 1.15;        /* factor on work from which margins are computed */
-static const double MARGINS[2] = {2.0, 4.0}; /* least and largest margin */
-static const double SPEED_MARGIN = 1.25;     /* margin on times, which vary from run to run */
+/* The increase of work from which margins are computed. */
+static const double MORE_WORK = 1.15;
+static const double MARGINS[2] = {2.0, 4.0}; /* the smallest and the largest margin */
+static const double SPEED_MARGIN = 1.25;     /* margin on times, which are different in every run */
 
 /* ---- front ---- */
 
@@ -30,8 +33,8 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
   return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Tells whether another entry is at least as good in error and cost, and better in one of them. Of
- * equal entries the first counts as better. */
+/* Tells whether another entry is better: at least as good in error and in cost, and better in one
+ * of them. Of two equal entries, the first is considered better. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -59,14 +62,15 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* Entries from cheap to expensive, at most `capacity`. */
+/* A list of entries, sorted from cheap to expensive. It has at most `capacity` entries. */
 typedef struct list {
   int32_t *entries;
   int capacity;
-  int count; /* may be larger than the capacity */
+  int count; /* number of entries found, which may be larger than the capacity */
 } list;
 
-/* Inserts an entry. More expensive entries move up; those beyond the capacity are not kept. */
+/* Inserts an entry at its place in the list. More expensive entries move up by one place. The list
+ * does not keep entries beyond its capacity. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
   double c = cost_of(study->entries[k], cost);
@@ -105,12 +109,13 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- interpolated settings ---- */
 
-/* A setting between two entries of a method, or at one entry if `coarse` equals `fine`. */
+/* A setting between two entries of a method. If `coarse` equals `fine`, it is the setting of this
+ * entry. */
 typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
-  double share;  /* position from coarse to fine, in logarithms */
-  double margin; /* margin for other starts and spans; 1: none */
+  double share;  /* position between coarse (0) and fine (1), in logarithms */
+  double margin; /* margin for other starts and spans; 1 if there is none */
 } setting;
 
 static double between(double a, double b, double share)
@@ -128,8 +133,8 @@ static double setting_error(const setting *p)
   return between(p->coarse->out.error, p->fine->out.error, p->share);
 }
 
-/* Returns the share at which a quantity with the values `coarse` and `fine` at the entries has the
- * value `wanted`. */
+/* Returns the share of the setting at which a quantity has the value `wanted`. `coarse` and `fine`
+ * are its values at the two entries. */
 static double share_at(double coarse, double fine, double wanted)
 {
   return coarse == fine ? 1.0 : log(coarse / wanted) / log(coarse / fine);
@@ -137,8 +142,9 @@ static double share_at(double coarse, double fine, double wanted)
 
 /* ---- cost at an error ---- */
 
-/* Finds the setting with this error by linear interpolation of logarithms, and beyond both ends by
- * extrapolation over at most the distance of two entries. */
+/* Finds the setting of a method at which the error has the given value, by linear interpolation of
+ * logarithms. Beyond the first and the last entry, the function extrapolates by at most the
+ * distance of two entries. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {
@@ -154,7 +160,7 @@ static bool find_error(const baum_i_entry *const *entries, int count, double err
   return false;
 }
 
-/* A query for the cost at an error. */
+/* What a caller asks when asking for the cost at an error. */
 typedef struct cost_query {
   const baum_study *study;
   double error;
@@ -226,9 +232,10 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* Returns the expected error: with margin the largest over twice the span and for perturbed starts,
- * otherwise the measured error. For an entry without validation the ratio of both is taken from
- * `beside`, an entry of the same method. */
+/* Returns the error that is expected of an entry. With margin, this is the largest error over twice
+ * the span and for perturbed starts. Without margin, it is the measured error. If the entry was not
+ * validated, the ratio of these two errors is taken from `beside`, which is an entry of the same
+ * method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -241,8 +248,8 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns the factor by which MORE_WORK reduces the error at an entry. It is large for methods of
- * high order. */
+/* Returns the margin at an entry, which is the factor by which MORE_WORK reduces the error there.
+ * It is larger for methods of higher order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -253,8 +260,8 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* Finds the coarsest setting of a method whose error, and that of the next finer entry, is not
- * larger than the given one.
+/* Finds the coarsest setting of a method for which two errors are not larger than the given one:
+ * the error of the setting itself, and the error of the next finer entry.
  */
 static bool find_setting(const baum_i_entry *const *entries, int count, double error,
                          bool with_margin, setting *out)
@@ -282,10 +289,10 @@ typedef struct question {
   double error;
   baum_study_cost cost;
   bool with_margin;
-  const baum_integrator *without; /* excluded integrator; NULL: none */
+  const baum_integrator *without; /* an integrator that must not be recommended, or NULL */
 } question;
 
-/* Finds the cheapest setting over all methods. */
+/* Finds the setting that is cheapest among all methods. */
 static bool find_best(const baum_study *study, const question *q, setting *best)
 {
   *best = (setting){.coarse = NULL};
@@ -304,7 +311,7 @@ static bool find_best(const baum_study *study, const question *q, setting *best)
   return best->fine != NULL;
 }
 
-/* Rounds a setting to two digits. A step is rounded such that it divides the span. */
+/* Rounds a setting to two digits. A step is rounded to a step that divides the span. */
 static double rounded(const baum_study *study, double value, bool fixed)
 {
   if (fixed) {
@@ -327,7 +334,7 @@ static baum_simulation_options options_of(const baum_study *study, const setting
   return o;
 }
 
-/* Appends the best setting of another integrator for comparison. */
+/* Appends the best setting of any other integrator to the text, for comparison. */
 static void add_rival(const baum_study *study, const setting *best, question q, char *why,
                       size_t size)
 {
@@ -376,8 +383,8 @@ static void add_margin(const baum_study *study, const setting *p, const question
   add_rival(study, p, *q, why, size);
 }
 
-/* Warns of a formulation without stabilization, which may be the cheapest within the span but
- * drifts. */
+/* Warns if the recommended formulation has no stabilization. It may be the cheapest one within the
+ * span, but it drifts. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
@@ -457,7 +464,8 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* Tells whether a setting is more accurate than another one, or as accurate and faster. */
+/* Tells whether a setting is better than another one. It must be more accurate, or as accurate and
+ * faster. */
 static bool beats(const setting *p, const setting *other)
 {
   if (!other->fine) {
@@ -468,7 +476,7 @@ static bool beats(const setting *p, const setting *other)
   return e[0] < e[1] || (e[0] == e[1] && c[0] < c[1]);
 }
 
-/* Finds the most accurate setting of a method within the time budget. */
+/* Finds the most accurate setting of a method that stays within the time budget. */
 static void find_affordable(const baum_i_entry *const *entries, int count, double seconds,
                             setting *best)
 {
@@ -487,8 +495,8 @@ static void find_affordable(const baum_i_entry *const *entries, int count, doubl
   }
 }
 
-/* Finds the most accurate setting of all methods within the time budget. Returns the smallest time
- * of all entries. */
+/* Finds the most accurate setting of all methods that stays within the time budget. Returns the
+ * shortest time of all entries. */
 static double find_most_exact(const baum_study *study, double seconds, setting *best)
 {
   double quickest = (double)INFINITY;

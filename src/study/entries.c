@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adds settings and reads their entries. */
+/* Adds settings to a study, and returns their entries. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -8,7 +8,7 @@
 #include "study/fields.h"
 #include "study/study.h"
 
-/* Sets all results to "not known". */
+/* Sets all results of an entry to values that mean "not known". */
 static void clear_results(baum_study_entry *entry)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {
@@ -18,7 +18,8 @@ static void clear_results(baum_study_entry *entry)
   }
 }
 
-/* Returns the formulation, or that which DEFAULT means. */
+/* Returns the formulation of the options. DEFAULT is replaced by the formulation that it stands
+ * for. */
 static baum_formulation resolve_formulation(const baum_simulation_options *o)
 {
   return o->formulation == BAUM_FORMULATION_DEFAULT ? o->integrator->formulations[0]
@@ -54,7 +55,8 @@ static baum_status copy_row_gains(baum_i_entry *entry)
   return BAUM_OK;
 }
 
-/* Appends an entry. Nothing may fail afterwards, because the study then owns the entry. */
+/* Appends an entry to a study. The study owns the entry afterwards, so a caller must not fail after
+ * this call. */
 static baum_status append_entry(baum_study *study, baum_i_entry *entry)
 {
   size_t wanted = (size_t)study->entry_count + 1;

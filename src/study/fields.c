@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields of entries, methods and the reference. Their names never change. */
+/* The tables of fields of entries, methods and the reference. The names of fields must never
+ * change, because files contain them. */
 #include "study/fields.h"
 
 #include <math.h>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The standard grid.
+/* The standard grid of settings that a study can add.
  *
- * Steps decrease from h0 by a factor and are rounded to (t1 - t0) / N with whole N. Tolerances
- * decrease from 1e-2 to the finest by equal ratios and are rounded to one digit:
+ * Steps decrease from h0 by a constant factor. They are rounded to (t1 - t0) / N with a whole
+ * number N. Tolerances decrease by equal ratios from 1e-2 to the finest one, and are rounded to one
+ * digit:
  *
  *   order      1      2      3 to 5   8
  *   h0 rate    0.1    0.3    0.5      0.8       rate: baum_i_study_rate()
@@ -111,8 +112,8 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
-/* Returns the finest tolerance. It is not below the error of the differences that replace missing
- * derivatives of constraints. */
+/* Returns the finest tolerance of the grid. If derivatives of constraints are missing and replaced
+ * by differences, the tolerance is not below the error of these differences. */
 static double finest_of(const grid *g)
 {
   double finest = g->wanted->finest;
@@ -144,7 +145,7 @@ static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fix
   return BAUM_OK;
 }
 
-/* Adds settings by step and by rtol, as far as the integrator offers them. */
+/* Adds settings by step and settings by rtol, if the integrator offers them. */
 static baum_status add_settings(const grid *g, const baum_simulation_options *o)
 {
   if (o->integrator->without_freedom) {
@@ -156,8 +157,8 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
   return baum_integrator_has_fixed_step(o->integrator) ? add_ladder(g, *o, true) : BAUM_OK;
 }
 
-/* Adds settings with the gains of the integrator's default rule, of the rule auto, and with
- * constant gains. */
+/* Adds settings with three kinds of gains: the gains of the integrator's default rule, the gains of
+ * the rule "auto", and constant gains. */
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
   BAUM_I_TRY(add_settings(g, &o));

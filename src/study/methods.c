@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Groups entries by method, and finds the cost of one more digit.
+/* Sorts entries by method, and finds what one more digit of accuracy costs.
  *
- * The error of a method is about C h^p, where h is the step or rtol, until it reaches the
- * uncertainty of the reference or rounding. The cost is also a power of h. Lines are fitted to
- * logarithms of the entries from the coarsest to the most accurate one. Entries whose error is less
- * than FLOOR times the smallest error are excluded, except the most accurate entry. */
+ * The error of a method is about C h^p, where h is the step or rtol. This is true until the error
+ * reaches rounding, or the uncertainty of the reference. The cost is also about proportional to a
+ * power of h. Straight lines are therefore fitted to the logarithms of error and cost, from the
+ * coarsest entry to the most accurate one. Errors near the smallest one do not follow these lines.
+ * Entries with an error below FLOOR times the smallest error are therefore excluded, except the
+ * most accurate entry. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,7 +71,8 @@ int baum_i_study_usable(const baum_study *study, int method,
   return count;
 }
 
-/* Returns the slope of a least-squares line, or NaN for less than two different points. */
+/* Returns the slope of the least-squares line through points. Returns NaN if there are not at least
+ * two different points. */
 static double slope_of(const double *x, const double *y, int count)
 {
   double mx = 0.0;
@@ -87,7 +90,7 @@ static double slope_of(const double *x, const double *y, int count)
   return count >= 2 && xx > 0.0 ? xy / xx : (double)NAN;
 }
 
-/* Fits slopes to these entries. */
+/* Fits lines to these entries, and stores their slopes in the method. */
 static void fit(const baum_i_entry *const *entries, int count, baum_study_method *out)
 {
   double setting[BAUM_I_METHOD_ENTRIES];

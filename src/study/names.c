@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names of settings, and keys that distinguish them. */
+/* Names of settings, and the keys by which settings are distinguished. */
 #include <math.h>
 
 #include "base/digest.h"
@@ -72,7 +72,7 @@ double baum_i_setting(const baum_simulation_options *options)
   return isnan(options->rtol) ? 0.0 : options->rtol;
 }
 
-/* Adds a number to a digest. All NaNs are equal. */
+/* Adds a number to a digest. All NaNs give the same digest. */
 static void add_number(baum_i_digest *digest, double value)
 {
   double number = isnan(value) ? (double)NAN : value;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One run of a study: through the samples for its errors, or to the end of the span for its cost.
+/* Makes one run of a study. To measure its errors, the run goes through all samples. To measure its
+ * cost, it only goes to the end of the span.
  */
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double LOOK = 0.005; /* [s] of wall time between checks of the deadline */
+static const double LOOK = 0.005; /* [s] wall time between two checks of the deadline */
 
 bool baum_i_deadline_stops(const baum_i_deadline *deadline)
 {
@@ -33,7 +34,7 @@ static int check_deadline(const baum_simulation *simulation, double t, void *use
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* Returns the options of the entry, completed by those of the study. */
+/* Returns the options of an entry, with the options of the study added. */
 static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
@@ -68,8 +69,8 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   return rest == BAUM_OK ? status : rest;
 }
 
-/* Advances to the end of the span. Kinematics computes configurations at requested times, which
- * determine its cost, so it advances through the samples. */
+/* Advances a run to the end of the span. For kinematics the cost depends on the times at which
+ * configurations are requested, so such a run goes through the samples. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
   const baum_i_samples *samples = task->samples;
@@ -84,7 +85,8 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-/* Copies the first warning that the motion may be wrong, or otherwise the first warning. */
+/* Copies a warning of the run: the first one that says that the motion may be wrong, or else the
+ * first of all warnings. */
 static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
                          size_t size)
 {

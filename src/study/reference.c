@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference with which runs are compared: given samples, a closed-form solution, or a motion
- * that the study computes.
+/* The reference is the motion with which runs are compared. It consists of given samples, or it is
+ * a closed-form solution, or the study computes it.
  *
- * The study computes its reference with two formulations that have only the equations of motion in
- * common; one of them uses projection. Each runs at a tight tolerance and at half of this
- * tolerance. The run of the first formulation at the tighter tolerance is the reference. Its
- * largest difference from the other three runs is the uncertainty. If runs fail or differ by more
- * than CLOSE, looser tolerances and implicit methods are also tried, and the attempt with the
- * smallest difference is used. The last attempt is RK4 with STEPS and twice as many steps, which
- * succeeds after singular configurations, where constraint violations grow strongly. */
+ * The study computes a reference with two formulations that have nothing in common except the
+ * equations of motion. One of them uses projection. Each formulation makes a run at a tight
+ * tolerance, and a run at half of this tolerance. The run of the first formulation at the tighter
+ * tolerance is the reference. The largest difference between the reference and the other three runs
+ * is the uncertainty of the reference. If runs fail, or differ by more than CLOSE, the study also
+ * tries looser tolerances and implicit methods. It then uses the attempt with the smallest
+ * difference. The last attempt uses RK4 with STEPS steps, and with twice as many. It succeeds even
+ * after singular configurations, where constraint violations grow strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,16 +21,18 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double CLOSE = 1e-9;     /* no other attempt is made if the difference is below this */
-static const double TRUSTED = 1e-3;   /* largest difference of a trusted reference */
-static const double ROUNDING = 1e-15; /* smallest uncertainty */
-static const double PATIENCE = 5.0;   /* time limit of a run of the reference / entry limit */
+/* If the difference is below this, no other attempt is made. */
+static const double CLOSE = 1e-9;
+static const double TRUSTED = 1e-3;   /* largest difference for which a reference is trusted */
+static const double ROUNDING = 1e-15; /* the uncertainty is at least this */
+/* Time limit of a run of the reference, divided by the limit of an entry. */
+static const double PATIENCE = 5.0;
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
 typedef const baum_integrator *integrator_fn(void);
 
-/* Two formulations and a tolerance. */
+/* How an attempt computes a reference: with which integrators, formulations and tolerance. */
 typedef struct attempt {
   integrator_fn *integrator[PARTIES];
   baum_formulation formulation[PARTIES];
@@ -45,8 +48,8 @@ static const attempt ATTEMPTS[] = {
   {{baum_rk8, baum_rk4}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_PROJECTION}, 1e-10},
 };
 
-/* The attempt if drivers prescribe all degrees of freedom: kinematics, whose configurations are
- * accurate to rounding, and an integration. */
+/* The attempt for mechanisms in which drivers prescribe all degrees of freedom. It compares
+ * kinematics, whose configurations are accurate to rounding, with an integration. */
 static const attempt WITHOUT_FREEDOM[] = {
   {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
 };
@@ -55,11 +58,11 @@ static const attempt WITHOUT_FREEDOM[] = {
 
 /* The result of an attempt. */
 typedef struct found {
-  double *values; /* samples of the reference, or NULL */
+  double *values; /* samples of the reference, or NULL if there is none */
   baum_i_differences most;
-  bool singular;                   /* a run was near a singular configuration */
-  bool failed;                     /* a run did not reach the end */
-  baum_simulation_options options; /* of the reference */
+  bool singular;                   /* whether a run was near a singular configuration */
+  bool failed;                     /* whether a run did not reach the end */
+  baum_simulation_options options; /* options of the run that became the reference */
   char text[BAUM_I_TEXT_SIZE];
 } found;
 
@@ -100,7 +103,8 @@ static void describe_failure(const baum_simulation_options *o, const baum_i_outc
                  baum_i_options_name(o).text, outcome->message);
 }
 
-/* Makes one run and writes its samples to values. The first run is the reference of the others. */
+/* Makes one run of an attempt and writes its samples to `values`. The first run of an attempt is
+ * the reference with which the others are compared. */
 static baum_status compare_run(baum_study *study, const baum_simulation_options *o,
                                baum_i_deadline *deadline, double *values, found *out)
 {
@@ -133,8 +137,8 @@ static void describe(const baum_study *study, const attempt *a, found *out)
                baum_i_method_name(&one).text, baum_i_method_name(&other).text, a->rtol);
 }
 
-/* Makes the four runs of an attempt, the reference first. Leaves study->reference.samples.values
- * NULL. */
+/* Makes the four runs of an attempt, beginning with the one that becomes the reference. Afterwards
+ * study->reference.samples.values is NULL. */
 static baum_status run_attempt(baum_study *study, const attempt *a, baum_i_deadline *deadline,
                                found *out)
 {
@@ -202,7 +206,7 @@ static void set_outcome(baum_study *study, const found *best)
   }
 }
 
-/* Returns the attempts that suit the mechanism. */
+/* Returns the attempts that are suitable for the mechanism. */
 static const attempt *attempts_for(const baum_mechanism *mechanism, int *count)
 {
   baum_mobility mobility;
@@ -252,21 +256,22 @@ static bool is_of_position(baum_quantity quantity)
   return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
 }
 
-/* A run that is used to evaluate channels, at one sample after the other. */
+/* A run that is used only to evaluate channels. It is set to one sample after the other. */
 typedef struct probe {
   baum_simulation *run;
-  bool lost; /* some angle may have made any number of revolutions */
+  bool lost; /* whether the number of revolutions of some angle is unknown */
 } probe;
 
-/* Counts revolutions up to a sample. The count is lost if an angle differs by more than a quarter
- * of a revolution from the angle that the velocities of this sample and the one before predict. */
+/* Follows the revolutions of angles from the previous sample to this one. The velocities of both
+ * samples predict each angle. If an angle differs from its prediction by more than a quarter of a
+ * revolution, its number of revolutions is no longer known. */
 static void follow(probe *p, const baum_i_state *at)
 {
   double off = baum_i_run_follow_angles(p->run, at);
   p->lost = p->lost || off > 0.25 * BAUM_I_REVOLUTION;
 }
 
-/* Computes energy and the user's channels of a sample whose q, v and lambda are known. */
+/* Computes the energy and the user's channels of a sample. Its q, v and lambda are known. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, probe *p, double t,
                           double *sample)
 {
@@ -285,7 +290,7 @@ static baum_status derive(const baum_study *study, const baum_i_layout *l, probe
   BAUM_I_TRY(baum_i_check_memory(still));
   follow(p, &at);
   if (p->lost) {
-    has_v = false; /* forces and energies may depend on the revolutions, which are unknown */
+    has_v = false; /* forces and energies may depend on the unknown revolutions */
   }
   if (has_v) {
     status = baum_i_output(p->run, &at, &energy, 1, sample + l->energy);

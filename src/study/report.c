@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes reports in all forms, to memory and to files. */
+/* Writes reports of all forms, to memory and to files. */
 #include "study/report.h"
 
 #include "base/file.h"
@@ -10,7 +10,7 @@ static report_fn *const FORMS[] = {baum_i_report_text, baum_i_report_csv, baum_i
                                    baum_i_report_page};
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
-/* Writes a report to *out, which the caller must clear. */
+/* Writes a report to *out. The caller must clear *out afterwards. */
 static baum_status make_report(const baum_study *study, baum_report_form form, const char *title,
                                const char *call, baum_i_buffer *out)
 {

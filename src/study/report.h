@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports: a snapshot of a study, from which all forms of reports are made. */
+/* Reports of studies. All forms of reports are made from a snapshot of the study. */
 #ifndef BAUM_I_STUDY_REPORT_H
 #define BAUM_I_STUDY_REPORT_H
 
@@ -11,23 +11,24 @@
 #include "base/text.h"
 #include "study/fields.h"
 
-/* Number of recommendations, which are for the errors 1e-2, 1e-4, ... 1e-10, and of kinds of
- * cost. */
+/* Numbers of recommendations and of kinds of cost. Recommendations are made for the errors 1e-2,
+ * 1e-4, 1e-6, 1e-8 and 1e-10. */
 enum { BAUM_I_ADVICE = 5, BAUM_I_COSTS = 2 };
 
-/* The recommendation for an error. */
+/* The recommendation for one error. */
 typedef struct baum_i_advice {
   double error;
   baum_status status;
-  baum_simulation_options options; /* the recommended setting, if the status is not an error */
-  baum_i_text setting;             /* name of the setting; "": none */
-  char why[BAUM_I_MESSAGE_SIZE];   /* reason of the recommendation, or why there is none */
+  baum_simulation_options options; /* the recommended setting, unless the status is an error */
+  baum_i_text setting;             /* name of the setting, or "" if there is none */
+  /* Why this setting is recommended, or why there is no recommendation. */
+  char why[BAUM_I_MESSAGE_SIZE];
 } baum_i_advice;
 
-/* The environment in which a report was made. */
+/* The versions and the machine with which a report was made. */
 typedef struct baum_i_environment {
-  const char *baum;     /* version */
-  const char *sundials; /* version, or "none" */
+  const char *baum;     /* version of baum */
+  const char *sundials; /* version of SUNDIALS, or "none" */
   const char *compiler;
   char cpu[128];
   char date[32]; /* ISO 8601, UTC */
@@ -36,7 +37,7 @@ typedef struct baum_i_environment {
 typedef struct baum_i_snapshot {
   const baum_study *study;
   const char *title;
-  const char *error; /* what error means */
+  const char *error; /* explains what the errors of the study mean */
   double t0;
   double t1;
   baum_study_options options;
@@ -45,17 +46,18 @@ typedef struct baum_i_snapshot {
   int entry_count;
   baum_i_report_method *methods;
   int method_count;
-  int32_t *front[BAUM_I_COSTS]; /* entries, from cheap to accurate */
+  int32_t *front[BAUM_I_COSTS]; /* the entries on each front, from cheap to accurate */
   int32_t front_count[BAUM_I_COSTS];
   baum_i_advice advice[BAUM_I_COSTS][BAUM_I_ADVICE];
   baum_i_environment environment;
 } baum_i_snapshot;
 
-/* Reads a study into a snapshot. The caller must clear the snapshot, also after a failure. */
+/* Reads a study into a snapshot. The caller must clear the snapshot, even after a failure. */
 baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out);
 void baum_i_snapshot_clear(baum_i_snapshot *snapshot);
 
-/* Returns a name such as "best_damping", or NULL for an unknown value. */
+/* Returns the name of a rule for gains, such as "best_damping". Returns NULL for an unknown
+ * value. */
 const char *baum_i_gain_rule_name(int rule);
 
 void baum_i_environment_read(baum_i_environment *out);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries of a study as CSV (RFC 4180). */
+/* Writes the entries of a study as CSV (RFC 4180). */
 #include "study/report.h"
 
 static void put_cell(baum_i_buffer *out, const baum_i_field *field, const void *entry)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Environment of a report: libraries, compiler, processor, date. */
+/* Finds the environment of a report: libraries, compiler, processor and date. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,14 +10,14 @@
 #include "study/report.h"
 
 #if defined(__clang__)
-#define COMPILER __VERSION__ /* includes the compiler's name */
+#define COMPILER __VERSION__ /* contains the name of the compiler */
 #elif defined(__GNUC__)
 #define COMPILER "gcc " __VERSION__
 #else
 #define COMPILER "not known"
 #endif
 
-/* Reads the processor's name from Linux. */
+/* Reads the name of the processor from a file that Linux provides. */
 static void read_cpu(char *cpu, size_t size)
 {
   char line[512];

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as JSON (RFC 8259). Keys never change. "version" is increased if the meaning of a key
- * changes. */
+/* Writes a study as JSON (RFC 8259). The names of keys never change. The number "version" is
+ * increased if a key gets another meaning. */
 #include <math.h>
 
 #include "study/report.h"
 
 enum { VERSION = 2 };
 
-/* Appends a key. A comma precedes it unless the text ends with the opening brace of its object. */
+/* Appends a key. A comma precedes it unless the text ends with the opening brace of the object. */
 static void put_key(baum_i_buffer *out, const char *key)
 {
   bool first = out->used > 0 && out->text[out->used - 1] == '{';
@@ -65,7 +65,7 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   put_number(out, "entry_limit", snapshot->options.entry_limit);
 }
 
-/* Appends the units of all keys that have one. */
+/* Appends an object with the unit of every key that has one. */
 static void put_units(baum_i_buffer *out)
 {
   const baum_i_field *const lists[] = {baum_i_entry_fields, baum_i_method_fields,
@@ -82,7 +82,7 @@ static void put_units(baum_i_buffer *out)
   }
 }
 
-/* Appends the meanings of the keys of entries. */
+/* Appends an object with the meaning of every key of an entry. */
 static void put_meanings(baum_i_buffer *out)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as one HTML page: the template report.html with a picture of the mechanism and the data
- * that its script draws. The data are the report as JSON and, for each fixed-step integrator with
- * gains, its gain rule, its point of best damping, and level lines of the spectral radius, which
- * show its region of stability. */
+/* Writes a study as one HTML page. The page consists of the template report.html, a picture of the
+ * mechanism, and the data that the script in the template draws. The data begin with the report as
+ * JSON. For each fixed-step integrator with gains, they also contain its gain rule, its point of
+ * best damping, and level lines of the spectral radius, which show where it is stable. */
 #include <math.h>
 #include <string.h>
 
@@ -14,17 +14,19 @@
 
 enum { POINTS = 4000, LEVELS = 3 };
 static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
-static const char PICTURE[] = "<!-- PICTURE -->"; /* marks its place in the template */
+/* The page has the picture in place of this mark in the template. */
+static const char PICTURE[] = "<!-- PICTURE -->";
 static const char DATA[] = "\"DATA\"";
 
-extern const unsigned char baum_i_report_html[]; /* created by cmake/Embed.cmake */
+/* The template as bytes, in C code that cmake/Embed.cmake generates. */
+extern const unsigned char baum_i_report_html[];
 
 static bool has_gains(const baum_study_entry *entry)
 {
   return entry->formulation == BAUM_FORMULATION_BAUMGARTE && !isnan(entry->step);
 }
 
-/* Tells whether entry k is the first entry of its integrator that has gains. */
+/* Tells whether entry k is the first entry with gains for its integrator. */
 static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
   const baum_study_entry *entry = &snapshot->entries[k].entry;
@@ -37,7 +39,8 @@ static bool is_first(const baum_i_snapshot *snapshot, int k)
   return has_gains(entry);
 }
 
-/* Appends points (alpha h, beta^2 h^2), with null between curves. */
+/* Appends the points (alpha h, beta^2 h^2) of level lines. A null separates one line from the
+ * next. */
 static void put_outline(const baum_integrator *integrator, double radius, double *points,
                         baum_i_buffer *out)
 {
@@ -77,7 +80,8 @@ static void put_regions(const baum_i_snapshot *snapshot, double *points, baum_i_
   }
 }
 
-/* Draws the initial configuration or, if assembly fails, the design configuration. */
+/* Draws the initial configuration of the mechanism. If assembly fails, draws the design
+ * configuration. */
 static void put_picture(const baum_study *study, baum_i_buffer *out)
 {
   baum_simulation *start = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads a study for a report, through its public interface. */
+/* Reads all that a report needs from a study, through its public interface. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as text: recommendations, front, cost of accuracy, all entries, messages. */
+/* Writes a study as text: the recommendations, the front, the cost of accuracy, all entries, and
+ * messages. */
 #include <math.h>
 #include <string.h>
 
 #include "study/report.h"
 
-/* Returns the width of the longest name or of the title. */
+/* Returns the width of the column of names, which is the width of the longest name or of the
+ * column's title. */
 static int name_width(const baum_i_snapshot *snapshot)
 {
   int width = baum_i_length("setting");
@@ -16,7 +18,7 @@ static int name_width(const baum_i_snapshot *snapshot)
   return width;
 }
 
-/* Counts the entries that have a state. */
+/* Counts the entries that are in a given state. */
 static int count_in(const baum_i_snapshot *snapshot, baum_study_state state)
 {
   int count = 0;
@@ -59,13 +61,13 @@ static void put_advice(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   }
 }
 
-/* Appends a number with this many digits in a column. */
+/* Appends a number with `digits` digits, in a column of `width` characters. */
 static void put_figure(baum_i_buffer *out, double x, int digits, int width)
 {
   baum_i_putf(out, "  %*s", width, baum_i_short(x, digits).text);
 }
 
-/* A column of the tables of entries. */
+/* One column in the tables of entries. */
 typedef struct text_column {
   const char *key;
   const char *title;

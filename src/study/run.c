@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a study. First it computes the reference. Then it runs all entries in several threads for
- * their errors, and one after the other for their times. Last it validates entries. */
+/* Runs a study. First it computes the reference. Then it runs all entries. The runs that measure
+ * errors use several threads, and the runs that measure times are made one after the other.
+ * Finally, it validates those entries that may be recommended. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +10,12 @@
 #include "base/platform.h"
 #include "study/study.h"
 
-/* [-] a run with a larger error of positions has followed another motion */
+/* [-] A run whose positions have a larger error has followed another motion. */
 static const double OFF = 0.1;
-static const double VALIDATED_FOR = 5.0; /* time limit of a validation / entry limit */
-static const double TIMED_FOR = 0.2;     /* [s] an entry is repeated until this total time */
+/* Time limit of a validation, divided by the limit of an entry. */
+static const double VALIDATED_FOR = 5.0;
+/* [s] an entry is run again until the runs have taken this time in total. */
+static const double TIMED_FOR = 0.2;
 
 /* Data that the threads have in common. */
 typedef struct workers {
@@ -20,12 +23,14 @@ typedef struct workers {
   baum_i_study_file *file;
   baum_i_lock *lock;
   double wall_end;
-  baum_i_entry **order; /* (count) entries to be measured */
+  baum_i_entry **order; /* (count) the entries to be measured */
   int count;
   int next;
-  int done; /* progress: 1 per entry that is measured, 1 more when it is timed or needs no time */
+  /* Progress. Each entry counts 1 when it is measured, and 1 more when it is timed or needs no
+   * time. */
+  int done;
   baum_status status;
-  baum_i_kept_message message; /* message of the status */
+  baum_i_kept_message message; /* the message that belongs to `status` */
 } workers;
 
 /* ---- results of a run ---- */
@@ -41,8 +46,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Sets the errors over the whole span and at its end. An error is at least the uncertainty of the
- * reference. */
+/* Sets the error over the whole span and the error at its end. An error is never below the
+ * uncertainty of the reference. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
@@ -113,14 +118,15 @@ static void note_failure(workers *c, baum_status status)
   }
 }
 
-/* Returns the deadline of a run whose time limit is `limits` times the entry limit. */
+/* Returns the deadline of a run. Its time limit is `limits` times the limit of an entry. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* Runs work() in as many threads as the options tell, but not more than there are entries. */
+/* Runs work() in several threads. Their number is given by the options, but it is at most the
+ * number of entries. */
 static void run_workers(workers *c, void (*work)(void *user, int k))
 {
   int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
@@ -129,7 +135,7 @@ static void run_workers(workers *c, void (*work)(void *user, int k))
   }
 }
 
-/* Reports that one more entry is done. Called by one thread at a time. */
+/* Reports that one more entry is finished. Only one thread calls this function at a time. */
 static void report_progress(workers *c)
 {
   c->done++;
@@ -139,7 +145,8 @@ static void report_progress(workers *c)
   }
 }
 
-/* Tells whether a coarser setting of the method has reached the entry limit. */
+/* Tells whether an entry need not be run, because a coarser setting of its method has already
+ * reached the time limit. */
 static bool is_too_fine(const workers *c, const baum_i_entry *entry)
 {
   double setting = baum_i_setting(&entry->options);
@@ -156,7 +163,7 @@ static void mark_too_fine(const workers *c, baum_i_entry *entry)
   entry->stage = BAUM_I_MEASURED;
 }
 
-/* Returns the next entry, or NULL. */
+/* Returns the next entry to be run, or NULL if there is none. */
 static baum_i_entry *next_entry(workers *c)
 {
   const baum_i_deadline deadline = deadline_of(c, 1.0);
@@ -205,7 +212,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(c->lock);
 }
 
-/* Work on one entry. values is scratch memory for the samples of one run. */
+/* A function that works on one entry. `values` is scratch memory for the samples of one run. */
 typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
 
 static void run_entries(workers *c, entry_fn *work)
@@ -254,7 +261,7 @@ static void validate(void *self, int k)
   run_entries(self, validate_entry);
 }
 
-/* Lists the entries that need validation. Returns whether there are any. */
+/* Makes the list of the entries that need validation. Returns whether there is any such entry. */
 static bool order_validations(workers *c)
 {
   const baum_study *study = c->study;
@@ -282,9 +289,9 @@ static void validate_all(workers *c)
   }
 }
 
-/* ---- order ---- */
+/* ---- order of the runs ---- */
 
-/* Counts the coarser entries of its method. */
+/* Counts how many entries of the same method are coarser. */
 static int rank_of(const baum_study *study, const baum_i_entry *entry)
 {
   int rank = 0;
@@ -296,7 +303,7 @@ static int rank_of(const baum_study *study, const baum_i_entry *entry)
   return rank;
 }
 
-/* An entry and its place in the order. */
+/* An entry and its rank, by which entries are sorted. */
 typedef struct place {
   baum_i_entry *entry;
   int rank;
@@ -311,8 +318,8 @@ static int by_rank(const void *a, const void *b)
                             : (x->k > y->k) - (x->k < y->k);
 }
 
-/* Orders the entries. Coarse settings are first, so that all methods have results if the time
- * budget is spent. */
+/* Sorts the entries into the order in which they are run. Coarse settings come first, so that all
+ * methods have results if the time budget is used up. */
 static baum_status set_order(workers *c)
 {
   const baum_study *study = c->study;
@@ -337,10 +344,11 @@ static baum_status set_order(workers *c)
 
 /* ---- times ---- */
 
-/* Returns the cost of a run, independent of the machine: the number of evaluations of right-hand
- * sides or residuals, plus factorizations, plus iterations of implicit methods. An explicit method
- * counts 2 per stage, and CVODE's Adams method 3 per iteration. The larger matrices of IDA and BDF,
- * and the work of SUNDIALS between evaluations, are only visible in the CPU time. */
+/* Returns the cost of a run as a number that does not depend on the machine. It is the number of
+ * evaluations of right-hand sides or residuals, plus the factorizations, plus the iterations of
+ * implicit methods. An explicit method thus counts 2 for each stage, and CVODE's Adams method
+ * counts 3 for each iteration. IDA and BDF factorize larger matrices, and SUNDIALS does other work
+ * between evaluations. Only the CPU time shows these costs. */
 static double work_of(const baum_study_entry *r)
 {
   return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
@@ -408,7 +416,7 @@ static void time_entries(workers *c)
 
 /* ---- the whole study ---- */
 
-/* Counts entries without a result or without a time. */
+/* Counts the entries that have no result, or no time. */
 static int waiting(const baum_study *study)
 {
   int count = 0;
@@ -419,8 +427,8 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-/* Tells whether any entry will be compared with the reference: an entry that must be measured, or
- * one that may need validation after it is timed. */
+/* Tells whether any entry will be compared with the reference. This is so for entries that must be
+ * measured, and for entries that may need validation after they are timed. */
 static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
@@ -489,7 +497,7 @@ static baum_status conclude(workers *c)
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
-/* Prepares memory, samples, file and reference. */
+/* Prepares the memory, the samples, the study file and the reference. */
 static baum_status begin_study(workers *c)
 {
   baum_study *study = c->study;

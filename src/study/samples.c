@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes differences of the samples of a run from the reference. The errors of the parts of a
- * sample are
+/* Computes how much the samples of a run differ from the reference. A sample has several parts. The
+ * errors of its numbers are
  *
  *   q       |dq_i| / s_i             s: scales of the mechanism, L for lengths and 1 for angles
  *   v       |dv_i| / (s_i V)         V: largest |v_j| / s_j over all samples of the reference [1/s]
@@ -9,8 +9,8 @@
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit, or as q
  *
- * Numbers that the reference does not contain are not compared. If a run lacks a number, its error
- * is infinite. */
+ * Numbers that are missing in the reference are not compared. If a number is missing in a run but
+ * not in the reference, the error of the run is infinite. */
 #include <math.h>
 #include <string.h>
 
@@ -60,7 +60,7 @@ void baum_i_study_clear_samples(baum_i_samples *samples)
 
 /* ---- weights ---- */
 
-/* Computes n_i of all rows at the first sample. */
+/* Computes the displacements n_i of all rows, at the first sample. */
 static baum_status measure_rows(const baum_study *study, double *rows)
 {
   baum_workspace *w = NULL;
@@ -76,8 +76,8 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   return status;
 }
 
-/* Divides the weights of columns by the largest weighted value of these columns in the
- * reference. */
+/* Divides the weights of some columns by the largest weighted value that the reference has in these
+ * columns. */
 static void normalize(const baum_study *study, const baum_i_layout *l, int first, int count)
 {
   const baum_i_samples *samples = &study->reference.samples;
@@ -127,8 +127,8 @@ static double distance(double got, double wanted)
   return isfinite(difference) ? difference : (double)INFINITY;
 }
 
-/* Returns the largest weighted difference in the columns first to end - 1 of a sample, or NaN if
- * none is known.
+/* Returns the largest weighted difference in the columns from `first` to end - 1 of a sample.
+ * Returns NaN if no difference is known.
  */
 static double largest_of(const baum_study *study, const double *got, const double *wanted,
                          int first, int end)

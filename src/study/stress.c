@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress settings for a user's mechanism. They differ by factors of 10 and cover a wide range. */
+/* Settings for a stress test of a user's mechanism. The steps, tolerances and gains cover a wide
+ * range in factors of 10. */
 #include <math.h>
 
 #include "base/text.h"
@@ -8,8 +9,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Exponents: steps of 10^-1 to 10^-9 of the period, rtol of 10^-2 to 10^-14, gains of 10^-6 to
- * 10^12 1/s.
+/* Exponents of ten. Steps are 10^-1 to 10^-9 of the period, rtol is 10^-2 to 10^-14, and gains are
+ * 10^-6 to 10^12 1/s.
  */
 enum {
   FIRST_STEP = 1,
@@ -52,8 +53,8 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* Adds, at one moderate step or tolerance, a setting without gains and settings with alpha = beta
- * = 10^k 1/s for all exponents k. */
+/* Adds settings with different gains, at one moderate step or tolerance. The first has no gains,
+ * and the others have alpha = beta = 10^k 1/s for every exponent k in the range. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

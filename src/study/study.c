@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates a study, sets what is studied, and returns the reference. */
+/* Creates a study, defines what it studies, and returns its reference. */
 #include <baum/study.h>
 
 #include <math.h>
@@ -16,9 +16,9 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-/* ---- making and ending ---- */
+/* ---- creating and destroying ---- */
 
-enum { NAMED = 3 }; /* number of channels that the error text names */
+enum { NAMED = 3 }; /* the description of the error names at most this many channels */
 
 static void describe_error(baum_study *study)
 {
@@ -69,7 +69,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-/* Removes all entries and methods from these indices on. */
+/* Removes the last entries and methods, so that `entries` and `methods` of them remain. */
 static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {
@@ -80,8 +80,8 @@ static void truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
-/* Tells whether the build has an integrator. The list contains integrators of SUNDIALS even without
- * it. */
+/* Tells whether this build contains an integrator. The list always contains the integrators of
+ * SUNDIALS, even in a build without SUNDIALS. */
 static bool is_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;
@@ -138,7 +138,8 @@ void baum_study_cancel(baum_study *study)
 /* ---- options ---- */
 
 enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
-static const double MOST_NUMBERS = 1e8; /* values of q, v, lambda in the samples of a thread */
+/* Largest number of values of q, v and lambda in the samples that one thread stores. */
+static const double MOST_NUMBERS = 1e8;
 
 static int most_samples(const baum_mechanism *m)
 {
@@ -325,7 +326,7 @@ static baum_status check_sample_times(const baum_study *study, const double *tim
   return BAUM_OK;
 }
 
-/* Copies given samples. Returns false when out of memory. */
+/* Copies the samples that a caller gives as the reference. Returns false when out of memory. */
 static bool copy_given(const baum_study *study, const double *times, int32_t n,
                        const double *const given[3], baum_i_study_reference *out)
 {

@@ -6,11 +6,14 @@
  *   reference DIGITS ... | TEXT #SUM
  *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
- * STAGE is 1: measured, 2: timed, or 3: validated. KEY is a digest of the options of an entry, so
- * entries may be added in any order. SUM is a digest of the line before it and, in all lines except
- * the first, of the first line. A line that is cut off, damaged or of another study is therefore
- * ignored, and its entry is run again. An entry has a line for each stage, with all results that
- * are known then. Of two lines of one stage, the first without a timeout is used. */
+ * STAGE is 1 for an entry that is measured, 2 for one that is timed, and 3 for one that is
+ * validated. KEY is a digest of the options of an entry. The entries of a study may therefore be
+ * added in any order. SUM is a digest of the text before it in the line. In all lines except the
+ * first, the first line is also included in this digest. A line that is incomplete or damaged, or
+ * that belongs to another study, is therefore recognized and ignored, and its entry is run again.
+ * The file contains one line for each stage of an entry, with all results that are known at this
+ * stage. If there are two lines for the same stage of an entry, the first one without a timeout is
+ * used. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -38,7 +41,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* seed of the sums of all lines except the first */
+  uint64_t seed; /* the sums of all lines except the first begin with this number */
 };
 
 /* ---- lines ---- */
@@ -49,7 +52,8 @@ static baum_status fail_file(const baum_i_study_file *file, const char *what)
                      strerror(errno));
 }
 
-/* Writes and flushes a line, so that a process that is killed later has left whole lines. */
+/* Writes a line and flushes it. If the process is killed later, all lines written so far are
+ * complete. */
 static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed)
 {
   baum_i_study_seal(line, seed);
@@ -63,7 +67,7 @@ static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed
 
 /* ---- identity of the study ---- */
 
-/* A property that must be the same in the file and the study, and its name in messages. */
+/* A property of the study that must also be true of the file, with its name in messages. */
 typedef struct mark {
   const char *name;
   const char *what;
@@ -176,13 +180,13 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
 
 /* ---- reading ---- */
 
-/* Returns the text after " | ", or NULL if " | " is missing. */
+/* Returns the text that follows " | ". Returns NULL if " | " is missing. */
 static const char *text_at(const char *rest)
 {
   return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-/* Reads STAGE LIMIT FIELDS | MESSAGE of the line of an entry. */
+/* Reads the part STAGE LIMIT FIELDS | MESSAGE of an entry's line. */
 static void take_entry(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   baum_study_entry out = entry->out;
@@ -230,7 +234,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   } else if (strncmp(line, ENTRY, strlen(ENTRY)) == 0) {
     char *rest = NULL;
     uint64_t key = strtoull(line + strlen(ENTRY), &rest, 16);
-    for (int k = 0; k < study->entry_count; k++) { /* several entries may be equal */
+    for (int k = 0; k < study->entry_count; k++) { /* several entries may have equal options */
       if (study->entries[k]->key == key) {
         take_entry(study, study->entries[k], rest);
       }
@@ -238,7 +242,7 @@ static void take_line(const baum_i_study_file *file, baum_study *study, char *li
   }
 }
 
-/* Tells whether the file ends within its first line, so that it contains no results. */
+/* Tells whether the file ends within its first line. Such a file contains no results. */
 static bool is_begun_head(const baum_i_study_file *file, const baum_study *study, const char *line)
 {
   char head[LINE];
@@ -249,7 +253,7 @@ static bool is_begun_head(const baum_i_study_file *file, const baum_study *study
          ftell(file->stream) == (long)size;
 }
 
-/* Reads all lines. *whole tells whether the last line is complete. */
+/* Reads all lines. *whole is set to tell whether the last line is complete. */
 static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is_new, bool *whole)
 {
   char *line = baum_i_alloc(LINE, 1);
@@ -278,7 +282,7 @@ static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is
 
 /* ---- opening and closing ---- */
 
-/* Reads an existing file. A missing file is a new one. */
+/* Reads an existing study file. If there is no file, *is_new is set to true. */
 static baum_status take_present(baum_i_study_file *file, baum_study *study, bool *is_new,
                                 bool *whole)
 {
@@ -310,11 +314,13 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* A newline ends a truncated line. The line is later ignored as damaged. */
+  /* If the last line is incomplete, a newline ends it. It will be ignored later, because it is
+   * damaged. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 
-/* Writes results that are known but not in the file, for example because the disk was full. */
+/* Writes results that are known but not in the file. An earlier attempt may have failed, for
+ * example because the disk was full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   for (int k = 0; k < study->entry_count; k++) {

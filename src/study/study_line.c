@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines of the study file: results as text, and a sum at the end of each line. */
+/* Lines of the study file. They contain results as text, and each line ends with a digest. */
 #include "study/study_line.h"
 
 #include <inttypes.h>
@@ -68,7 +68,7 @@ static void put_whole(void *place, baum_i_kind kind, int64_t value)
   } else if (kind == BAUM_I_FLAG) {
     *(bool *)place = value != 0;
   } else {
-    *(int32_t *)place = (int32_t)value; /* including enums */
+    *(int32_t *)place = (int32_t)value; /* enums are stored in the same way */
   }
 }
 

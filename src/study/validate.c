@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds errors over twice the span and from other starts. The growth of errors depends on the
- * motion and on the method: from one revolution to the next they may grow by a factor of 100.
- * Entries that may be recommended are therefore run again over twice the span, from the design
- * configuration and from two other starts. The velocities of these differ by the fraction NUDGE of
- * their size or, at rest, of the rate of the motion. Each start has a reference, computed with the
- * setting of the study's reference. Entries that cost more than NEAR times an equally accurate one
- * are not validated. */
+/* Finds the errors of entries over twice the span and from other starts. How fast errors grow
+ * depends on the motion and on the method. They may grow by a factor of 100 from one revolution to
+ * the next. Entries that may be recommended are therefore run again over twice the span. One of
+ * these runs starts with the velocities of the study, and two others start with changed velocities.
+ * The changed velocities differ by the fraction NUDGE of their size. If the mechanism starts at
+ * rest, they differ by NUDGE times the rate of the motion. Each start has its own reference, which
+ * is computed with the same setting as the reference of the study. An entry that costs more than
+ * NEAR times as much as an equally accurate one is not validated. */
 #include <math.h>
 #include <string.h>
 
@@ -33,7 +34,7 @@ static baum_status allocate(const baum_study *study, baum_i_samples *samples)
                                                                        : baum_i_fail_memory();
 }
 
-/* Sets the start, with velocities changed by the fraction `nudge`. */
+/* Sets the start of a motion. Its velocities are changed by the fraction `nudge`. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_samples *samples)
 {
   const baum_mechanism *m = study->mechanism;
@@ -69,7 +70,7 @@ static baum_simulation_options reference_options(const baum_study *study)
   return o;
 }
 
-/* Computes one motion. Its values are NULL if this fails. */
+/* Computes one of the motions for validation. If this fails, its `values` are NULL. */
 static baum_status make_one(const baum_study *study, double nudge, baum_i_deadline *deadline,
                             baum_i_samples *samples)
 {
@@ -106,7 +107,8 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Tells whether no recommendable entry is at least as accurate and NEAR times cheaper. */
+/* Tells whether an entry is near the front. An entry is not near the front if another entry, which
+ * may be recommended, is at least as accurate and costs less than 1 / NEAR as much. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

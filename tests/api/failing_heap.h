@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests that every allocation of a scenario may fail. Include rules: as heap.h. */
+/* Tests that every allocation of a scenario may fail. The rules for including heap.h also apply to
+ * this file. */
 #ifndef BAUM_TEST_FAILING_HEAP_H
 #define BAUM_TEST_FAILING_HEAP_H
 
@@ -7,7 +8,8 @@
 
 #include "heap.h"
 
-/* A function to test: it cleans up after itself and returns its first failure. */
+/* A function that is tested. It cleans up after itself and returns the first failure of its
+ * calls. */
 typedef baum_status scenario(void *context);
 
 static inline void fail_once(scenario *run, void *context, long n, bool for_good)
@@ -26,7 +28,8 @@ static inline void fail_once(scenario *run, void *context, long n, bool for_good
   }
 }
 
-/* Runs once before counting, because libraries then allocate memory that they never free. */
+/* Runs the scenario once before counting, because libraries allocate memory in their first use that
+ * they never free. */
 static inline long count_allocations(scenario *run, void *context)
 {
   assert_int_equal(run(context), BAUM_OK);
@@ -38,8 +41,9 @@ static inline long count_allocations(scenario *run, void *context)
   return allocations;
 }
 
-/* Lets every stride-th allocation fail alone. The scenario has to return BAUM_OK or BAUM_ERR_MEMORY
- * and lose no block. */
+/* Lets single allocations fail, one in each run of the scenario. To save time, only the allocations
+ * with the numbers 0, stride, 2 stride and so on are tested. The scenario has to return BAUM_OK or
+ * BAUM_ERR_MEMORY, and it must not lose memory. */
 static inline void fail_allocations(scenario *run, void *context, long stride)
 {
   long allocations = count_allocations(run, context);
@@ -48,7 +52,8 @@ static inline void fail_allocations(scenario *run, void *context, long stride)
   }
 }
 
-/* Lets every allocation fail, first alone, then together with all later ones. */
+/* Lets every allocation fail: first only this one, and then this one together with all later
+ * ones. */
 static inline void fail_every_allocation(scenario *run, void *context)
 {
   long allocations = count_allocations(run, context);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Counts the allocations of a test program and makes chosen ones fail. The program and all
  * libraries that it loads allocate through the functions defined here. These functions have to be
- * in the program itself, so only a program with one source file may include this header, after
- * defining _GNU_SOURCE and including cmocka.h.
+ * in the program itself. Therefore only a program with one source file may include this header. It
+ * must define _GNU_SOURCE and include cmocka.h before.
  *
- * For glibc. heap_is_ours() is false where another tool replaces malloc, as valgrind and the thread
- * sanitizer do. The address sanitizer is called by the names of its own allocation functions, so it
- * still checks the memory accesses after a failed allocation.
+ * This works with glibc. If another tool replaces malloc, as valgrind and the thread sanitizer do,
+ * heap_is_ours() returns false. The functions here call the address sanitizer's own allocation
+ * functions by their names. The sanitizer thus still checks memory accesses after a failed
+ * allocation.
  */
 #ifndef BAUM_TEST_HEAP_H
 #define BAUM_TEST_HEAP_H
@@ -33,15 +34,15 @@
 #endif
 
 static struct {
-  atomic_long blocks;  /* alive */
-  atomic_long count;   /* allocations since heap_watch() */
-  long fail_from;      /* index of the first allocation to fail */
-  long fail_to;        /* index after the last allocation to fail */
-  bool inside;         /* during an excluded call */
-  long may_still_fail; /* allocations of the excluded call that may fail */
+  atomic_long blocks;  /* number of blocks that are allocated now */
+  atomic_long count;   /* number of allocations since heap_watch() */
+  long fail_from;      /* index of the first allocation that fails */
+  long fail_to;        /* index after the last allocation that fails */
+  bool inside;         /* set during an excluded call */
+  long may_still_fail; /* how many allocations of the excluded call may still fail */
 } heap;
 
-/* ---- watching ---- */
+/* ---- counting ---- */
 
 static void heap_watch(void)
 {
@@ -50,7 +51,7 @@ static void heap_watch(void)
   atomic_store(&heap.count, 0);
 }
 
-/* From now on only the n-th allocation fails, or, if for_good, the n-th and all later ones. */
+/* From now on allocation number n fails. If `for_good` is set, all later ones also fail. */
 static void heap_fail(long n, bool for_good)
 {
   heap_watch();
@@ -58,7 +59,7 @@ static void heap_fail(long n, bool for_good)
   heap.fail_to = for_good ? LONG_MAX : n + 1;
 }
 
-/* Returns the number of allocations since heap_watch(); from now on none fails. */
+/* Returns the number of allocations since heap_watch(). From now on, no allocation fails. */
 static long heap_stop(void)
 {
   long count = atomic_load(&heap.count);
@@ -80,7 +81,7 @@ static long heap_blocks(void)
 #else
 #define HEAP_REAL(name) __libc_##name
 #endif
-/* These functions are called before the sanitizer is ready. */
+/* These functions are called before the sanitizer has been set up. */
 #define HEAP_EARLY  __attribute__((no_sanitize("address", "undefined")))
 #define HEAP_PUBLIC __attribute__((visibility("default"))) HEAP_EARLY
 
@@ -89,7 +90,7 @@ void *HEAP_REAL(calloc)(size_t number, size_t size);
 void *HEAP_REAL(realloc)(void *old, size_t size);
 void HEAP_REAL(free)(void *memory);
 
-/* Excluded allocations are not counted. */
+/* Tells whether an allocation has to fail. Allocations of excluded calls are not counted. */
 HEAP_EARLY static bool heap_refuses(void)
 {
   if (heap.inside && heap.may_still_fail-- <= 0) {
@@ -134,13 +135,13 @@ HEAP_PUBLIC void free(void *memory)
   HEAP_REAL(free)(memory);
 }
 
-/* ---- what is excluded, and why ---- */
+/* ---- calls that are excluded, and why ---- */
 
-/* SUNLogger_Create() of SUNDIALS 6.4.1, called by SUNContext_Create(): its first allocation is
- * checked. Then SUNHashMap_New() allocates a map and writes to it unchecked (it compares `map` with
- * NULL where `*map` is meant); and when the buckets of the map cannot be allocated it frees the
- * map, which the logger keeps and later destroys. A caller cannot prevent these two errors, so the
- * test lets only the first allocation fail.
+/* SUNLogger_Create() of SUNDIALS 6.4.1, which SUNContext_Create() calls, checks only its first
+ * allocation. After it, SUNHashMap_New() allocates a map and writes to it without checking, because
+ * it compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated,
+ * it frees the map, although the logger keeps the map and later destroys it again. A caller cannot
+ * prevent these two errors. The test therefore lets only the first allocation fail.
  */
 #if BAUM_HAVE_SUNDIALS
 
@@ -149,7 +150,7 @@ typedef int heap_create_logger(void *communicator, int rank, void **logger);
 static heap_create_logger *heap_real_create_logger;
 static bool heap_find_excluded(void);
 
-/* The declaration of SUNDIALS' header with other type names. */
+/* This is the declaration of SUNDIALS' header, with other type names. */
 int SUNLogger_Create(void *communicator, int rank, void **logger);
 
 HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
@@ -166,7 +167,7 @@ HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 
 #endif
 
-/* Finds the excluded functions in advance, because dlsym() allocates. */
+/* Finds the addresses of the excluded functions in advance, because dlsym() allocates memory. */
 static bool heap_find_excluded(void)
 {
   bool all = true;
@@ -180,8 +181,8 @@ static bool heap_find_excluded(void)
   return all;
 }
 
-/* Whether malloc, calloc and free are the functions above. Calls go through volatile pointers so
- * that the compiler cannot remove them. */
+/* Tells whether malloc, calloc and free are the functions of this file. They are called through
+ * volatile pointers, so that the compiler cannot remove the calls. */
 static bool heap_is_ours(void)
 {
   void *(*volatile get)(size_t) = malloc;

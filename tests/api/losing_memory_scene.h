@@ -8,9 +8,9 @@
 #include "every_element.h"
 #include "models.h"
 
-/* ---- scenes: the objects of a call ---- */
+/* ---- scenes, which contain the objects of a call ---- */
 
-/* Objects that a call needs, in the order in which they are made; STUDIED is a study of a
+/* The objects that a call needs, in the order in which they are made. STUDIED is a study of a
  * pendulum. */
 typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
 
@@ -22,7 +22,8 @@ typedef struct scene {
   double v[EVERY_NV];
   double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
   baum_simulation *run;
-  baum_simulation *from; /* at a later time than run, with a schedule and a law of a driver */
+  /* A run at a later time than `run`, which has a schedule and a new law of a driver. */
+  baum_simulation *from;
   model pendulum;
   baum_study *study;
 } scene;
@@ -90,7 +91,7 @@ static void make_scene(scene *s, stage wanted)
     assert_int_equal(baum_workspace_create(s->parts.mechanism, &s->w), BAUM_OK);
     assert_int_equal(baum_workspace_design(s->w, s->q, NULL), BAUM_OK);
     memcpy(s->y, s->q, sizeof s->q);
-    s->q[0] += 1e-3; /* so that assembly has something to do */
+    s->q[0] += 1e-3; /* otherwise assembly would have nothing to do */
   }
   if (wanted == RUNNING) {
     make_runs(s);
@@ -106,5 +107,14 @@ static void end_scene(scene *s)
   baum_study_destroy(s->study);
   model_destroy(&s->pendulum);
 }
+
+/* A scene, because the scene of the parts would need hooks for all functions. */
+static const char SCENE_TEXT[] =
+  "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
+  "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "
+  "\"name\": \"b\"}], \"joints\": [{\"kind\": \"planar_revolute\", \"name\": \"A\", "
+  "\"body_a\": \"ground\", \"body_b\": \"b\", \"point\": [0, 0]}, {\"kind\": \"spline_driver\", "
+  "\"joint\": \"A\", "
+  "\"times\": [0, 1, 2], \"values\": [0, 1, 3]}]}";
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps and evaluations allocate nothing. Every other call returns BAUM_ERR_MEMORY if any of its
- * allocations fails. This includes allocations of SuiteSparse and SUNDIALS, except those that
- * heap.h excludes. */
-#define _GNU_SOURCE /* of heap.h */
+/* Steps and evaluations must not allocate memory. Every other call must return BAUM_ERR_MEMORY if
+ * any of its allocations fails. This includes allocations of SuiteSparse and SUNDIALS, except those
+ * that heap.h excludes. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@
 #define SUNDIALS_VERSION_MAJOR 0
 #endif
 
-/* ---- what is run ---- */
+/* ---- what the tests run ---- */
 
 enum { CHANNELS = 14, WIDTH_MAX = 480, SAMPLES = 7 };
 
@@ -32,7 +32,7 @@ static bool is_of_a_body(baum_quantity quantity)
          quantity == BAUM_BODY_ACCELERATION;
 }
 
-/* One channel of every quantity. */
+/* Makes one channel of every quantity. */
 static int make_channels(const every_element *parts, baum_channel channels[CHANNELS])
 {
   for (int k = 0; k < CHANNELS; k++) {
@@ -65,8 +65,8 @@ static bool reached_the_end(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* The k-th combination of integrator, kind of step and formulation that this build offers; false
- * when there are no more. */
+/* Finds combination k of an integrator, a kind of step and a formulation in this build. Returns
+ * false if there are fewer. */
 static bool find_pair(int k, baum_simulation_options *o)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -86,7 +86,8 @@ static bool find_pair(int k, baum_simulation_options *o)
 
 /* ---- steps allocate nothing ---- */
 
-/* Changes an input, and replaces the law of the motor by its quadratic continuation. */
+/* Changes an input, and replaces the law of the motor by a quadratic polynomial that continues
+ * it. */
 static baum_status act(baum_simulation *run, const every_element *parts)
 {
   double t = baum_simulation_time(run);
@@ -193,7 +194,7 @@ static void jumps_of_inputs_allocate_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The state at which the workspace functions are evaluated. */
+/* A state at which functions of the workspace are evaluated. */
 typedef struct point {
   double q[EVERY_NQ];
   double v[EVERY_NV];
@@ -303,7 +304,7 @@ static void building_survives_every_failing_allocation(void **state)
   fail_every_allocation(build_everything, NULL);
 }
 
-/* If memory for a new definition is missing, the old one stays. */
+/* If there is no memory for a new definition, the old one must stay. */
 static baum_status replace_definitions(void *context)
 {
   every_element *parts = context;
@@ -333,7 +334,8 @@ static void replacing_survives_every_failing_allocation(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Gets the sizes first, then all three arrays, as a caller would. */
+/* Makes two calls, as a program would: the first one gets the sizes, and the second one gets all
+ * three arrays. */
 static baum_status evaluate_jacobian(baum_workspace *w, const point *p)
 {
   static int32_t columns[EVERY_NQ + EVERY_NV + EVERY_NC + 1];
@@ -395,10 +397,10 @@ typedef struct run_scenario {
   every_element parts;
   baum_simulation_options options;
   double span; /* [s] */
-  bool warned; /* creating the run gives a warning */
+  bool warned; /* whether the creation of the run gives a warning */
 } run_scenario;
 
-/* Runs forward, reads all channels, returns to the initial state and runs backward. */
+/* Runs forward, reads all channels, sets the initial state, and runs backward. */
 static baum_status go(baum_simulation *run, const every_element *parts, double span)
 {
   baum_channel channels[CHANNELS];
@@ -446,8 +448,8 @@ static baum_status simulate(void *context)
   return reached_the_end(status) ? BAUM_OK : status;
 }
 
-/* SUNDIALS 7.1 writes its message about a failed allocation to memory that it allocates without
- * checking the result. */
+/* Excludes SUNDIALS 7.1. It writes its message about a failed allocation to memory that it has
+ * allocated without checking. */
 static bool survives_without_memory(const baum_integrator *integrator)
 {
   const char *name = baum_integrator_name(integrator);
@@ -455,7 +457,8 @@ static bool survives_without_memory(const baum_integrator *integrator)
   return SUNDIALS_VERSION_MAJOR < 7 || !of_sundials;
 }
 
-/* Code that all runs share (assembly, check of derivatives) is tested only with the first run. */
+/* All runs share some code, such as assembly and the check of derivatives. This code is tested only
+ * with the first run. */
 static void runs_survive_every_failing_allocation(void **state)
 {
   (void)state;
@@ -483,8 +486,8 @@ static const double *factors_of_rows(void)
   return factors;
 }
 
-/* Gains of rows only add a copy of the factors. This code is the same for all integrators, so one
- * integrator is tested. */
+/* If rows have gains of their own, the only additional allocation is a copy of the factors. This
+ * code is the same for all integrators, so that testing one of them is sufficient. */
 static void runs_with_gains_of_rows_survive_every_failing_allocation(void **state)
 {
   (void)state;
@@ -507,7 +510,8 @@ static void runs_with_gains_of_rows_survive_every_failing_allocation(void **stat
   baum_mechanism_destroy(s.parts.mechanism);
 }
 
-/* Adds the weld a second time: rank, omitted rows and least-norm multipliers allocate too. */
+/* Adds the weld a second time. The code for rank, omitted rows and least-norm multipliers then
+ * allocates memory, too. */
 static every_element make_redundant(void)
 {
   every_element parts = {.fault = NULL};
@@ -529,8 +533,8 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
   run_scenario s = {.parts = make_redundant(), .span = 0.001, .warned = true};
   s.options = options_for((step_mode){baum_euler(), true}, BAUM_FORMULATION_PROJECTION);
   for (int solver = BAUM_SOLVER_AUTO; solver <= BAUM_SOLVER_QR; solver++) {
-    if (solver > BAUM_SOLVER_AUTO) { /* variable step: no companion run, which would take too long
-                                      * with KLU or QR */
+    /* With a variable step there is no companion run, which would take too long with KLU or QR. */
+    if (solver > BAUM_SOLVER_AUTO) {
       s.options = options_for((step_mode){baum_dp5(), false}, BAUM_FORMULATION_PROJECTION);
     }
     s.options.solver = (baum_solver)solver;
@@ -538,8 +542,9 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
     s.options.start = solver == BAUM_SOLVER_AUTO ? BAUM_START_ASSEMBLE : BAUM_START_AS_GIVEN;
     if (solver == BAUM_SOLVER_AUTO) {
       fail_every_allocation(simulate, &s);
-    } else { /* Thousands of allocations at few places; only those of the solver differ from
-              * BAUM_SOLVER_AUTO. */
+    } else {
+      /* There are thousands of allocations at few places. Only the allocations of the solver differ
+       * from BAUM_SOLVER_AUTO, so it is enough to test one in fifty. */
       fail_allocations(simulate, &s, 50);
     }
   }

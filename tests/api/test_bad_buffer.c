@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* baum_simulation_restore() checks a buffer before it changes the run. Truncated and damaged
- * buffers, and those of other mechanisms or options, are refused with a message that says so. */
+/* Tests that baum_simulation_restore() checks a buffer before it changes the run. It must refuse
+ * buffers that are truncated or damaged, and buffers of other mechanisms or options. The message
+ * must say which of these is the case. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +16,7 @@
 #include "every_element.h"
 #include "models.h"
 
-/* Positions of the header's numbers in a buffer, in bytes. */
+/* Byte positions of the numbers in the header of a buffer. */
 enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 48 };
 
 typedef struct saved {
@@ -62,7 +63,7 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* Expects that the buffer is refused with a message that contains these words. */
+/* Checks that the buffer is refused, with a message that contains these words. */
 static void check_refused(baum_simulation *run, const void *bytes, size_t size, const char *words)
 {
   baum_status status = baum_simulation_restore(run, bytes, size);
@@ -74,8 +75,8 @@ static void check_refused(baum_simulation *run, const void *bytes, size_t size, 
   assert_string_equal(baum_simulation_message(run), message);
 }
 
-/* The run saves the same bytes as before, so all its saved numbers are unchanged. Saving does not
- * alter runs of one-step methods with a fixed step. */
+/* Checks that a run saves the same bytes as before. Then all its numbers are unchanged. Saving does
+ * not alter a run that uses a one-step method with a fixed step. */
 static void check_unchanged(baum_simulation *run, const saved *before)
 {
   saved now = save(run);
@@ -84,7 +85,7 @@ static void check_unchanged(baum_simulation *run, const saved *before)
   free(now.bytes);
 }
 
-/* A run at 0.3 s, and a buffer saved at 0.2 s. */
+/* A run at 0.3 s, and a buffer that was saved at 0.2 s. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_simulation *run;
@@ -119,8 +120,8 @@ static void buffers_truncated_at_any_length_are_refused(void **state)
   (void)state;
   scene s = open_scene();
   for (size_t size = 0; size < s.other.size; size++) {
-    /* an allocation of exactly this size, so that the address sanitizer detects reads past its
-     * end */
+    /* The allocation has exactly this size, so that the address sanitizer detects reading past its
+     * end. */
     unsigned char *part = malloc(size + 1);
     assert_non_null(part);
     memcpy(part + 1, s.other.bytes, size); /* not aligned */
@@ -149,7 +150,7 @@ static void buffers_with_any_changed_bit_are_refused(void **state)
   close_scene(&s);
 }
 
-/* A plain sum of words does not change if the highest bits of two words change; the checksum must
+/* The sum of all words would not change if the highest bits of two words changed. The checksum must
  * detect this. */
 static void buffers_with_two_changed_signs_are_refused(void **state)
 {
@@ -165,9 +166,9 @@ static void buffers_with_two_changed_signs_are_refused(void **state)
   close_scene(&s);
 }
 
-/* ---- buffers whose checksum is right ---- */
+/* ---- buffers whose checksum is right, but whose content is not ---- */
 
-/* Writes the checksum that base/digest.h documents. */
+/* Writes the checksum into the buffer. It is documented in base/digest.h. */
 static void seal(saved *s)
 {
   uint64_t h = 0;
@@ -180,8 +181,8 @@ static void seal(saved *s)
   memcpy(s->bytes + s->size - sizeof h, &h, sizeof h);
 }
 
-/* Random lengths and numbers with a valid checksum. Restore must not crash, and must apply a buffer
- * as a whole or not at all. */
+/* The lengths and the numbers are random, and the checksum is valid. baum_simulation_restore() must
+ * not crash. It must use the whole buffer or nothing of it. */
 static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 {
   (void)state;
@@ -203,14 +204,16 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
     taken += status == BAUM_OK;
     memcpy(s.other.bytes, kept, s.other.size);
   }
-  assert_in_range(taken, 1, 19999); /* accepted if only the state changes, refused if a size does */
+  /* A buffer is accepted if only numbers of the state differ, and refused if a size differs. */
+  assert_in_range(taken, 1, 19999);
   free(kept);
   assert_int_equal(baum_simulation_restore(s.run, s.before.bytes, s.before.size), BAUM_OK);
   close_scene(&s);
 }
 
-/* An impossible size is refused. Then every word in turn is replaced by 0. One word says that the
- * driver has a polynomial law; if it is 0, the driver has no law, and restore must refuse that. */
+/* The first part of the test refuses an impossible size. The second part replaces each word of the
+ * buffer by 0, one at a time. One of these words says that the driver has a polynomial as its law.
+ * If it is 0, the driver has no law, and restoring must refuse this. */
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;
@@ -277,9 +280,9 @@ static void buffers_of_other_versions_are_refused(void **state)
   close_scene(&s);
 }
 
-/* ---- buffers of something else ---- */
+/* ---- buffers of other mechanisms ---- */
 
-/* A slider-crank with the given rod mass, or with an additional joint. */
+/* Makes a slider-crank with a given mass of the rod, or with an additional joint. */
 static baum_mechanism *crank(double rod_mass, bool doubled)
 {
   model m;
@@ -406,7 +409,8 @@ static void bytes_that_no_run_has_saved_are_refused(void **state)
   check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
   memset(zeros, 0xff, sizeof zeros);
   check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
-  check_refused(s.run, s.run, 64, "not written by baum_simulation_save()"); /* the bytes of a run */
+  /* These bytes are a run and not a saved run. */
+  check_refused(s.run, s.run, 64, "not written by baum_simulation_save()");
   close_scene(&s);
 }
 
@@ -430,7 +434,7 @@ static void wrong_arguments_are_refused(void **state)
   close_scene(&s);
 }
 
-/* A buffer may be larger than its saved run: the rest is ignored. */
+/* A buffer may be larger than the saved run. What follows the saved run is ignored. */
 static void bytes_after_a_saved_run_are_ignored(void **state)
 {
   (void)state;
@@ -446,7 +450,7 @@ static void bytes_after_a_saved_run_are_ignored(void **state)
   close_scene(&s);
 }
 
-/* Scheduled inputs are checked even if the checksum is right, because restore would write to a
+/* Scheduled inputs are checked even if the checksum is right. Otherwise restoring would write to a
  * wrong address for an input that does not exist. */
 static void schedules_out_of_order_are_refused(void **state)
 {
@@ -459,8 +463,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_simulation *run = start(parts.mechanism, &o, 0.01);
   assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, 2), BAUM_OK);
   saved s = save(run);
-  /* Finds the record of the second jump: its value before the jump is values[0], which is also the
-   * value after the first jump. */
+  /* Finds the record of the second jump. It is found by its value before the jump, which is
+   * values[0], the value after the first jump. */
   size_t at = 0;
   for (size_t k = HEAD; k + 8 <= s.size; k += 8) {
     at = memcmp(s.bytes + k, &values[0], sizeof *values) == 0 ? k - BEFORE * sizeof *values : at;
@@ -491,7 +495,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Saved before a law is set, restored afterwards: the law and the input are gone. */
+/* The run is saved before a law is set, and restored afterwards. The law and the input must then be
+ * removed. */
 static void restoring_removes_laws_that_were_set_later(void **state)
 {
   (void)state;

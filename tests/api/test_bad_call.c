@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function with NULL arguments and at the wrong stage. Functions of elements are
- * tested in test_bad_definition.c, those of stabilization.h also in tests/unit/test_stability.c. */
+/* Calls every public function with NULL arguments, and at a wrong stage of its objects. Functions
+ * of elements are tested in test_bad_definition.c. Functions of stabilization.h are also tested in
+ * tests/unit/test_stability.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -214,7 +215,7 @@ CALL(residual_jacobian, a->dae, 1.0, a->t, a->y, a->y, a->sparse)
 CALL(assemble, a->t, a->q, a->v, NULL, 0)
 CALL(project, a->t, a->q, a->v)
 
-/* For each function: the arguments that must not be NULL, and those that must be finite. */
+/* For each function, which arguments must not be NULL, and which must be finite. */
 typedef struct workspace_row {
   const char *name;
   workspace_call *call;
@@ -405,6 +406,8 @@ static void calls_on_no_run_are_refused(void **state)
   ASSERT_SAYS(baum_simulation_advance_to(NULL, 1.0), BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_step(NULL, 1), BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_progress_interval(NULL, 1.0), BAUM_ERR_ARGUMENT,
+              "the simulation is NULL");
+  ASSERT_SAYS(baum_simulation_set_time_limit(NULL, 1.0), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_state(NULL, 0.0, numbers, numbers), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, ids and mechanisms that are refused: each test compares the message and checks that
- * nothing has changed. */
+/* Definitions, ids and mechanisms that must be refused. Each test compares the message, and checks
+ * that nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,8 @@ static const any_id SENTINEL = {77, 88};
 
 enum { PARTS_SIZE = 160 };
 
-/* Checks the numbers of velocities and rows on a frozen copy, because sizes are known only after
- * freeze. */
+/* Checks the numbers of velocities and rows. It uses a frozen copy, because these numbers are only
+ * known after freeze. */
 static void check_size(const baum_mechanism *mechanism, int nv, int nc)
 {
   baum_mechanism *copy = NULL;
@@ -33,7 +33,8 @@ static void check_size(const baum_mechanism *mechanism, int nv, int nc)
   baum_mechanism_destroy(copy);
 }
 
-/* Add refuses the definition and leaves the id unchanged; set refuses it and keeps the old one. */
+/* Checks that adding the definition is refused and leaves the id unchanged. Checks also that
+ * setting it is refused and keeps the old definition. */
 static void check_refused(every_element *parts, const element_kind *kind, const any_def *def,
                           baum_status want, const char *message)
 {
@@ -51,7 +52,8 @@ static void check_refused(every_element *parts, const element_kind *kind, const 
 
 typedef void kind_check(every_element *parts, const element_kind *kind);
 
-/* Runs a check for each kind on one open mechanism, and compares its size afterwards. */
+/* Runs a check for each kind of element on one open mechanism. Afterwards the size of this
+ * mechanism must be the same. */
 static void for_every_kind(kind_check *check)
 {
   every_element parts = {.fault = NULL};
@@ -148,7 +150,7 @@ static void null_is_refused_by_add_get_and_set(void **state)
 
 /* ---- numbers ---- */
 
-/* The message names the element as in body 1 "crank". */
+/* The message names the element in the form: body 1 "crank". */
 static void check_number(every_element *parts, const element_kind *kind, const element_field *field,
                          size_t i, double bad)
 {
@@ -168,7 +170,7 @@ static bool begins(const char *text, const char *with)
   return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* Whether NaN in this field means "not given". */
+/* Tells whether NaN in this field means "not given". */
 static bool may_be_nan(const char *name)
 {
   return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
@@ -257,7 +259,8 @@ static void check_ids(every_element *parts, const element_kind *kind)
     memcpy(&good, def.bytes + field->offset, sizeof good);
     uint32_t tag = parts->crank.tag;
     const any_id bad[] = {{0, 0}, {0, tag}, {1, tag + 1}, {1, 0}, {99, tag}, {-1, tag}, {-7, 0}};
-    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* an input may be {0, 0}: none */
+    /* {0, 0} means that there is no input. */
+    size_t first = strcmp(field->name, "input") == 0 ? 1 : 0;
     for (size_t i = first; i < sizeof bad / sizeof *bad; i++) {
       memcpy(def.bytes + field->offset, &bad[i], sizeof bad[i]);
       (void)snprintf(message, sizeof message, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
@@ -297,8 +300,8 @@ static void none_foreign_and_ground_ids_have_no_definition(void **state)
   for_every_kind(check_own_id);
 }
 
-/* Reading or replacing an element by the functions of another kind of the same family is
- * refused. */
+/* The functions of one kind must refuse to read or replace an element of another kind in the same
+ * family. */
 static void check_other_kind(every_element *parts, const element_kind *kind)
 {
   for (int k = 0; k < ELEMENT_KINDS; k++) {
@@ -370,7 +373,7 @@ static void ids_stay_valid_in_copies_and_only_there(void **state)
   baum_mechanism_destroy(others.mechanism);
 }
 
-/* ---- ties ---- */
+/* ---- bodies and sizes that must stay the same ---- */
 
 static void set_refuses_other_bodies_and_sizes(void **state)
 {
@@ -439,7 +442,7 @@ static void gravity_and_scale_out_of_range_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Errors that only freeze can find, because they involve the definition of another element. */
+/* Only freeze can find these errors, because they involve the definition of another element. */
 static void freezing_refuses_points_that_do_not_fit(void **state)
 {
   (void)state;
@@ -465,7 +468,8 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The particle was at `point` when the slot was added; freeze compares its present position. */
+/* When the slot was added, the particle was at `point`. Freeze compares the present position of the
+ * particle. */
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;
@@ -482,7 +486,7 @@ static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state
   slot.point[0] = 0.0;
   slot.point[1] = 0.0;
   assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &id), BAUM_OK);
-  bead.position[0] = 0.5; /* along the slot: the constraint would still be fulfilled */
+  bead.position[0] = 0.5; /* along the slot, so that the constraint would still be satisfied */
   assert_int_equal(baum_mechanism_set_planar_particle(mechanism, slot.body_b, &bead), BAUM_OK);
   for (int again = 0; again < 2; again++) {
     ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
@@ -529,8 +533,8 @@ static void check_too_large(baum_mechanism *mechanism, const char *element)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Each body has a mass matrix with 10000^2 = 1e8 entries. An int32_t can count the entries of 21
- * such matrices. */
+/* Each body has a mass matrix with 10000^2 = 1e8 entries. An int32_t can only count the entries of
+ * 21 such matrices. */
 static void freezing_refuses_matrices_too_large_to_count(void **state)
 {
   (void)state;
@@ -549,7 +553,7 @@ static void freezing_refuses_matrices_too_large_to_count(void **state)
   }
   check_too_large(mechanism, "joint 22 ");
 
-  /* The force couples all three bodies: 3e4 x 3e4 = 9e8 entries, and three times as many
+  /* The force couples all three bodies. It has 3e4 x 3e4 = 9e8 entries, and three times as many
    * indices. */
   mechanism = make_huge(3, ids);
   baum_user_force_def force = baum_user_force_def_default();

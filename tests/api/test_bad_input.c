@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs and laws of drivers that are refused: each test compares the message and checks that
+/* Inputs and laws of drivers that must be refused. Each test compares the message, and checks that
  * nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
@@ -30,7 +30,7 @@ static baum_simulation *start(const baum_mechanism *mechanism)
   return run;
 }
 
-/* ---- of a mechanism ---- */
+/* ---- inputs of a mechanism ---- */
 
 static void a_mechanism_refuses_bad_inputs(void **state)
 {
@@ -116,7 +116,7 @@ static void reading_inputs_refuses_null_and_foreign_ids(void **state)
   baum_mechanism_destroy(others.mechanism);
 }
 
-/* ---- of a workspace and a run ---- */
+/* ---- inputs of a workspace and of a run ---- */
 
 static void a_workspace_refuses_bad_inputs(void **state)
 {
@@ -196,14 +196,15 @@ static void a_run_refuses_bad_schedules(void **state)
   ASSERT_SAYS(baum_simulation_schedule_input(run, u, same, rising, 3), BAUM_ERR_ARGUMENT,
               "times[1] is 1 s, must be above times[0], which is 1 s");
   assert_string_equal(baum_simulation_message(run), "");
-  assert_int_equal(baum_simulation_step(run, 1), BAUM_OK); /* no schedule is in effect */
+  assert_int_equal(baum_simulation_step(run, 1), BAUM_OK); /* no schedule may be in effect */
   assert_true(baum_simulation_input(run, u) == 1.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
   baum_mechanism_destroy(others.mechanism);
 }
 
-/* Angle of the crank after 0.1 s. After a refused law it must be that of the untouched run. */
+/* Returns the angle of the crank after 0.1 s. After a law was refused, this angle must be the same
+ * as without the attempt. */
 static double crank_angle(baum_simulation *run, baum_joint_id pin)
 {
   double row[2];

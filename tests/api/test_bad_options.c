@@ -75,7 +75,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* A value for one field of otherwise good options, with fixed or variable step, and the message. */
+/* One field of good options gets this value. The step is variable or fixed. */
 typedef struct bad_option {
   bool variable;
   size_t offset;
@@ -314,7 +314,7 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Reads the pair from a message such as "nearest good pair: (0.1234, 0.5678), that is alpha". */
+/* Reads the pair of numbers after "nearest good pair: (" in the message. */
 static void read_nearest(double good[2])
 {
   const char *text = strstr(baum_message(), "nearest good pair: (");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Errors that only spatial elements can have, with their messages: orientations, inertias,
- * axes, points on particles, bodies of the wrong kind, and joints that are mounted the wrong
- * way round. */
+/* Errors that only spatial elements can have, and their messages. They concern orientations,
+ * inertias, axes, points on particles, bodies of the wrong kind, and joints that are mounted the
+ * wrong way round. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,7 +25,7 @@ static bool begins(const char *text, const char *with)
   return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* Sets a field by name; returns false if the kind has no such field. */
+/* Sets a field, which is given by its name. Returns false if the kind has no such field. */
 static bool set_field(any_def *def, const element_kind *kind, const char *name, const void *bytes)
 {
   const element_fields fields = element_fields_of(kind);
@@ -38,8 +38,8 @@ static bool set_field(any_def *def, const element_kind *kind, const char *name, 
   return false;
 }
 
-/* Replaces one field of the good definition and expects that add and set refuse it; returns false
- * if the kind has no such field. */
+/* Replaces one field of a good definition. Checks that adding and setting this definition is
+ * refused. Returns false if the kind has no such field. */
 static bool refuses(const every_element *parts, const element_kind *kind, const char *field,
                     const void *bytes, const char *message)
 {
@@ -124,7 +124,8 @@ static void inertias_of_no_body_are_refused(void **state)
     assert_true(
       refuses(&parts, kind_of("spatial_body"), "inertia", bad[k].inertia, bad[k].message));
   }
-  /* Inertia of a plate (xx = yy + zz, the limit case), in axes rotated by 45 degrees. */
+  /* The inertia of a plate, in axes rotated by 45 degrees. For a plate xx = yy + zz, which is the
+   * limit of what is possible. */
   static const double plate[6] = {1.5, 1.5, 1.0, 0.5, 0.0, 0.0};
   baum_spatial_body_def def = baum_spatial_body_def_default();
   memcpy(def.inertia, plate, sizeof plate);
@@ -159,7 +160,7 @@ static void axes_without_direction_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Axes of very small length are accepted. */
+/* The axes have a very small length, and must be accepted. */
 static void the_shortest_axis_has_a_direction(void **state)
 {
   (void)state;
@@ -182,7 +183,8 @@ static void check_bodies(const every_element *parts, const element_kind *kind)
 {
   const struct {
     const char *name;
-    int oriented; /* which bodies must have an orientation: 1 body_a, 2 body_b, 3 both */
+    /* Which bodies must have an orientation: 1 for body_a, 2 for body_b, 3 for both. */
+    int oriented;
   } needs[] = {{"spatial_revolute", 3},      {"spatial_universal", 3},
                {"spatial_cylindrical", 3},   {"spatial_prismatic", 3},
                {"spatial_planar", 3},        {"spatial_fixed", 3},
@@ -285,14 +287,16 @@ static void points_are_given_in_one_way_only(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Only freeze compares the point and the particle, since the ball may be moved until then. */
+/* Only freeze can compare the point with the particle, because the particle may be moved until
+ * then. */
 static void freezing_refuses_a_point_off_its_particle(void **state)
 {
   (void)state;
   every_element parts = open_parts();
   baum_spatial_particle_def ball;
   check(baum_mechanism_get_spatial_particle(parts.mechanism, parts.ball, &ball, sizeof ball));
-  ball.name = "ball"; /* replaces the name that was read, which belongs to the old definition */
+  /* Replaces the name that was read, because it is memory of the old definition. */
+  ball.name = "ball";
   ball.position[1] += 1e-6;
   check(baum_mechanism_set_spatial_particle(parts.mechanism, parts.ball, &ball));
   ASSERT_SAYS(baum_mechanism_freeze(parts.mechanism), BAUM_ERR_ARGUMENT,
@@ -336,7 +340,7 @@ static void loads_that_a_particle_cannot_take_are_refused(void **state)
 
 /* ---- opposite axes ---- */
 
-/* Joins a body to ground, with axis z in ground and axis_b in the body; axis_b may be NULL. */
+/* Joins a body to ground. The axis is z in ground, and axis_b in the body. axis_b may be NULL. */
 static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);
@@ -401,8 +405,8 @@ static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Assembles from an orientation that satisfies all rows although two axes of the joint point in
- * opposite directions. This must be refused. */
+/* Assembles from an orientation in which all rows are satisfied, although two axes of the joint
+ * point in opposite directions. Assembly must refuse this orientation. */
 static void check_reversed(const char *kind, const double orientation[4])
 {
   baum_mechanism *mechanism = mount(kind, NULL);
@@ -434,7 +438,8 @@ static void assembly_refuses_joints_that_end_the_wrong_way_round(void **state)
   (void)state;
   static const double about_x[4] = {0.0, 1.0, 0.0, 0.0};
   static const double about_z[4] = {0.0, 0.0, 0.0, 1.0};
-  static const double third[4] = {0.5, 0.5, 0.5, 0.5}; /* rotation by 120 degrees about (1, 1, 1) */
+  /* A rotation by 120 degrees about (1, 1, 1). */
+  static const double third[4] = {0.5, 0.5, 0.5, 0.5};
   for (size_t k = 0; k < sizeof directed / sizeof *directed; k++) {
     check_reversed(directed[k], about_x);
   }
@@ -443,7 +448,8 @@ static void assembly_refuses_joints_that_end_the_wrong_way_round(void **state)
   check_reversed("spatial_fixed", third);
 }
 
-/* A body turned by 1.2 rad from where its two spherical joints hold it. */
+/* Two spherical joints hold the body. It is rotated by 1.2 rad from the orientation in which they
+ * hold it. */
 static void a_body_turned_too_far_off_is_refused(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inconsistent starts and failing user functions: messages name the cause, and the run keeps its
- * last good step. */
+/* Starts that are inconsistent, and user functions that fail. Messages must name the cause, and the
+ * run must keep its last good step. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,7 +41,7 @@ typedef struct bead_def {
   double y;
   double v[2];
   double length;
-  double second_length; /* length of a second rod, or 0 for none */
+  double second_length; /* length of a second rod, or 0 if there is none */
   bool held;
 } bead_def;
 
@@ -165,8 +165,8 @@ static void a_design_too_far_off_is_refused(void **state)
     "\"rod\"|closer");
 }
 
-/* The arm has three bars and is designed straight, but its drivers begin at joint angles of 2.5
- * rad. Assembly must find this bent configuration. */
+/* The arm has three bars and is straight in the design. Its drivers, however, begin at joint angles
+ * of 2.5 rad. Assembly must find this bent configuration. */
 static void drivers_may_begin_away_from_the_design(void **state)
 {
   (void)state;
@@ -208,7 +208,7 @@ static void drivers_may_begin_away_from_the_design(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The tip of the bar reaches only 1 m from the pin, but the driver of the tip begins at 3 m. */
+/* The tip of the bar is 1 m from the pin, but the driver of the tip begins at 3 m. */
 static void drivers_that_begin_out_of_reach_are_refused(void **state)
 {
   (void)state;
@@ -318,13 +318,13 @@ static void check_readable(baum_simulation *run)
   assert_true(counters.steps > 0);
 }
 
-/* Steps until a function begins to fail, then reads from the run and continues it. */
+/* Steps until a function begins to fail. Then reads from the run and continues it. */
 static void check_fault_on_the_way(step_mode mode, int f)
 {
   every_fault fault = {.answer = faults[f].answer, .fails = true, .after = 0.0505};
   every_element parts = every_element_make(&fault);
   baum_simulation_options o = start_options(mode);
-  /* Otherwise the first step of rk8 could be the one that fails. */
+  /* Otherwise the step that fails could already be the first step of rk8. */
   o.max_step = mode.fixed ? (double)NAN : 0.02;
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
@@ -332,8 +332,9 @@ static void check_fault_on_the_way(step_mode mode, int f)
   assert_non_null(strstr(baum_simulation_message(run), faults[f].message));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
   double t = baum_simulation_time(run);
-  /* The run is at the end of the step before the fault. Euler's last step may end after the fault,
-   * because it evaluates functions only at the beginning of a step. */
+  /* The run must be at the end of the step before the fault. The last step of Euler's method may
+   * end after the fault, because this method evaluates functions only at the beginning of a
+   * step. */
   bool fixed = mode.fixed;
   if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(mode.integrator),
@@ -366,8 +367,8 @@ static bool is_documented_failure(baum_status status, int f)
   return status == faults[f].status;
 }
 
-/* Fails the n-th call of any function and all later ones, for n up to the number of calls that
- * create makes. */
+/* Creates runs in which call number n of all functions fails, together with all later calls. n goes
+ * from 1 to the number of calls that the creation makes. */
 static void check_fault_at_create(const baum_integrator *integrator, int f, baum_start start)
 {
   every_fault fault = {.answer = faults[f].answer, .fails = false, .from = 1};
@@ -405,7 +406,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* Fails one call of a function only; for every n the run stops at a good step and can continue. */
+/* Lets only one call of a function fail. For every n, the run must stop at a good step, and must be
+ * able to continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tolerances that the chosen integrator and formulation do not use are refused. */
+/* Tests that a tolerance is refused if the integrator and the formulation do not use it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ static void check_refused(const baum_mechanism *mechanism, const baum_simulation
   assert_null(run);
 }
 
-/* Only IDA at index 1 tests multipliers. */
+/* Only IDA at index 1 has multipliers in its error test. */
 static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void **state)
 {
   (void)state;

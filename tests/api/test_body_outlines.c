@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outlines that the user gives to bodies: their shapes, wrong ones, copies, failing allocations. */
-#define _GNU_SOURCE /* of heap.h */
+/* Tests outlines that users give to bodies: their shapes, wrong outlines, copies, and allocations
+ * that fail. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +31,7 @@ static void must(baum_status status)
   }
 }
 
-/* A good outline of any form. */
+/* Returns a good outline of any form. */
 static baum_outline outline_of(baum_outline_form form)
 {
   baum_outline o = baum_outline_default();
@@ -47,7 +48,7 @@ static baum_outline outline_of(baum_outline_form form)
   return o;
 }
 
-/* A body of each kind, pinned to ground; the last are user coordinates. */
+/* One body of each kind, pinned to ground. The last one has user coordinates. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_body_id flat, solid, coordinates;
@@ -102,8 +103,7 @@ static void draw_design(const baum_mechanism *m, baum_i_drawing *out)
   must(baum_i_drawing_create(m, &(baum_i_samples){NULL, 0, 0}, out));
 }
 
-/* Returns the number of shapes of a body, given by its index (0: ground); *last receives the last
- * shape. */
+/* Returns how many shapes a body has. The index of ground is 0. *last is set to the last shape. */
 static int shapes_of(const baum_i_drawing *drawing, int body, baum_i_shape *last)
 {
   int count = 0;
@@ -125,7 +125,7 @@ static void an_outline_replaces_the_shapes_of_its_body(void **state)
     baum_i_form form;
     int count;
     double radius;
-    double last[3]; /* last point */
+    double last[3]; /* the last point of the shape */
   } wanted[FORMS] = {
     {BAUM_I_AREA, 4, 0.0, {0.0, 2.0, 0.5}},  {BAUM_I_DISC, 2, 0.25, {0.0, 0.0, 1.0}},
     {BAUM_I_BOX, 2, 0.0, {1.5, 1.5, 0.0}},   {BAUM_I_CYLINDER, 2, 0.25, {0.0, 0.0, 4.0}},
@@ -175,7 +175,7 @@ static void without_outlines_a_body_draws_itself_again(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* From above, the red triangle is nearer. */
+/* Seen from above, the red triangle is nearer. */
 static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
 {
   (void)state;
@@ -184,14 +184,15 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
   static const double high[3][3] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   scene s = make_scene();
   baum_outline two[2] = {outline_of(BAUM_OUTLINE_MESH), outline_of(BAUM_OUTLINE_MESH)};
-  for (int k = 0; k < 2; k++) { /* both orders of the meshes */
+  for (int k = 0; k < 2; k++) { /* for both orders of the meshes */
     two[k].points = high[0];
     two[1 - k].points = low[0];
     two[0].point_count = two[1].point_count = 3;
     two[0].triangle_count = two[1].triangle_count = 1;
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";
-    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81)); /* the view is from above */
+    /* So that the view is from above. */
+    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81));
     must(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
     print_svg(s.mechanism, text);
     const char *red = NULL, *blue = NULL;
@@ -305,7 +306,7 @@ static void wrong_calls_are_refused(void **state)
   baum_mechanism_destroy(other.mechanism);
 }
 
-/* Changes one field of a good outline to a wrong value. */
+/* A function that sets one field of a good outline to a wrong value. */
 typedef struct wrong {
   baum_outline_form form;
   const char *says;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User functions of every kind that fail, return NaN or call the library. A message names the
- * function that fails; the run stays at its last good step and continues as if nothing had
- * happened. Calls that a user function may not make are refused, and the motion stays the same to
- * the last bit. */
+/* User functions of every kind fail, return NaN, or call the library. If a function fails, the
+ * message must name it. The run must stay at its last good step, and must then continue as if
+ * nothing had happened. Calls that a user function may not make must be refused. The motion must
+ * stay the same to the last bit. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,7 +37,7 @@ static baum_simulation *start(asked *b, step_mode mode)
   return run;
 }
 
-/* Reads the energies, which evaluates the potentials, then steps. */
+/* Reads the energies, for which potentials are evaluated, and then takes steps. */
 static baum_status go(baum_simulation *run, int64_t steps)
 {
   double energies[2];
@@ -62,7 +62,7 @@ static state state_of(const baum_simulation *run)
 
 /* ---- functions that fail ---- */
 
-/* Stores time and state after GOOD steps, and after STEPS more. */
+/* Stores the time and the state after GOOD steps, and again after STEPS more. */
 static void run_well(asked *b, step_mode mode, state after[2])
 {
   baum_simulation *run = start(b, mode);
@@ -73,8 +73,8 @@ static void run_well(asked *b, step_mode mode, state after[2])
   baum_simulation_destroy(run);
 }
 
-/* A multistep method restarts after a failure, so its result differs slightly; the result of a
- * one-step method with a fixed step is the same to the last bit. */
+/* Multistep methods restart after a failure, so that their result differs slightly. For a one-step
+ * method with a fixed step, the result must be the same to the last bit. */
 static void fail_one(asked *b, step_mode mode, const state after[2])
 {
   char says[80];
@@ -116,7 +116,7 @@ static void a_failing_function_is_named_and_the_run_continues(void **unused)
   for (int i = 0; step_mode_at(i).integrator; i++) {
     step_mode mode = step_mode_at(i);
     if (mode.integrator == baum_rattle()) {
-      continue; /* RATTLE takes no forces that depend on velocities */
+      continue; /* RATTLE does not support forces that depend on velocities */
     }
     b.fault = ASKED_FINE;
     run_well(&b, mode, after);
@@ -134,7 +134,7 @@ static void a_failing_function_is_named_and_the_run_continues(void **unused)
 
 #define REFUSED(CALL) ASSERT_SAYS(CALL, BAUM_ERR_STATE, "baum_")
 
-/* Calls that would change the run. */
+/* Makes all calls that would change the run. */
 static void try_to_change(const asked *b)
 {
   static unsigned char bytes[BYTES];
@@ -159,7 +159,7 @@ static void try_to_change(const asked *b)
   baum_simulation_destroy(b->run);
 }
 
-/* Calls that evaluate at the present state; only the progress function may make them. */
+/* Makes the calls that evaluate the present state. Only the progress function may make them. */
 static void look(const asked *b, baum_status want)
 {
   bool unique[ASKED_NC];
@@ -172,6 +172,7 @@ static void look(const asked *b, baum_status want)
   assert_int_equal(baum_simulation_energy_account(b->run, &account, sizeof account), want);
   assert_int_equal(baum_simulation_unique_multipliers(b->run, unique), want);
   assert_int_equal(baum_simulation_set_progress_interval(b->run, 0.0), want);
+  assert_int_equal(baum_simulation_set_time_limit(b->run, 1.0), want);
 }
 
 static void read_run(const asked *b)
@@ -209,7 +210,8 @@ static void try_workspace(baum_workspace *w, baum_input_id input)
   baum_workspace_destroy(w);
 }
 
-/* The constant mechanism may be used: a new workspace is independent of the calling run. */
+/* The mechanism is constant and may be used. A new workspace does not depend on the run that is
+ * calling the function. */
 static void use_another(const asked *b)
 {
   double q[ASKED_NV];

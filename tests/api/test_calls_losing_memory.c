@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates, with failing allocations. It returns BAUM_ERR_MEMORY and
- * leaves its objects as before, or works without the memory. A second call with memory then gives
- * the usual result, and no memory is lost. tests/layout/check_allocation.sh finds each public
- * function here or in test_calls_without_memory.c. */
-#define _GNU_SOURCE /* of heap.h */
+/* Calls every public function that allocates memory while allocations fail. The function must
+ * return BAUM_ERR_MEMORY and leave its objects as before, or it must succeed without this memory. A
+ * second call with memory must then give the usual result, and no memory may be lost.
+ * tests/layout/check_allocation.sh checks that each public function is called here or in
+ * test_calls_without_memory.c. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +22,7 @@
 #include "heap.h"
 #include "losing_memory_scene.h"
 
-enum { MOST = 24 /* largest number of failing allocations per call */, BYTES = 1 << 17 };
+enum { MOST = 24 /* the largest number of failing allocations for each call */, BYTES = 1 << 17 };
 static const char FILE_NAME[] = "test_calls_losing_memory.out";
 
 /* ---- digests of the objects ---- */
@@ -40,7 +41,7 @@ static void add_mechanism(baum_i_digest *d, const baum_mechanism *m)
   }
 }
 
-/* Adds all that the run saves. */
+/* Adds to the digest all bytes that the run saves. */
 static void add_saved(baum_i_digest *d, baum_simulation *run)
 {
   static unsigned char bytes[BYTES];
@@ -49,7 +50,7 @@ static void add_saved(baum_i_digest *d, baum_simulation *run)
   baum_i_digest_add(d, bytes, size);
 }
 
-/* Adds time and state of a run. */
+/* Adds the time and the state of a run to the digest. */
 static void add_state(baum_i_digest *d, const baum_simulation *run)
 {
   double t = baum_simulation_time(run);
@@ -78,7 +79,8 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* Returns the digest of a scene: of a run its state, and if `all`, everything that it saves. */
+/* Returns the digest of a scene. If the scene is a run, the digest covers its state, or everything
+ * that it saves if `all` is set. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};
@@ -101,7 +103,7 @@ static uint64_t look(const scene *s, bool all)
   return d.value;
 }
 
-/* Steps the run and returns the digest of the state that it reaches. */
+/* Takes steps and returns the digest of the state that the run reaches. */
 static uint64_t go_on(const scene *s)
 {
   if (s->run) {
@@ -114,7 +116,8 @@ static uint64_t go_on(const scene *s)
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 
-/* Defines the call of a create or copy function: on failure it has to return NULL. */
+/* Defines a call of a function that creates or copies an object. If the call fails, it has to set
+ * the pointer to NULL. */
 #define MADE(TYPE, CALL)                                                \
   {                                                                     \
     baum_##TYPE *out = GARBAGE;                                         \
@@ -192,7 +195,7 @@ CALL(baum_mechanism_report)
   return baum_mechanism_report(s->parts.mechanism, &out, sizeof out);
 }
 
-/* Sets all velocities to NaN: assembly has to find them. */
+/* Sets all velocities to NaN, so that assembly has to find them. */
 static void free_all(double v[EVERY_NV])
 {
   for (int i = 0; i < EVERY_NV; i++) {
@@ -334,6 +337,26 @@ CALL(baum_mechanism_write_svg)
   return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
 }
 
+/* All calls for scenes, one after the other. */
+CALL(baum_mechanism_parse)
+{
+  (void)s;
+  baum_mechanism *m[2] = {NULL, NULL};
+  bool equal = false;
+  baum_status status = baum_mechanism_parse(SCENE_TEXT, sizeof SCENE_TEXT - 1, NULL, 0, &m[0]);
+  status = status ? status : baum_mechanism_write(m[0], NULL, 0, FILE_NAME);
+  status = status ? status : baum_mechanism_read(FILE_NAME, NULL, 0, &m[1]);
+  status = status ? status : baum_mechanism_print(m[1], NULL, 0, NULL, 0, NULL);
+  status = status ? status : baum_mechanism_compare(m[0], m[1], &equal);
+  baum_mechanism_destroy(m[0]);
+  baum_mechanism_destroy(m[1]);
+  return status;
+}
+
+#define call_baum_mechanism_write   call_baum_mechanism_parse
+#define call_baum_mechanism_read    call_baum_mechanism_parse
+#define call_baum_mechanism_print   call_baum_mechanism_parse
+#define call_baum_mechanism_compare call_baum_mechanism_parse
 static baum_page page_of(const scene *s, const baum_channel *channel)
 {
   static const double time = 0.0;
@@ -381,7 +404,8 @@ typedef struct call {
   const char *name;
   stage stage;
   baum_status (*make)(scene *s);
-  bool works; /* the call evaluates by the run, which changes its counters even if the call fails */
+  /* The call evaluates by the run, which changes the counters of the run even if the call fails. */
+  bool works;
 } call;
 
 /* clang-format off */
@@ -423,17 +447,22 @@ static const call CALLS[] = {
   ROW(baum_mechanism_svg, FROZEN),
   ROW(baum_mechanism_svg_assembled, FROZEN),
   ROW(baum_mechanism_write_svg, FROZEN),
+  ROW(baum_mechanism_parse, OPEN),
+  ROW(baum_mechanism_write, OPEN),
+  ROW(baum_mechanism_read, OPEN),
+  ROW(baum_mechanism_print, OPEN),
+  ROW(baum_mechanism_compare, OPEN),
   ROW(baum_page_print, FROZEN),
   ROW(baum_page_svg, FROZEN),
   ROW(baum_page_write, FROZEN),
 };
 
-/* Counts the allocations of a call; *seen receives the digest of the scene after it. */
+/* Counts the allocations of a call. *seen is set to the digest of the scene after the call. */
 static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
   make_scene(&s, c->stage);
-  (void)look(&s, !c->works); /* as fail_once(): saving makes solvers choose their pivots again */
+  (void)look(&s, !c->works); /* as in fail_once(); saving makes solvers choose their pivots again */
   heap_watch();
   baum_status status = c->make(&s);
   long allocations = heap_stop();
@@ -445,14 +474,15 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Opening a file allocates too: then the status is BAUM_ERR_FILE with the system's reason. */
+/* Tells whether a call failed because of memory. Opening a file also allocates memory. In that case
+ * the status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||
          (status == BAUM_ERR_FILE && strstr(baum_message(), strerror(ENOMEM)));
 }
 
-/* Returns whether the call failed. */
+/* Makes one allocation of a call fail. Returns whether the call failed. */
 static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 {
   scene s;
@@ -481,7 +511,8 @@ static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 static void fail_some(const call *c)
 {
   uint64_t wanted = 0;
-  long allocations = count_allocations(c, &wanted); /* libraries keep memory of a first call */
+  /* Libraries keep the memory that they allocate in a first call. */
+  long allocations = count_allocations(c, &wanted);
   long step = allocations > MOST ? allocations / MOST : 1;
   long before = heap_blocks();
   int failures = 0;
@@ -524,8 +555,8 @@ static uint64_t look_at_element(const every_element *parts, const element_kind *
   return d.value;
 }
 
-/* Adds a second element of a kind, or replaces the definition of the first, until no allocation
- * fails any more; returns the number of failures. */
+/* Adds a second element of a kind, or replaces the definition of the first one. One more allocation
+ * succeeds each time, until none fails any more. Returns the number of failures. */
 static int until_it_works(every_element *parts, const element_kind *kind, bool replace)
 {
   any_def def;

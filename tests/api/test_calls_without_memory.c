@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates nothing, called with good arguments while every allocation
- * fails. tests/layout/check_allocation.sh finds each public function here or in
+/* Calls every public function that allocates no memory, with good arguments, while every allocation
+ * fails. tests/layout/check_allocation.sh checks that each public function is called here or in
  * test_calls_losing_memory.c. */
-#define _GNU_SOURCE /* of heap.h */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,14 +20,14 @@
 
 enum { BYTES = 1 << 16, TEXT = 256, GRID = 4, WIDTH = 64, TIMES = 4096 };
 
-/* The objects of the calls, and memory for their results. */
+/* The objects on which functions are called, and memory for the results. */
 typedef struct scene {
-  every_element parts; /* frozen */
+  every_element parts; /* the mechanism is frozen */
   every_element open;
   baum_workspace *w;
   baum_simulation *run;
   report_scene report;
-  baum_study *study; /* a completed study of `report` */
+  baum_study *study; /* a study of `report` that has been run */
   baum_study *fresh;
 
   double q[EVERY_NQ];
@@ -49,7 +49,7 @@ typedef struct scene {
   baum_outline outline;
   baum_page page;
   baum_catalog_choice choice;
-  baum_mechanism *pendulum; /* a mechanism of the catalogue */
+  baum_mechanism *pendulum; /* from the catalogue */
   baum_catalog_error error;
   baum_catalog_entry entry;
   baum_catalog_parameter parameter;
@@ -68,7 +68,7 @@ typedef struct scene {
   double catalog_x[WIDTH];
 } scene;
 
-/* ---- calls that return a status: name, arguments ---- */
+/* ---- calls that return a status: the name and the arguments ---- */
 
 #define STATUS_CALLS(X)                                                                      \
   X(baum_fail, (BAUM_OK, "fine"))                                                            \
@@ -104,6 +104,7 @@ typedef struct scene {
   X(baum_simulation_get, (s->run, &s->channel, 1, s->x))                                     \
   X(baum_simulation_set_input, (s->run, s->parts.throttle, 0.9))                             \
   X(baum_simulation_set_progress_interval, (s->run, 0.5))                                    \
+  X(baum_simulation_set_time_limit, (s->run, 0.5))                                           \
   X(baum_simulation_counters, (s->run, &s->counters, sizeof s->counters))                    \
   X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                \
   X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \
@@ -307,8 +308,8 @@ static void end_scene(scene *s)
   baum_mechanism_destroy(s->pendulum);
 }
 
-/* BAUM_ERR_ARGUMENT is right for the calls that read an event, a singular configuration or a
- * warning, because there is none. */
+/* Tells whether a call has done its work. For calls that read an event, a singular configuration or
+ * a warning, BAUM_ERR_ARGUMENT is right, because there is none to read. */
 static bool is_done(baum_status status, const char *name)
 {
   return status >= BAUM_OK ||
@@ -340,7 +341,7 @@ static void calls_that_need_no_memory_take_none(void **state)
   end_scene(&s);
 }
 
-/* Default definitions, and reading definitions back, for every kind of element. */
+/* For every kind of element, makes default definitions and reads definitions back. */
 static void definitions_are_made_and_read_without_memory(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run, a sampling or a study may be cancelled at any step, where it stops. If it is continued,
- * its result is the same to the last bit as without the cancellation. */
+/* A run, a sampling or a study may be cancelled at any step. It must stop at this step. If it is
+ * then continued, its result must be the same, to the last bit, as without cancelling. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,6 +12,7 @@
 
 #include "check.h"
 #include "driven.h"
+#include "message.h"
 #include "models.h"
 #include "spatial_scenes.h"
 #include "step_mode.h"
@@ -20,10 +21,11 @@
 enum { NQ_MOST = 24, MOST_STEPS = 400, SAMPLES = 7 };
 static const double END = 0.3; /* [s] */
 
-/* Cancels a run at the call of the progress function in which `left` reaches zero. */
+/* Cancels a run in a call of the progress function. This is the call in which `left` reaches
+ * zero. */
 typedef struct cancelling {
   int left;
-  bool by_flag; /* else by return value */
+  bool by_flag; /* whether to cancel by the flag of the run, or else by the return value */
   baum_simulation *run;
 } cancelling;
 
@@ -72,7 +74,7 @@ static state state_of(const baum_mechanism *m, const baum_simulation *run)
 
 /* ---- advancing ---- */
 
-/* Cancels at the k-th step and continues; returns false if the run has fewer steps. */
+/* Cancels a run at step k and continues it. Returns false if the run has fewer steps. */
 static bool cancel_at(const baum_mechanism *m, const baum_simulation_options *o, int k,
                       const state *want)
 {
@@ -102,7 +104,8 @@ static void cancel_everywhere(const baum_mechanism *m, const baum_simulation_opt
   while (cancel_at(m, o, steps + 1, &want)) {
     assert_in_range(++steps, 1, MOST_STEPS);
   }
-  assert_true(steps >= 5); /* the longest steps, of rk8, are a sixteenth of the period */
+  /* rk8 takes the longest steps, which are a sixteenth of the period. */
+  assert_true(steps >= 5);
 }
 
 static void a_cancelled_run_of_rattle_in_space_continues(void **unused)
@@ -148,9 +151,9 @@ static void cancelled_kinematics_continue_as_if_not_cancelled(void **unused)
   baum_mechanism_destroy(four_bar);
 }
 
-/* ---- by a user function ---- */
+/* ---- cancelling by a user function ---- */
 
-/* The number of calls of the law, and the call in which it cancels. */
+/* How often the law has been called, and in which call it cancels. */
 typedef struct caller {
   int calls;
   int last;
@@ -169,7 +172,8 @@ static int turn_and_cancel(double t, double s[3], void *user)
   return 0;
 }
 
-/* The law cancels in its last call, at the end of the run, where no step is left to cancel. */
+/* The law cancels in its last call, which is at the end of the run. No step that could be cancelled
+ * follows. */
 static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unused)
 {
   (void)unused;
@@ -195,7 +199,8 @@ static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unu
 
 /* ---- sampling ---- */
 
-/* Samples positions and energies; when cancelled, it continues with the remaining samples. */
+/* Samples positions and energies. If the sampling is cancelled or out of time, it continues with the remaining
+ * samples. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_ENERGY)};
@@ -205,7 +210,7 @@ static void sample(baum_simulation *run, double rows[SAMPLES][4])
   for (int k = 0; k < SAMPLES; k++) {
     times[k] = (k + 1) * END / (SAMPLES + 0.5);
   }
-  while (status == BAUM_STOP_CANCELLED) {
+  while (status == BAUM_STOP_CANCELLED || status == BAUM_STOP_TIME) {
     int64_t done = 0;
     status =
       baum_simulation_sample(run, times + first, SAMPLES - first, channels, 2, rows[first], &done);
@@ -264,7 +269,7 @@ static baum_study *study_of(const baum_mechanism *m, int *left)
   return study;
 }
 
-/* All three samples are inside a step that has been taken. */
+/* All three samples are inside a step that has already been taken. */
 static void samples_that_need_no_step_are_cancelled(void **unused)
 {
   (void)unused;
@@ -308,7 +313,7 @@ static void a_study_goes_on_to_the_same_entries(void **unused)
     assert_same_entries(got, want);
     baum_study_destroy(got);
   }
-  assert_true(k > 2 * 4); /* each of the four entries is measured, then timed */
+  assert_true(k > 2 * 4); /* there are four entries, and each of them is measured and then timed */
   baum_study_destroy(want);
   model_destroy(&pendulum);
 }
@@ -329,6 +334,97 @@ static void entries_are_not_added_by_a_study_that_is_cancelled(void **unused)
   model_destroy(&pendulum);
 }
 
+/* ---- time limits ---- */
+
+static void limit_time(baum_simulation *run)
+{
+  assert_int_equal(baum_simulation_set_time_limit(run, 1e-12), BAUM_OK);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters out;
+  check(baum_simulation_counters(run, &out, sizeof out));
+  out.wall = 0.0;
+  return out;
+}
+
+/* Every call ends after one step. */
+static void advance_within_limits(const baum_mechanism *m, const baum_simulation_options *o)
+{
+  baum_simulation *run = start(m, o, &(cancelling){.left = 0});
+  baum_simulation *limited = start(m, o, &(cancelling){.left = 0});
+  limit_time(limited);
+  int calls = 1;
+  while (baum_simulation_advance_to(limited, END) == BAUM_STOP_TIME) {
+    assert_string_equal(baum_simulation_message(limited), "");
+    calls++;
+  }
+  check(baum_simulation_advance_to(run, END));
+  const state want = state_of(m, run);
+  const state got = state_of(m, limited);
+  const baum_counters work = counters_of(run);
+  const baum_counters same = counters_of(limited);
+  assert_memory_equal(&got, &want, sizeof want);
+  assert_memory_equal(&same, &work, sizeof work);
+  assert_in_range(calls, work.steps, work.steps + 1);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(limited);
+}
+
+static void time_limits_change_neither_motion_nor_counters(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    advance_within_limits(pendulum.mechanism, &o);
+    o.error_check = true;
+    advance_within_limits(pendulum.mechanism, &o);
+  }
+  model_destroy(&pendulum);
+}
+
+static void samples_do_not_depend_on_time_limits(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    double want[SAMPLES][4];
+    double got[SAMPLES][4];
+    const baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    baum_simulation *run = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+    baum_simulation *limited = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+    limit_time(limited);
+    sample(run, want);
+    sample(limited, got);
+    assert_memory_equal(got, want, sizeof want);
+    baum_simulation_destroy(run);
+    baum_simulation_destroy(limited);
+  }
+  model_destroy(&pendulum);
+}
+
+static void time_limits_are_checked(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  baum_simulation_options o = step_mode_options(step_mode_at(0), 0.02, 1e-6);
+  baum_simulation *run = start(pendulum.mechanism, &o, &(cancelling){.left = 0});
+  ASSERT_SAYS(baum_simulation_set_time_limit(run, 0.0), BAUM_ERR_ARGUMENT,
+              "limit is 0 s, must be > 0");
+  limit_time(run);
+  ASSERT_SAYS(baum_simulation_advance_to(run, END), BAUM_STOP_TIME,
+              "t = 0.02 s: the time limit of the call, 1e-12 s, has passed");
+  assert_int_equal(baum_simulation_set_time_limit(run, (double)INFINITY), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
+  baum_simulation_destroy(run);
+  model_destroy(&pendulum);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -338,6 +434,9 @@ int main(void)
     cmocka_unit_test(cancelling_in_the_last_step_does_not_cancel_the_next_call),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
+    cmocka_unit_test(time_limits_change_neither_motion_nor_counters),
+    cmocka_unit_test(samples_do_not_depend_on_time_limits),
+    cmocka_unit_test(time_limits_are_checked),
     cmocka_unit_test(a_study_goes_on_to_the_same_entries),
     cmocka_unit_test(entries_are_not_added_by_a_study_that_is_cancelled),
   };

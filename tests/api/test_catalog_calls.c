@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The calls of the catalogue: descriptions of entries and parameters, refusals with their messages,
- * and the definition of errors. Also the elements of a mechanism in order and by name. */
-#define _GNU_SOURCE /* of heap.h */
+/* Tests the calls of the catalogue: the descriptions of entries and parameters, refusals and their
+ * messages, and the definition of errors. Also tests that the elements of a mechanism are found in
+ * their order and by name. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +21,7 @@
 #include "heap.h"
 #include "message.h"
 
-enum { NQ = 9 }; /* of the slider-crank */
+enum { NQ = 9 }; /* for the slider-crank */
 
 static const baum_catalog_choice CRANK = {.name = "slider_crank"};
 
@@ -56,8 +57,8 @@ static void every_entry_says_what_it_is(void **state)
   }
 }
 
-/* Describes a mechanism by six weighted sums: of q, v, M, J and nu at its start, and of g close to
- * the start, where no spring has its free length. */
+/* Describes a mechanism by six weighted sums. The sums of q, v, M, J and nu are computed at the
+ * start. The sum of g is computed near the start, where no spring has its free length. */
 static void describe(const baum_catalog_choice *choice, double out[6])
 {
   baum_mechanism *m = build(choice);
@@ -76,7 +77,8 @@ static void describe(const baum_catalog_choice *choice, double out[6])
   for (int i = 0; i < n; i++) {
     out[0] += (i + 1) * q[i];
     out[1] += isnan(v[i]) ? 0.0 : (i + 1) * v[i];
-    v[i] = (isnan(v[i]) ? 0.0 : v[i]) + 1.0 + i; /* any velocity, so that dampers have a force */
+    /* The velocities are arbitrary, so that dampers exert forces. */
+    v[i] = (isnan(v[i]) ? 0.0 : v[i]) + 1.0 + i;
   }
   assert_int_equal(baum_workspace_mass(w, 0.0, q, x), BAUM_OK);
   for (int i = 0; i < n * n; i++) {
@@ -228,7 +230,8 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
               "may be off by |at t = 10000 s, which is more than their 12 digits");
   ASSERT_SAYS(baum_catalog_reference(&swing, 1e300, q, NULL), BAUM_ERR_UNSUPPORTED, "off by inf");
   assert_int_equal(baum_catalog_reference(&swing, -10.0, q, NULL), BAUM_OK);
-  /* With the crank downwards the rod is too short to reach the guide: 0.153 + 0.05 > 0.19. */
+  /* When the crank points downwards, the rod is too short to reach the guide, because
+   * 0.153 + 0.05 > 0.19. */
   assert_int_equal(baum_catalog_reference(&too_short, 0.0, q, NULL), BAUM_OK);
   ASSERT_SAYS(baum_catalog_reference(&too_short, 0.0314159, q, NULL), BAUM_ERR_UNSUPPORTED,
               "with these parameters");
@@ -266,15 +269,17 @@ static void errors_are_differences_by_the_scales(void **state)
   for (int i = 0; i < 2; i++) {
     assert_int_equal(baum_catalog_reference(&CRANK, t[i], q + i * NQ, v + i * NQ), BAUM_OK);
   }
-  q[0] += 1e-3 * length; /* x of the crank, first sample */
-  q[NQ + 5] += 1e-4;     /* angle of the rod, second sample */
-  v[NQ + 2] += 3.0;      /* angular velocity of the crank: 150 rad/s in this sample */
+  q[0] += 1e-3 * length; /* x of the crank, in the first sample */
+  q[NQ + 5] += 1e-4;     /* angle of the rod, in the second sample */
+  v[NQ + 2] += 3.0;      /* angular velocity of the crank, which is 150 rad/s in this sample */
   assert_int_equal(baum_catalog_compare(&CRANK, m, t, 2, q, v, &error, sizeof error), BAUM_OK);
   ASSERT_NEAR(error.q, 1e-3, 1e-12, 0.0);
   ASSERT_NEAR(error.q_final, 1e-4, 1e-11, 0.0);
-  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0); /* the divisor is the largest, 150.2 */
+  /* Errors are divided by the largest velocity, 150.2. */
+  ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0);
   assert_true(error.v == error.v_final && error.q_time == t[0] && error.v_time == t[1]);
-  /* The reference has 15 digits of angles, which are up to 30 rad, and 14 digits of velocities. */
+  /* The reference has 15 digits of angles, which are up to 30 rad. It has 14 digits of
+   * velocities. */
   assert_true(error.q_floor > 1e-15 && error.q_floor < 5e-14);
   ASSERT_NEAR(error.v_floor, 1e-14, 1e-2, 0.0);
   q[NQ] = (double)NAN;

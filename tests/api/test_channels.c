@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Values of channels, and the evaluations that they cost. */
+/* Tests the values of channels, and how many evaluations they cost. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,8 +44,8 @@ static int64_t evaluations(baum_simulation *run)
 
 enum { AROUND = 5, WIDTH = 8 };
 
-/* Times from t - 2 d to t + 2 d; channels: velocities and accelerations of the rod's end and the
- * slider. */
+/* The times are from t - 2 d to t + 2 d. The channels are velocities and accelerations of the rod's
+ * end and of the slider. */
 static void accelerations_are_the_slopes_of_velocities(void **state)
 {
   (void)state;
@@ -67,8 +67,8 @@ static void accelerations_are_the_slopes_of_velocities(void **state)
   assert_int_equal(baum_simulation_sample(run, times, AROUND, channels, 3, rows[0], NULL), BAUM_OK);
   for (int i = 0; i < 3; i++) {
     double slope = (8.0 * (rows[3][i] - rows[1][i]) - (rows[4][i] - rows[0][i])) / (12.0 * d);
-    /* Relative errors: truncation (150 rad/s x d)^4 / 30 = 2e-13, and the rounding of v,
-     * 1e-16 / (150 rad/s x d) = 1e-13. */
+    /* There are two relative errors. The truncation error is (150 rad/s x d)^4 / 30 = 2e-13. The
+     * rounding error of v causes 1e-16 / (150 rad/s x d) = 1e-13. */
     ASSERT_NEAR(rows[2][3 + i], slope, 1e-9, 0.0);
   }
   baum_simulation_destroy(run);
@@ -106,8 +106,8 @@ static void bodies_without_axes_give_their_part_of_a(void **state)
 
 enum { INTERVALS = 200 };
 
-/* The driver's power, integrated by Simpson's rule, is the change of energy: nothing else does work
- * on a driven slider-crank without dampers. */
+/* The power of the driver is integrated by Simpson's rule. The result is the change of energy,
+ * because nothing else does work on a driven slider-crank without dampers. */
 static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 {
   (void)state;
@@ -137,8 +137,8 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
     work += weight * h / 3.0 * rows[k][2] * rows[k][4];
     largest = fmax(largest, fabs(energy));
   }
-  /* The power has harmonics up to about 1500 rad/s, ten times the speed of the crank. The relative
-   * error of Simpson's rule is therefore near (1500 rad/s x h)^4 / 180 = 2e-7. */
+  /* The power has harmonics of up to about 1500 rad/s, which is ten times the speed of the crank.
+   * The relative error of Simpson's rule is therefore near (1500 rad/s x h)^4 / 180 = 2e-7. */
   double change = rows[INTERVALS][0] + rows[INTERVALS][1] - rows[0][0] - rows[0][1];
   assert_true(fabs(change) > 0.1 * largest);
   ASSERT_NEAR(work, change, 0.0, 2e-7 * largest);
@@ -148,7 +148,7 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 
 /* ---- cost ---- */
 
-/* Channels that need no solution of (5). */
+/* Makes channels that do not need the solution of (5). */
 static int cheap_channels(const every_element *parts, baum_channel channels[8])
 {
   int count = 0;
@@ -165,8 +165,8 @@ static int cheap_channels(const every_element *parts, baum_channel channels[8])
 
 enum { SAMPLES = 12, ROW = EVERY_NQ + EVERY_NV + 2 * EVERY_NC + 12 };
 
-/* Number of evaluations of a run that samples the channels at 12 times, one per step, from 0.05
- * s. */
+/* Counts the evaluations of a run that samples the channels at 12 times. There is one time in each
+ * step, from 0.05 s on. */
 static int64_t cost_of(const every_element *parts, const baum_integrator *integrator,
                        const baum_channel *channels, int count)
 {
@@ -201,7 +201,7 @@ static void a_sample_costs_a_solution_only_when_it_asks_for_one(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Channels that follow from q and v alone do not even call user functions. */
+/* For channels that follow from q and v alone, not even user functions may be called. */
 static void channels_that_follow_from_the_state_call_no_user_function(void **state)
 {
   (void)state;
@@ -226,7 +226,7 @@ static void channels_that_follow_from_the_state_call_no_user_function(void **sta
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* A point at such a distance from the body that its velocity overflows. */
+/* The point is so far from the body that its velocity overflows. */
 static void overflow_is_reported(void **state)
 {
   (void)state;
@@ -243,7 +243,8 @@ static void overflow_is_reported(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Each channel has 10000 columns. Only the count is refused: nothing is evaluated or written. */
+/* Each channel has 10000 columns. The call is refused only because of the number of columns.
+ * Nothing is evaluated or written. */
 static void more_columns_than_can_be_counted_are_refused(void **state)
 {
   (void)state;
@@ -271,7 +272,8 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
 
 /* ---- structs of other versions ---- */
 
-/* The struct of channels before the fields for bodies, joints and points were added. */
+/* The struct of a channel in an older version, in which it had no fields for bodies, joints and
+ * points. */
 typedef struct short_channel {
   size_t struct_size;
   baum_quantity quantity;

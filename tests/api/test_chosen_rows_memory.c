@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation may fail when the omitted rows change during a run or when they are restored. */
-#define _GNU_SOURCE /* of heap.h */
+/* Every allocation may fail while the omitted rows change, either during a run or because a run is
+ * restored. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +16,7 @@
 
 static unsigned char buffer[1 << 16];
 
-/* Saves, runs through a change of the omitted rows, and restores. */
+/* Saves a run, continues it until the omitted rows change, and restores it. */
 static baum_status simulate(void *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run whose steps are too short to ever reach the end stops with a message. A run with short
- * steps that still advances is continued. */
+/* If the steps of a run are too short to ever reach the end, the run must stop with a message. If
+ * its steps are short but still advance it, the run must continue. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,10 +15,10 @@
 #include "check.h"
 #include "models.h"
 
-enum { STEPS = 10000 }; /* a run checks its progress after this many steps */
+enum { STEPS = 10000 }; /* after this many steps, a run checks its progress */
 
-/* A horizontal link of 1 kg and 1 m with a viscous damper, which makes its angular velocity decay
- * like exp(-rate t), rate in 1/s. */
+/* Makes a horizontal link of 1 kg and 1 m with a viscous damper. The damper makes the angular
+ * velocity decay like exp(-rate t), with `rate` in 1/s. */
 static baum_mechanism *greased_link(double rate)
 {
   baum_mechanism *m = NULL;
@@ -39,7 +39,7 @@ static baum_mechanism *greased_link(double rate)
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
   grease.body_a = BAUM_GROUND;
   grease.body_b = body;
-  grease.damping = rate / 3.0; /* the link's moment of inertia about the pin is 1/3 kg m^2 */
+  grease.damping = rate / 3.0; /* the moment of inertia of the link about the pin is 1/3 kg m^2 */
   assert_int_equal(baum_mechanism_add_planar_torsion_spring(m, &grease, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
@@ -63,7 +63,8 @@ static int64_t steps_of(baum_simulation *run)
   return c.steps;
 }
 
-/* Stability limits explicit steps to about 5 / rate = 5e-12 s. The motion takes about 1 s. */
+/* For stability, explicit steps must be at most about 5 / rate = 5e-12 s. The motion takes about 1
+ * s, so the end cannot be reached. */
 static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
 {
   (void)state;
@@ -82,19 +83,20 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Here steps are about 5e-7 s. They are accepted until max_steps. */
+/* In this run, steps are about 5e-7 s. They are accepted until max_steps is reached. */
 static void short_steps_that_lead_on_are_taken(void **state)
 {
   (void)state;
   baum_mechanism *m = greased_link(1e7);
   baum_simulation *run = open_run(m, baum_dp5(), 1e-6);
   assert_int_equal(baum_simulation_step(run, 3 * STEPS), BAUM_OK);
-  assert_true(baum_simulation_time(run) < 0.1); /* confirms that the steps are short */
+  assert_true(baum_simulation_time(run) < 0.1); /* shows that the steps are short */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
 
-/* Next to a flat configuration BDF may fail to advance; the run must then stop within few steps. */
+/* Next to a flat configuration, BDF may fail to advance. The run must then stop within few
+ * steps. */
 static void a_run_next_to_a_singular_configuration_ends(void **state)
 {
   (void)state;
@@ -108,7 +110,7 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
     baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
     baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
     assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
-    assert_true(steps_of(run) <= 2 * STEPS); /* a few hundred if the run succeeds */
+    assert_true(steps_of(run) <= 2 * STEPS); /* if the run succeeds, there are only a few hundred */
     baum_simulation_destroy(run);
   }
   model_destroy(&m);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The `Default:` texts of the headers agree with the values of the default functions. A definition
- * that is added and read back is unchanged. */
+/* Tests that the texts after `Default:` in the headers agree with the values that the default
+ * functions set. Also tests that a definition is unchanged after it was added and read back. */
 #include <ctype.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +24,7 @@ static const char *const header_names[] = {"mechanism.h",  "planar.h",  "planar_
                                            "spline.h"};
 enum { HEADERS = sizeof header_names / sizeof *header_names };
 
-/* The text of all headers, one after the other; the caller frees it. */
+/* Reads the text of all headers, one after the other. The caller frees this text. */
 static char *read_headers(void)
 {
   char *text = calloc(HEADERS, HEADER_SIZE);
@@ -43,7 +43,7 @@ static char *read_headers(void)
   return text;
 }
 
-/* Finds the body of a struct: returns its begin; *end is at the closing name. */
+/* Finds the body of a struct. Returns its beginning, and sets *end to the name that closes it. */
 static const char *find_struct(const char *headers, const char *name, const char **end)
 {
   char opening[TEXT_SIZE];
@@ -58,7 +58,7 @@ static const char *find_struct(const char *headers, const char *name, const char
   return begin + strlen(opening);
 }
 
-/* The last name of a declaration, before its semicolon. */
+/* Finds the last name of a declaration, which precedes its semicolon. */
 static void name_of(const char *semicolon, char name[TEXT_SIZE])
 {
   const char *last = semicolon;
@@ -77,7 +77,7 @@ static void name_of(const char *semicolon, char name[TEXT_SIZE])
   (void)snprintf(name, TEXT_SIZE, "%.*s", (int)(last - first), first);
 }
 
-/* The text after "Default: " in a comment, or "" if there is none. */
+/* Finds the text after "Default: " in a comment. If there is none, the text is "". */
 static void default_of(const char *comment, const char *comment_end, char text[TEXT_SIZE])
 {
   const char *given = strstr(comment, "Default: ");
@@ -88,9 +88,9 @@ static void default_of(const char *comment, const char *comment_end, char text[T
   }
 }
 
-/* Reads the next declaration from `from` on: its name, and the Default of its comment or "". The
- * comment is before or after the declaration. Returns the end of the declaration, or NULL if there
- * is no more. */
+/* Reads the next declaration from `from` on. Finds its name, and the text after "Default: " in its
+ * comment. The comment may be before or after the declaration. Returns the end of the declaration.
+ * Returns NULL if there are no more declarations. */
 static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
                               char text[TEXT_SIZE])
 {
@@ -153,7 +153,8 @@ static bool numbers_are(const char *text, const unsigned char *bytes, size_t siz
   return same;
 }
 
-/* Compares with the enumerators that occur as defaults, or with a number. */
+/* Tells whether a text is a number, or one of the enumerators that occur as defaults, with this
+ * value. */
 static bool integer_is(const char *text, int64_t value)
 {
   static const struct {
@@ -177,7 +178,7 @@ static bool is_nothing(const char *text, const char *word, const unsigned char *
   return begins(text, word) && is_zero(bytes, size);
 }
 
-/* The default of an id is none or BAUM_GROUND. */
+/* Tells whether an id has the value of a text. Defaults of ids are "none" and BAUM_GROUND. */
 static bool id_is(const char *text, const unsigned char *bytes, size_t size)
 {
   if (begins(text, "BAUM_GROUND")) {
@@ -191,7 +192,7 @@ static bool flag_is(const char *text, unsigned char flag)
   return flag <= 1 && begins(text, flag ? "true" : "false");
 }
 
-/* Whether the bytes of a field have the value that its text documents. */
+/* Tells whether the bytes of a field have the value that its text documents. */
 static bool is_as_documented(const element_field *field, const char *text, const any_def *def)
 {
   const unsigned char *bytes = def->bytes + field->offset;
@@ -209,9 +210,9 @@ static bool is_as_documented(const element_field *field, const char *text, const
   }
 }
 
-/* ---- any struct with defaults ---- */
+/* ---- structs that have defaults ---- */
 
-/* A definition or the options. */
+/* A struct that is a definition, or the options of a run. */
 typedef struct defaults {
   char name[NAME_SIZE];
   size_t size;
@@ -344,7 +345,8 @@ static const char *pointer_at(const any_def *def, const element_field *field)
   return pointer;
 }
 
-/* Checks that a name or an array has the same content, but is a copy at another address. */
+/* Checks that two names or arrays have the same content at different addresses, so that one is a
+ * copy of the other. */
 static void check_same_copied(const element_kind *kind, const element_field *field,
                               const any_def *got, const any_def *want)
 {
@@ -380,7 +382,7 @@ static void check_is_in(const baum_mechanism *mechanism, const element_kind *kin
   check_same(kind, &got, want);
 }
 
-/* A definition with the same bodies and joints, but another name and other numbers. */
+/* Makes a definition with the same bodies and joints, but with another name and other numbers. */
 static any_def change(const element_kind *kind, const any_def *good, const char *name)
 {
   const element_fields fields = element_fields_of(kind);

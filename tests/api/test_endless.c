@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every call returns, whatever the numbers are: within max_steps, or with a failure status and a
- * message. */
+/* Every call must return, whatever its numbers are. It must end within max_steps, or with a failure
+ * status and a message. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,13 +21,12 @@
 
 enum {
   MOST_STEPS = 200,
-  PATIENCE = 30 /* [s] time limit of a case, which normally takes some
-                                        * milliseconds */
+  PATIENCE = 30 /* [s] time limit of a case; normally a case takes some milliseconds */
   ,
   MOST_NV = 9
 };
 
-/* A pinned body with extreme numbers; NaN stands for the default. */
+/* A pinned body with extreme numbers. NaN stands for the default value. */
 typedef struct hostile {
   double mass;
   double inertia;
@@ -119,7 +118,7 @@ static baum_mechanism *build(const hostile *c)
   return m;
 }
 
-/* Whether the state is finite and a failure has a message. */
+/* Tells whether the state is finite and whether a failure has a message. */
 static bool is_sound(const baum_simulation *run, baum_status status)
 {
   const double *q = baum_simulation_q(run);
@@ -131,7 +130,7 @@ static bool is_sound(const baum_simulation *run, baum_status status)
   return sound;
 }
 
-/* Continues the run from another angular velocity. */
+/* Sets another angular velocity and continues the run. */
 static bool goes_on_from(baum_simulation *run, double angular_velocity)
 {
   const double *q = baum_simulation_q(run);
@@ -156,7 +155,7 @@ static bool is_sound_by(const baum_mechanism *m, const baum_simulation_options *
   return sound;
 }
 
-/* Runs a case in a process of its own, which the alarm ends if the case does not return. */
+/* Runs a case in a separate process. If the case does not return, an alarm ends this process. */
 static int bad_of(const baum_mechanism *m, const baum_simulation_options *o, int k)
 {
   int answer = -1;
@@ -205,7 +204,7 @@ static void every_call_returns(void **state)
   assert_int_equal(bad, 0);
 }
 
-/* The same with kinematics, for a driven crank with extreme speeds. */
+/* Tests kinematics in the same way, for a crank with a driver and extreme speeds. */
 static void every_call_of_kinematics_returns(void **state)
 {
   (void)state;
@@ -228,7 +227,7 @@ static void every_call_of_kinematics_returns(void **state)
   assert_int_equal(bad, 0);
 }
 
-/* The message names the quantity that is too large. */
+/* The message must name the quantity that is too large. */
 static void a_velocity_that_overflows_is_named(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events: invalid definitions are refused, failing event functions end the call, and locating
- * events allocates nothing. */
-#define _GNU_SOURCE /* of heap.h */
+/* Tests events. Invalid definitions must be refused, event functions that fail must end the call,
+ * and locating events must allocate no memory. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,7 +25,8 @@ static baum_simulation *open_mode(const swing *s, step_mode mode)
 
 enum { HEALED = 2 };
 
-/* An event function that fails after 0.25 s with the answer *user, unless that is HEALED. */
+/* An event function that fails after 0.25 s with the answer *user. If *user is HEALED, it does not
+ * fail. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -107,7 +108,7 @@ static void failing_functions_end_the_call(void **state)
       assert_int_equal(baum_simulation_advance_to(run, 0.3), want);
       assert_non_null(strstr(baum_message(), "event 0"));
       assert_true(baum_simulation_time(run) <= 0.26); /* at most one more step */
-      /* The run can continue once the function works. */
+      /* The run can continue when the function works again. */
       answer = HEALED;
       assert_int_equal(baum_simulation_advance_to(run, 0.27), BAUM_OK);
       assert_true(baum_simulation_time(run) == 0.27);
@@ -172,7 +173,8 @@ static void every_allocation_of_an_event_may_fail(void **state)
 
 int main(void)
 {
-  (void)heap_is_ours(); /* first call: heap.h looks up the functions that it excludes */
+  /* The first call, in which heap.h looks up the functions that it excludes. */
+  (void)heap_is_ours();
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),
     cmocka_unit_test(failing_functions_end_the_call),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fails every single call of a user function, for each request to the library. The request then
- * fails with the message of the function and changes nothing, and succeeds when the function works
- * again. */
+/* Lets every single call of a user function fail, one at a time, for each kind of request to the
+ * library. The request must then fail with the message of the function, and it must change nothing.
+ * When the function works again, the request must succeed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,11 +16,11 @@
 #include "dynamics/dynamics.h"
 #include "step_mode.h"
 
-/* ---- a bead on a hoop, defined by user functions only ---- */
+/* ---- a bead on a hoop, which is defined only by user functions ---- */
 
 typedef struct fault {
-  int answer;   /* return value of a failing call; 0: it returns 0 but gives NaN */
-  int64_t from; /* number of the first call that fails; 0: none */
+  int answer;   /* return value of the failing call; if 0, the call sets NaN instead */
+  int64_t from; /* number of the first call that fails, or 0 if none fails */
   int64_t calls;
 } fault;
 
@@ -101,7 +101,7 @@ static int hoop_gamma(double t, const double *q, const double *v, double *out, v
   return answer(user, out);
 }
 
-/* y = 0.75 + 0.3 t */
+/* The constraint is y = 0.75 + 0.3 t. */
 static int lift_phi(double t, const double *q, double *out, void *user)
 {
   out[0] = q[1] - 0.75 - 0.3 * t;
@@ -162,13 +162,13 @@ static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *be
   check(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
-/* A point off the hoop, so that a run has to assemble it. */
+/* A point that is off the hoop, so that a run has to assemble it. */
 static const double DESIGN_Q[2] = {0.48, 0.64};
 
 typedef struct variant {
   int hoops;
   bool constant_mass;
-  bool lifted; /* a driver in y: no degree of freedom is left */
+  bool lifted; /* whether y has a driver, so that no degree of freedom remains */
 } variant;
 
 static baum_mechanism *make_bead(variant of, fault *f)
@@ -204,7 +204,7 @@ enum { MOST_ROWS = 2, MOST_OUT = 16 };
 
 typedef struct request {
   baum_workspace *w;
-  double q[2]; /* off the hoop */
+  double q[2]; /* a point off the hoop */
   double v[2];
   double out[MOST_OUT];
 } request;
@@ -319,12 +319,12 @@ static const struct {
 };
 enum { FAULT_COUNT = 3 };
 
-/* Compares numbers; both may be NaN, as v[1] may be. */
+/* Checks that numbers are equal. Both may be NaN, as v[1] may be. */
 static void assert_same_numbers(const double *got, const double *want, int count)
 {
   for (int i = 0; i < count; i++) {
     if (!(isnan(got[i]) && isnan(want[i]))) {
-      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* new pivots may round otherwise */
+      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* with new pivots, rounding may be different */
     }
   }
 }
@@ -332,7 +332,7 @@ static void assert_same_numbers(const double *got, const double *want, int count
 static void check_ask(baum_workspace *w, fault *f, int which)
 {
   request want = request_of(w);
-  check(ASKS[which](&want)); /* the first call computes the metric of GGL and keeps it */
+  check(ASKS[which](&want)); /* the first call computes the metric of GGL and stores it */
   want = request_of(w);
   f->calls = 0;
   check(ASKS[which](&want));
@@ -361,7 +361,7 @@ static void check_ask(baum_workspace *w, fault *f, int which)
   assert_true(calls > 0);
 }
 
-/* With blocks, and with both solvers of the whole system. */
+/* Tests blocks and both solvers of the whole system. */
 static void a_workspace_passes_on_every_failing_call(void **state)
 {
   (void)state;
@@ -406,8 +406,8 @@ static bool is_of_fault(baum_status status, int k)
   return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].message);
 }
 
-/* Returns whether the run was created. A created run reaches the end, even if a call has failed in
- * between. */
+/* Tests the creation and the steps of a run, and returns whether the run could be created. If it
+ * was created, it must reach the end, even if a call has failed in between. */
 static bool check_run(const baum_mechanism *m, const baum_simulation_options *o, fault *f, int k)
 {
   baum_simulation *run = NULL;
@@ -433,7 +433,7 @@ static bool check_run(const baum_mechanism *m, const baum_simulation_options *o,
   return true;
 }
 
-/* Makes the n-th call fail, for n from 1 on with increments of 1 + n / rarer. */
+/* Makes call number n fail. n begins at 1 and increases by 1 + n / rarer. */
 static void check_every_call(const baum_simulation_options *o, variant of, int64_t rarer)
 {
   fault f = {.from = 0};
@@ -450,7 +450,7 @@ static void check_every_call(const baum_simulation_options *o, variant of, int64
   baum_mechanism_destroy(m);
 }
 
-/* With blocks and with KLU: the run is assembled, checked, started and advanced. */
+/* Tests blocks and KLU. The run is assembled, checked, started and advanced. */
 static void a_failing_call_ends_creation_or_a_step_and_the_run_can_continue(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every failure that ends a run early has a message with time, step, joint or body, and advice. The
- * last good step stays readable, and another run can continue from there. */
+/* Every failure that ends a run early must have a message. It must contain the time, the step, a
+ * joint or body, and advice. The last good step must stay readable, and another run must be able to
+ * continue from it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,18 +20,19 @@
 
 typedef enum fault {
   FAULT_NONE,
-  FAULT_STOPS,   /* return value: stop */
-  FAULT_RETRIES, /* return value: retry with a smaller step, at every call */
+  FAULT_STOPS,   /* the force returns "stop" */
+  FAULT_RETRIES, /* at every call, the force returns "retry with a smaller step" */
   FAULT_RETRIES_ONCE,
   FAULT_NAN,
-  FAULT_NOISE,  /* large forces that vary at random from place to place */
-  FAULT_GROWTH, /* grows without bound: the motion becomes infinite in finite time */
+  FAULT_NOISE, /* the force is large and varies at random from place to place */
+  /* The force grows without bound, so that the motion becomes infinite in finite time. */
+  FAULT_GROWTH,
   FAULT_COUNT
 } fault;
 
 static const double AFTER = 0.1; /* [s] time of the first fault */
 
-/* A large pseudo-random number that depends on the bits of x. */
+/* Returns a large pseudo-random number that depends on the bits of x. */
 static double noise(double x)
 {
   uint64_t bits;
@@ -97,7 +99,7 @@ static baum_mechanism *pendulum(fault *user)
   return m;
 }
 
-/* A slider-crank with a driven crank and a rod too short for a full revolution. */
+/* Makes a slider-crank with a driven crank. Its rod is too short for a full revolution. */
 static baum_mechanism *locking_crank(void)
 {
   const drive motor = {.angle = 0.4, .rate = 1.0};
@@ -122,10 +124,10 @@ static int flag_of(baum_status status)
 }
 
 typedef struct expectation {
-  fault fault;         /* FAULT_COUNT stands for the locking crank */
-  int statuses;        /* a set of flags, one of which must occur */
-  const char *element; /* part of the message that names an element */
-  const char *words;   /* part of the message */
+  fault fault;         /* FAULT_COUNT stands for the crank that locks */
+  int statuses;        /* flags for the statuses of which one must occur */
+  const char *element; /* the part of the message that names an element */
+  const char *words;   /* another part of the message */
 } expectation;
 
 static const expectation EXPECTED[] = {
@@ -133,14 +135,14 @@ static const expectation EXPECTED[] = {
   {FAULT_RETRIES, CALLBACK, "\"gust\"", "returned 2 (retry)"},
   {FAULT_NAN, NOT_FINITE, "\"gust\"", "is nan at t = "},
   {FAULT_NOISE, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
-  /* With a fixed step, the force may become infinite instead; that message names the force. */
+  /* With a fixed step, the force may become infinite instead. The message then names the force. */
   {FAULT_GROWTH, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
   {FAULT_COUNT, NOT_FINITE | CONVERGENCE | STEP | SINGULAR, "joint ",
    "at the last good step, t = "},
 };
 enum { EXPECTATIONS = sizeof EXPECTED / sizeof *EXPECTED };
 
-/* Checks that the message has the time, the last good step, the element and advice. */
+/* Checks that the message has the time, the last good step, an element and advice. */
 static void check_sentence(const baum_simulation *run, const expectation *e, const char *name)
 {
   const char *message = baum_simulation_message(run);
@@ -158,8 +160,8 @@ static bool reached(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* Whether the state is still near the constraint and slow. A failing run with fixed steps may have
- * left the constraint, or be too fast for any step. */
+/* Tells whether the state is still near the constraint and slow. A run that fails with fixed steps
+ * may have left the constraint, or it may be too fast for any step. */
 static bool is_still_a_pendulum(const baum_simulation *run)
 {
   const double *q = baum_simulation_q(run);
@@ -167,8 +169,8 @@ static bool is_still_a_pendulum(const baum_simulation *run)
   return fabs(hypot(q[0], q[1]) - 1.0) < 0.1 && hypot(v[0], v[1]) < 10.0;
 }
 
-/* The fault is over: another method continues from the state of the run, and so does the run
- * itself. */
+/* When the fault is over, another method must be able to continue from the state of the run. The
+ * run itself must also continue. */
 static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();
@@ -184,7 +186,7 @@ static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   assert_true(reached(baum_simulation_advance_to(next, t + 0.01)));
   assert_true(reached(baum_simulation_advance_to(run, t + 0.01)));
-  /* both move freely for 10 ms; they differ by the error of the less accurate method */
+  /* Both move freely for 10 ms. They differ by the error of the less accurate method. */
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   baum_simulation_destroy(next);
 }
@@ -219,16 +221,17 @@ static void check_failure(const baum_simulation_options *o, const expectation *e
   baum_mechanism_destroy(m);
 }
 
-/* Combinations that may pass the fault without a failure. */
+/* Tells whether a method may pass the fault without a failure. */
 static bool gets_over(const baum_simulation_options *o, fault f)
 {
   bool drifts =
     o->formulation == BAUM_FORMULATION_UNSTABILIZED || o->formulation == BAUM_FORMULATION_BAUMGARTE;
   if (!isnan(o->step)) {
-    /* fixed steps without projection may leave the constraints and pass the dead centre */
+    /* A run with fixed steps and without projection may leave the constraints and pass the dead
+     * centre. */
     return drifts && (f == FAULT_NOISE || f == FAULT_COUNT);
   }
-  /* IDA at index 3 does not test velocities, so it does not notice large forces */
+  /* IDA at index 3 does not test velocities. It therefore does not notice large forces. */
   return o->formulation == BAUM_FORMULATION_INDEX3 && (f == FAULT_NOISE || f == FAULT_GROWTH);
 }
 
@@ -325,13 +328,14 @@ static void inputs_and_laws_continue_after_a_failure(void **state)
   for (int k = 0; k < 2; k++) {
     assert_true(reached(baum_simulation_advance_to(runs[k], 0.05)));
   }
-  /* the continued run is assembled, which changes the state by rounding */
+  /* The continued run is assembled, which changes the state by rounding errors. */
   assert_true(fabs(baum_simulation_q(runs[1])[2] - baum_simulation_q(runs[0])[2]) < 1e-9);
   double driven = 0.5403 + 0.03 * (2.006 + 0.03 * 2.5);
   const baum_channel angle = baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.pin);
   double coordinate[2];
   assert_int_equal(baum_simulation_get(runs[1], &angle, 1, coordinate), BAUM_OK);
-  assert_true(fabs(coordinate[0] - driven) < 1e-9); /* the state is projected to rounding */
+  /* The state is projected, so that only rounding errors remain. */
+  assert_true(fabs(coordinate[0] - driven) < 1e-9);
   for (int k = 0; k < 2; k++) {
     baum_simulation_destroy(runs[k]);
   }

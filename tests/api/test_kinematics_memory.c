@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: steps and outputs allocate nothing, and every allocation may fail. */
-#define _GNU_SOURCE /* of heap.h */
+/* Steps and outputs of kinematics must allocate no memory, and every allocation may fail. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@ static baum_status go(baum_simulation *run, double from, double to)
   const baum_channel channels[3] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_A),
                                     baum_channel_of(BAUM_LAMBDA)};
   double times[9];
-  double rows[9][3 * PARALLELOGRAM_NV + 1]; /* lambda has NV + 1 rows */
+  double rows[9][3 * PARALLELOGRAM_NV + 1]; /* lambda has PARALLELOGRAM_NV + 1 rows */
   for (int k = 0; k < 9; k++) {
     times[k] = from + (k + 1) * (to - from) / 9.0;
   }
@@ -42,7 +42,7 @@ static void steps_and_outputs_allocate_nothing(void **state)
   baum_mechanism *mechanisms[3] = {four_bar_make(&motor), slider_crank_make(&data),
                                    parallelogram_make(&motor)};
   for (int k = 0; k < 3; k++) {
-    double end = k == 2 ? 2.0 : 20.0; /* before the parallelogram is flat, at 2.7 s */
+    double end = k == 2 ? 2.0 : 20.0; /* before 2.7 s, when the parallelogram becomes flat */
     baum_simulation *run = NULL;
     assert_int_equal(create(mechanisms[k], &run), BAUM_OK);
     assert_true(go(run, 0.0, 0.5 * end) >= BAUM_OK);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE does not support the mechanism of test_allocation.c. Here its steps and outputs, in the
- * plane and in space, allocate nothing, and every allocation may fail. */
-#define _GNU_SOURCE /* of heap.h */
+/* RATTLE does not support the mechanism of test_allocation.c, so it is tested here. Its steps and
+ * outputs, both in the plane and in space, must allocate no memory, and every allocation may
+ * fail. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,7 +38,7 @@ static baum_status create(const baum_mechanism *mechanism, baum_solver solver,
   return baum_simulation_create(mechanism, &o, run);
 }
 
-/* A spatial four-bar, or a slider-crank with or without redundant rows. */
+/* Makes a spatial four-bar, or a slider-crank with or without redundant rows. */
 static model make(int kind)
 {
   model m = {0};
@@ -51,8 +52,8 @@ static model make(int kind)
   return m;
 }
 
-/* The crank makes one revolution in 0.04 s. By then KLU has chosen its pivots, and the block solver
- * the rows to omit; KLU checks its pivots repeatedly. */
+/* In 0.04 s, the crank makes one revolution. By this time, KLU has chosen its pivots, and the block
+ * solver has chosen which rows it omits. KLU checks its pivots repeatedly. */
 static void steps_and_outputs_allocate_nothing(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages that no other test triggers (tests/layout/check_messages.py lists them). */
+/* Provokes the messages that no other test provokes. tests/layout/check_messages.py lists them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include "models.h"
 #include "study_entries.h"
 
-/* A rod of 1 m on a pin, driven at 1 rad/s if `driven`. */
+/* Makes a rod of 1 m on a pin. If `driven` is set, a driver rotates it at 1 rad/s. */
 static baum_mechanism *rod_on_a_pin(bool driven)
 {
   baum_mechanism *m = NULL;
@@ -72,7 +72,7 @@ static void kinematics_keeps_no_energy_account(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* At a time of 1e12 s, neighbouring doubles are 1.2e-4 s apart, so a shorter step is refused. */
+/* At a time of 1e12 s, neighbouring doubles are 1.2e-4 s apart. A shorter step must be refused. */
 static void a_step_below_the_rounding_of_time_is_an_error(void **state)
 {
   (void)state;
@@ -86,8 +86,8 @@ static void a_step_below_the_rounding_of_time_is_an_error(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* alpha h = beta h = 1 is dead-beat with Euler. If the gains of a row are multiplied by 1.97, a
- * step leaves 0.97 of a violation of this row, which causes a warning. */
+/* With Euler's method, alpha h = beta h = 1 is dead-beat. If the gains of a row are multiplied by
+ * 1.97, a step leaves 0.97 of this row's violation. This must cause a warning. */
 static void factors_that_hardly_damp_are_warned_of(void **state)
 {
   (void)state;
@@ -108,8 +108,8 @@ static void factors_that_hardly_damp_are_warned_of(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A free particle at 1e300 m/s: accelerations are finite, but positions overflow in a step of 1e9
- * s. */
+/* A free particle moves at 1e300 m/s. Its accelerations are finite, but its position overflows in a
+ * step of 1e9 s. */
 static void a_step_to_infinity_is_an_error(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions and options of programs compiled with an older version are shorter structs. Missing
- * fields have their defaults. */
+/* If a program was compiled with an older version, its definitions and options are shorter structs.
+ * The fields that they do not have must get their defaults. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,13 +14,13 @@
 
 enum { WORD = sizeof(size_t), FILL = 0xA5, TEXT_SIZE = 1024 };
 
-/* Whether a field ends within the first `size` bytes. */
+/* Tells whether a field is completely within the first `size` bytes. */
 static bool is_within(const element_field *field, size_t size)
 {
   return field->offset + field->size <= size;
 }
 
-/* Two structs with the same meaning: `whole` has defaults in all bytes from a given size on; `cut`
+/* Two structs with the same meaning. From a given size on, all bytes of `whole` are defaults. `cut`
  * has this size, and the bytes after its end are garbage. */
 typedef struct two_structs {
   any_def whole;
@@ -43,7 +43,8 @@ static two_structs cut_at(const any_def *good, const any_def *defaults, size_t s
   return two;
 }
 
-/* The size of an older struct that ended with this field, with padding to a whole word. */
+/* Returns the size of an older struct that ended with this field. Padding to a whole word is
+ * included. */
 static size_t older_size(const element_field *last)
 {
   size_t end = last->offset + last->size;
@@ -52,7 +53,7 @@ static size_t older_size(const element_field *last)
 
 /* ---- definitions ---- */
 
-/* Compares all fields except arrays, which are copies at different addresses. */
+/* Compares all fields except arrays. Arrays are copies at different addresses. */
 static void check_same_fields(const element_kind *kind, const any_def *a, const any_def *b)
 {
   const element_fields fields = element_fields_of(kind);
@@ -76,7 +77,7 @@ static baum_status add_to_copy(const baum_mechanism *mechanism, const element_ki
   (void)snprintf(text, TEXT_SIZE, "%s", status == BAUM_OK ? "" : baum_message());
   if (status == BAUM_OK) {
     assert_int_equal(kind->get(copy, id, got, kind->size), BAUM_OK);
-    got->head.name = def->head.name; /* the element's own name is freed with the copy */
+    got->head.name = def->head.name; /* the name of the element is freed together with the copy */
     assert_int_equal(kind->set(copy, id, def), BAUM_OK);
   }
   baum_mechanism_destroy(copy);
@@ -118,14 +119,15 @@ static void a_shorter_definition_has_defaults_where_it_ends(void **state)
       accepted += check_cut(&parts, kind, older_size(&fields.list[f]));
     }
   }
-  /* Checks that the test compares enough accepted definitions, and not only refusals. */
+  /* The test is only useful if many definitions are accepted, and not all refused. */
   assert_in_range(accepted, 2 * ELEMENT_KINDS, 1000);
   baum_mechanism_destroy(parts.mechanism);
 }
 
 /* ---- options ---- */
 
-/* The status of a run with these options, and its explanation or the message. */
+/* Returns the status of a run with these options. Writes its explanation, or the message if it
+ * failed, to `text`. */
 static baum_status run_with(const baum_mechanism *mechanism, const any_def *def,
                             char text[TEXT_SIZE])
 {
@@ -160,7 +162,8 @@ static void shorter_options_have_defaults_where_they_end(void **state)
     assert_string_equal(text[0], text[1]);
     accepted += whole == BAUM_OK;
   }
-  /* Every size that includes `step`, the last field that these options need, is accepted. */
+  /* These options need the fields up to `step`. Every size that includes `step` must be
+   * accepted. */
   assert_int_equal(accepted, OPTION_FIELDS - 5);
   baum_mechanism_destroy(parts.mechanism);
 }

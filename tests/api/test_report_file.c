@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A report file is written completely or not at all. It keeps the mode of the file that it
- * replaces, and other files in the folder are untouched. */
-#define _GNU_SOURCE /* mkdtemp, chown */
+/* A file with a report must be written completely or not at all. It must have the mode of the file
+ * that it replaces. Other files in the folder must not change. */
+#define _GNU_SOURCE /* for mkdtemp and chown */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -24,7 +24,7 @@
 
 enum { PATH = 300, TRIES = 100, OTHER_USER = 65534 };
 
-/* A report in a temporary folder. */
+/* A study for a report, and a temporary folder. */
 typedef struct scene {
   report_scene report;
   char folder[PATH / 4];
@@ -40,7 +40,7 @@ static scene make_scene(void)
   return s;
 }
 
-/* Counts the files of the folder, and removes them if `empty`. */
+/* Counts the files in the folder. If `empty` is set, also removes them. */
 static int count_files(const scene *s, bool empty)
 {
   DIR *folder = opendir(s->folder);
@@ -69,8 +69,7 @@ static void end_scene(scene *s)
 static int syncs;
 static int sync_error;
 
-/* Replaces the system's fsync() for this program: counts the calls, and lets tests make them
- * fail. */
+/* Replaces the system's fsync() in this program. It counts the calls, and tests can let it fail. */
 int fsync(int descriptor)
 {
   (void)descriptor;
@@ -183,7 +182,7 @@ static void a_file_of_another_owner_keeps_that_owner(void **state)
   end_scene(&s);
 }
 
-/* Other files are "X.part" and those with the names of the library's temporary files. */
+/* Other files have the name "X.part", or the names that the library gives to temporary files. */
 static void files_of_others_are_not_touched(void **state)
 {
   (void)state;
@@ -241,7 +240,7 @@ static void a_full_disk_is_reported_and_a_device_is_not_replaced(void **state)
   end_scene(&s);
 }
 
-/* A limit on file sizes simulates a disk that becomes full while writing. */
+/* A limit on the size of files simulates a disk that becomes full while the report is written. */
 static void a_failed_write_leaves_the_older_file_and_no_other(void **state)
 {
   (void)state;
@@ -274,7 +273,7 @@ static void file_and_folder_are_on_the_disk_before_the_call_returns(void **state
   syncs = 0;
   assert_int_equal(write_report(&s), BAUM_OK);
   assert_int_equal(syncs, 2);
-  sync_error = EINVAL; /* fsync() returns this for pipes */
+  sync_error = EINVAL; /* the error of fsync() for pipes */
   assert_int_equal(baum_study_write(s.report.study, BAUM_REPORT_CSV, NULL, "/dev/null"), BAUM_OK);
   sync_error = 0;
   end_scene(&s);

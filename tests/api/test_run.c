@@ -28,7 +28,7 @@ static baum_simulation_options options_in(step_mode mode)
   return step_mode_options(mode, STEP, 1e-8);
 }
 
-/* Options with a fixed step if the integrator has one, else with tolerances. */
+/* Returns options with a fixed step if the integrator has one, otherwise with tolerances. */
 static baum_simulation_options options_for(const baum_integrator *integrator)
 {
   return options_in((step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
@@ -190,7 +190,7 @@ static void out_and_back_ends_near_the_start(void **state)
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
     assert_true(baum_simulation_time(s.run) == 0.0);
     for (int i = 0; i < EVERY_NQ; i++) {
-      /* Error of Euler's method: h |a| t is about 1e-3 for h = 1e-4 and t = 0.2 s. */
+      /* For h = 1e-4 and t = 0.2 s, the error of Euler's method, h |a| t, is about 1e-3. */
       ASSERT_NEAR(baum_simulation_q(s.run)[i], start[i], 0.0, 1e-3);
     }
     assert_true(counters_of(s.run).max_phi < 1e-3);
@@ -266,7 +266,7 @@ static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
     assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(b.run, 0.1) >= BAUM_OK);
     for (int i = 0; i < EVERY_NQ; i++) {
-      /* The state that was set is assembled, which changes it by rounding. */
+      /* A state that is set is assembled, which changes it by rounding errors. */
       ASSERT_NEAR(baum_simulation_q(a.run)[i], baum_simulation_q(b.run)[i], 0.0, 1e-7);
     }
     close_scene(&a);
@@ -374,7 +374,7 @@ static void channels_agree_with_each_other(void **state)
 
 typedef struct progress_log {
   int calls;
-  int cancel_at; /* call that cancels, 0 for none */
+  int cancel_at; /* the call that cancels, or 0 if none does */
   double last;
   const baum_simulation *run;
 } progress_log;
@@ -451,7 +451,7 @@ static void cancelling_before_a_call_stops_that_call_only(void **state)
   }
 }
 
-/* ---- warnings, words, counters ---- */
+/* ---- warnings, messages, counters ---- */
 
 static void warnings_are_announced_once_and_stay_listed(void **state)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A saved run continues in another process exactly as in its own, bit for bit.
+/* A saved run must continue in another process exactly as in its own process, bit for bit.
  *
- * This process advances a run by random intervals and saves it before each. A second process of the
- * same program then builds the same mechanism, restores each buffer, advances by the same interval,
- * and returns the resulting state for comparison.
+ * This process advances a run by random intervals, and saves the run before each interval. A second
+ * process of the same program then builds the same mechanism. It restores each buffer, advances by
+ * the same interval, and returns the state for comparison.
  */
-#define _GNU_SOURCE /* fork */
+#define _GNU_SOURCE /* for fork */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,11 +21,11 @@
 
 #include "saved_scenes.h"
 
-enum { NEW_RUN_EVERY = 10 /* buffers; then the other process creates a new run */ };
+enum { NEW_RUN_EVERY = 10 /* after this many buffers, the other process creates a new run */ };
 
 static const char *program; /* argv[0] */
 
-/* All that can be read of a run after an interval. */
+/* Everything that can be read from a run after an interval. */
 typedef struct outcome {
   double t;
   double q[SAVED_NQ_MAX];
@@ -80,7 +80,7 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
   out->counters.max_phi_rate_joint.tag = 0;
 }
 
-/* Advances by the k-th random interval, after changing inputs or laws for some k. */
+/* Advances by random interval number k. For some k, inputs or laws are changed before. */
 static void go_on(baum_simulation *run, const saved_scene *scene, int k)
 {
   double t = baum_simulation_time(run) + saved_random(k) * scene->span;
@@ -91,7 +91,7 @@ static void go_on(baum_simulation *run, const saved_scene *scene, int k)
   if (k % 7 == 3 && scene->law) {
     assert_int_equal(scene->law(run, scene), BAUM_OK);
   }
-  if (k % 5 == 4 && scene->has_input) { /* also while an earlier schedule is still in effect */
+  if (k % 5 == 4 && scene->has_input) { /* an earlier schedule may still be in effect */
     const double times[3] = {t - 0.3 * scene->span * saved_random(k), t, t + 0.5 * scene->span};
     const double values[3] = {0.7, 1.1, 0.9};
     assert_int_equal(baum_simulation_schedule_input(run, scene->input, times, values, 3), BAUM_OK);
@@ -113,7 +113,8 @@ static void *read_buffer(FILE *file, size_t *size)
   return buffer;
 }
 
-/* Arguments: number of the scene, number of buffers, descriptors of the two files. */
+/* The main function of the second process. Its arguments are the number of the scene, the number of
+ * buffers, and the descriptors of the two files. */
 static int be_the_other(char **arguments)
 {
   saved_scene scene;
@@ -167,15 +168,15 @@ static void start_the_other(int scene, int count, FILE *buffers, FILE *outcomes)
   }
 }
 
-/* ---- this one ---- */
+/* ---- this process ---- */
 
-/* Saves before every interval, and stores the outcome after it. */
+/* Saves the run before every interval, and stores the outcome after every interval. */
 static void run_and_save(const saved_scene *scene, FILE *buffers, outcome *came_to, int count)
 {
   baum_simulation *run = saved_scene_start(scene);
   for (int k = 0; k < count; k++) {
     size_t size = 0;
-    size_t most = 0; /* upper bound: schedules vary in size */
+    size_t most = 0; /* an upper bound, because schedules differ in size */
     assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
     char *buffer = malloc(most);
     assert_non_null(buffer);
@@ -228,7 +229,8 @@ static void every_method_goes_on_bit_for_bit_in_another_process(void **state)
     check_scene(number, &scene);
     saved_scene_close(&scene);
   }
-  assert_true(number > 20); /* number of pairs of integrator and formulation without SUNDIALS */
+  /* Even without SUNDIALS there are more than 20 pairs of integrator and formulation. */
+  assert_true(number > 20);
 }
 
 int main(int argc, char **argv)

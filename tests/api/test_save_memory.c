@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saving and restoring allocate nothing. Later steps allocate nothing either if only blocks are
- * factored. Continuing from another run may fail for lack of memory, and then changes nothing. */
-#define _GNU_SOURCE /* of heap.h */
+/* Saving and restoring must allocate no memory. If a run factors only blocks, its later steps must
+ * also allocate no memory. If there is not enough memory, continuing from another run may fail, but
+ * then it must change nothing. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,12 +16,13 @@
 
 static unsigned char buffer[1 << 17];
 
-/* Whether steps after a restore may have to choose pivots again. */
+/* Tells whether steps after restoring may have to choose pivots again. */
 static bool chooses_pivots(const saved_scene *scene)
 {
   const baum_simulation_options *o = &scene->options;
   bool by_blocks = o->solver == BAUM_SOLVER_AUTO || o->solver == BAUM_SOLVER_BLOCK;
-  /* explicit methods with a fixed step factor blocks only; others factor matrices of their own */
+  /* Explicit methods with a fixed step factor only blocks. All other methods factor matrices of
+   * their own. */
   bool explicit = isnan(o->rtol) && baum_integrator_has_fixed_step(o->integrator) &&
                   o->integrator != baum_generalized_alpha() && o->integrator != baum_rattle();
   return !(by_blocks && explicit);
@@ -62,7 +64,7 @@ static void saving_and_restoring_allocate_nothing(void **state)
   }
 }
 
-/* ---- where memory is needed ---- */
+/* ---- calls that need memory ---- */
 
 static void schedule(baum_simulation *run, const saved_scene *scene)
 {
@@ -94,15 +96,16 @@ static void going_on_without_memory_changes_nothing(void **state)
     (void)heap_stop();
   }
   assert_int_equal(status, BAUM_OK);
-  assert_true(failures > 4); /* allocations for q, v, inputs, driver numbers, schedules */
+  /* These are allocations for q, v, inputs, numbers of drivers, and schedules. */
+  assert_true(failures > 4);
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);
   baum_simulation_destroy(to);
   saved_scene_close(&scene);
-  assert_int_equal(heap_blocks(), before); /* memory kept by a solver is freed too */
+  assert_int_equal(heap_blocks(), before); /* memory that a solver keeps must also be freed */
 }
 
-/* Restores into a run that has no law and no schedule yet. */
+/* The run has no law and no schedule when it is restored. */
 static void restoring_without_memory_changes_nothing(void **state)
 {
   (void)state;

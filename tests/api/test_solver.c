@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which solver a run uses, what its explanation says, and which choices are refused. */
+/* Tests which solver a run uses, what its explanation says about the solver, and which choices are
+ * refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,7 +56,8 @@ static void assert_refused(const baum_mechanism *mechanism, const baum_simulatio
 
 /* ---- mechanisms ---- */
 
-/* A disc pinned to ground with pendulums pinned to it. Not frozen. */
+/* Makes a disc that is pinned to ground, and pendulums that are pinned to the disc. The mechanism
+ * is not frozen. */
 static baum_mechanism *make_hub(int arms)
 {
   baum_mechanism *m = NULL;
@@ -117,7 +119,7 @@ static int tie(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Two coordinates that a constraint makes equal; the second has no mass. */
+/* Makes two coordinates that a constraint makes equal. The second one has no mass. */
 static baum_mechanism *make_massless(void)
 {
   baum_mechanism *m = NULL;
@@ -140,8 +142,8 @@ static baum_mechanism *make_massless(void)
   return m;
 }
 
-/* Particles with about four rods each, two of them to distant particles, so that elimination has
- * many couplings. */
+/* Makes particles with about four rods each. Two of these rods lead to distant particles, so that
+ * elimination has many couplings. */
 static baum_mechanism *make_net(void)
 {
   baum_body_id bodies[NET];
@@ -159,14 +161,14 @@ static baum_mechanism *make_net(void)
   for (int k = 0; k < 2 * NET - 3; k++) {
     int a = k % NET;
     rod.body_a = bodies[a];
-    rod.body_b = bodies[k < NET ? (a + 1) % NET : (7 * a + 4) % NET]; /* b is never a */
+    rod.body_b = bodies[k < NET ? (a + 1) % NET : (7 * a + 4) % NET]; /* b never equals a */
     check(baum_mechanism_add_planar_distance(m, &rod, NULL));
   }
   check(baum_mechanism_freeze(m));
   return m;
 }
 
-/* A mass function that fails before t = 1 s. */
+/* A mass function that fails until t = 1 s. */
 static int late_mass(double t, const double *q, double *out, void *user)
 {
   (void)q;
@@ -208,8 +210,8 @@ static void all_solvers_find_the_same(void **state)
     check(baum_simulation_get(run, channels, 2, row));
     for (int i = 0; i < 17; i++) {
       want[i] = k == 0 ? row[i] : want[i];
-      /* Rounding of accelerations of 1e4 m/s^2 and multipliers of 1e3 N, times a condition
-       * number. */
+      /* The tolerances are rounding errors, for accelerations of 1e4 m/s^2 and multipliers of 1e3
+       * N, times a condition number. */
       ASSERT_NEAR(row[i], want[i], 1e-11, i < 9 ? 1e-7 : 1e-9);
     }
     baum_simulation_destroy(run);
@@ -238,7 +240,7 @@ static void explain_names_the_solver(void **state)
   model_destroy(&m);
 }
 
-/* Kinematics and IDA do not solve (5): they factor other matrices. */
+/* Kinematics and IDA do not solve (5). They factor other matrices. */
 static void methods_without_accelerations_say_so(void **state)
 {
   (void)state;
@@ -287,7 +289,7 @@ static void many_joints_below_that_are_fine(void **state)
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   baum_simulation *run = start(m, &o);
   check(baum_simulation_step(run, 10));
-  /* Every two nodes are coupled: 41 x 40 / 2 couplings. */
+  /* Each node is coupled with every other node, so that there are 41 x 40 / 2 couplings. */
   assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -302,7 +304,8 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   const baum_channel channel = baum_channel_of(BAUM_A);
   double a[2];
   check(baum_simulation_get(run, &channel, 1, a));
-  ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* accuracy of the Jacobian by differences of Phi */
+  /* The Jacobian is computed by differences of Phi, with this accuracy. */
+  ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10);
   ASSERT_NEAR(a[1], 3.0, 0.0, 1e-10);
   assert_explained(run,
                    "\nsolver        klu on the whole system: the mass matrix of body 1 \"twin\" "
@@ -362,7 +365,7 @@ static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
   baum_simulation *run = start(m.mechanism, &o);
   baum_counters counters;
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  assert_true(counters.full_factorizations > 0); /* by KLU */
+  assert_true(counters.full_factorizations > 0); /* KLU made these factorizations */
   baum_simulation_destroy(run);
   model_destroy(&m);
 }

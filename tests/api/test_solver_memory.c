@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Failing allocations that test_allocation.c does not reach: fixed bodies, dense mass matrices with
- * rows, break times, and the solver that is created at a singular configuration. */
-#define _GNU_SOURCE /* of heap.h */
+/* Lets allocations fail that test_allocation.c does not reach. They are for fixed bodies, for dense
+ * mass matrices with rows, for break times, and for the solver that is created at a singular
+ * configuration. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of a study: refusals with messages and without effect, defaults, entries that cannot be
- * run, and lack of memory. */
-#define _GNU_SOURCE /* of heap.h */
+/* Tests the calls of a study: calls that are refused and change nothing, defaults, entries that
+ * cannot be run, and lack of memory. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,7 +44,7 @@ static int clear(void **state)
   return 0;
 }
 
-/* ---- refused ---- */
+/* ---- calls that are refused ---- */
 
 static void a_study_needs_a_frozen_mechanism_and_a_span(void **state)
 {
@@ -137,7 +137,7 @@ static void options_out_of_range_are_refused_by_name(void **state)
   baum_study_destroy(study);
 }
 
-/* The limit of samples depends on the number of coordinates. */
+/* The largest number of samples depends on the number of coordinates. */
 static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state)
 {
   baum_study *study = make(*state);
@@ -163,7 +163,7 @@ static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   baum_study_destroy(study);
 
-  enum { BODIES = 200 }; /* 1200 values of q and v per sample */
+  enum { BODIES = 200 }; /* each sample has 1200 values of q and v */
   baum_mechanism *mechanism = NULL;
   const baum_planar_body_def body = baum_planar_body_def_default();
   assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
@@ -238,8 +238,8 @@ static void progress_cannot_change_a_running_study(void **state)
   baum_study_destroy(study);
 }
 
-/* The first entry exceeds the time limit, so entries with smaller steps are skipped. The invalid
- * ones are still reported as refused. */
+/* The first entry exceeds the time limit. Entries with smaller steps are therefore skipped. Invalid
+ * entries must still be reported as refused. */
 static void invalid_settings_are_refused_even_if_others_exceed_the_time_limit(void **state)
 {
   baum_study *study = make(*state);
@@ -252,7 +252,7 @@ static void invalid_settings_are_refused_even_if_others_exceed_the_time_limit(vo
   options.validate = false;
   options.entry_limit = 1e-6;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
-  (void)baum_study_run(study); /* fails, because the limit also applies to the reference */
+  (void)baum_study_run(study); /* it fails, because the limit also applies to the reference */
   assert_int_equal(study_entry(study, 0).state, BAUM_STUDY_TIMED_OUT);
   assert_int_equal(study_entry(study, 1).state, BAUM_STUDY_REFUSED);
   assert_int_equal(study_entry(study, 2).state, BAUM_STUDY_REFUSED);
@@ -375,11 +375,12 @@ static void a_setting_that_cannot_be_run_is_an_entry_with_its_reason(void **stat
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_fixed(1e4, 1e4);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  o = rk4(1e-7); /* ten million steps take more than a millisecond, and twice as many even more */
+  /* Ten million steps take more than a millisecond, and twice as many take even longer. */
+  o = rk4(1e-7);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   o.step = 5e-8;
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  /* A given reference, because the study's own could exceed the time limit. */
+  /* The reference is given, because a computed one could exceed the time limit. */
   double t = 1.0;
   const double place[2] = {0.0, -1.0};
   assert_int_equal(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_OK);
@@ -430,8 +431,8 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
   baum_study_destroy(study);
 }
 
-/* The quick grid has one method, with default settings, for each integrator and kind of step (fixed
- * or variable). */
+/* For each integrator and kind of step, which is fixed or variable, the quick grid has one method
+ * with default settings. */
 static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
 {
   baum_study *study = make(*state);
@@ -482,7 +483,7 @@ static baum_status study_little(const model *m)
   return status;
 }
 
-/* To save time, only every seventh allocation fails. Lack of memory must never be reported as a
+/* To save time, only every seventh allocation is tested. Lack of memory must never be reported as a
  * refused entry. */
 static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An interrupted study continues from its file: no entry is lost, none is run twice. */
-#define _GNU_SOURCE /* fork, mkstemp */
+/* An interrupted study must continue from its file. No entry may be lost, and none may be run
+ * twice. */
+#define _GNU_SOURCE /* for fork and mkstemp */
 #include <errno.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -26,7 +27,7 @@ enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
 
 static int sync_error;
 
-/* Replaces the system's fsync() for this program, so that tests can let it fail. */
+/* Replaces the system's fsync() in this program, so that tests can let it fail. */
 int fsync(int descriptor)
 {
   (void)descriptor;
@@ -80,7 +81,7 @@ static void write_file(const char *path, const char *text, size_t size)
   (void)fclose(stream);
 }
 
-/* Counts the lines `entry KEY STAGE ...` with this stage. */
+/* Counts the lines of the form `entry KEY STAGE ...` that have this stage. */
 static int lines_at(const char *text, int stage)
 {
   int count = 0;
@@ -97,7 +98,7 @@ static int die(const baum_study *study, int32_t done, int32_t total, void *user)
   return done == *(const int *)user ? raise(SIGKILL) : 0;
 }
 
-/* Runs the study in a child process that is killed after `at` stages. */
+/* Runs the study in a child process. This process is killed after `at` stages. */
 static void run_and_be_killed(scene *s, int at)
 {
   pid_t child = fork();
@@ -121,8 +122,8 @@ static int count_entries(const baum_study *study, int32_t done, int32_t total, v
   return 0;
 }
 
-/* Runs the study of a scene; *first receives the number of stages done at the first call of
- * progress. */
+/* Runs the study of a scene to its end. *first is set to the number of stages that are done when
+ * progress is first called. */
 static baum_study *run_to_the_end(scene *s, int *first)
 {
   *first = 0;
@@ -150,16 +151,17 @@ static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **sta
   int first = 0;
   baum_study *want = run_to_the_end(&whole, &first);
   int entries = baum_study_entry_count(want);
-  /* The first two kills are during the errors, the last one is during the times. */
+  /* The first two times, the process is killed while errors are measured, and the last time while
+   * times are measured. */
   const int kills[] = {KILLED_AT, entries - 1, entries + 3};
   for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
     run_and_be_killed(&broken, kills[k]);
   }
   baum_study *got = run_to_the_end(&broken, &first);
-  assert_int_equal(first, entries + 1); /* no error is measured again */
+  assert_int_equal(first, entries + 1); /* so that no error is measured a second time */
   assert_same_entries(got, want);
   char *text = read_file(broken.path);
-  for (int stage = 1; stage <= 2; stage++) { /* measured, timed */
+  for (int stage = 1; stage <= 2; stage++) { /* the stages are: measured, timed */
     assert_int_equal(lines_at(text, stage), stage == 1 ? entries : entries_done(want));
   }
   test_free(text);
@@ -219,7 +221,8 @@ static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
   end_scene(&s);
 }
 
-/* The last two texts begin like a study file; the last one has a zero byte in its first line. */
+/* The last two texts begin like a study file. The last one contains a zero byte in its first
+ * line. */
 static void a_file_of_something_else_is_refused_and_left_alone(void **state)
 {
   (void)state;
@@ -244,7 +247,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   end_scene(&s);
 }
 
-/* A correctly sealed first line, but with version 0 of the format. */
+/* The first line has a correct digest, but version 0 of the format. */
 static void a_file_of_another_version_is_refused(void **state)
 {
   (void)state;
@@ -258,8 +261,9 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The file has the first line of this study, but the other lines come from the study of a heavier
- * pendulum. Their checksums do not match the first line, so the entries run again. */
+/* The file begins with the first line that belongs to this study. The other lines come from the
+ * study of a heavier pendulum. Their digests do not match the first line. Their entries must
+ * therefore be run again. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;
@@ -311,7 +315,7 @@ static void a_file_of_another_study_is_refused_with_what_differs(void **state)
   end_scene(&s);
 }
 
-/* Line ends as other systems or editors write them. */
+/* The ends of lines are those that other systems or editors write. */
 static void lines_may_end_as_on_other_systems(void **state)
 {
   (void)state;
@@ -327,7 +331,7 @@ static void lines_may_end_as_on_other_systems(void **state)
   (void)fclose(stream);
   baum_study *got = run_to_the_end(&s, &first);
   assert_same_entries(got, want);
-  assert_true(study_entry(got, 0).cpu == study_entry(want, 0).cpu); /* taken from the file */
+  assert_true(study_entry(got, 0).cpu == study_entry(want, 0).cpu); /* it comes from the file */
   test_free(text);
   baum_study_destroy(got);
   baum_study_destroy(want);
@@ -358,7 +362,7 @@ static void a_missing_folder_is_a_status(void **state)
   end_scene(&s);
 }
 
-/* Runs with a limit on file sizes, which simulates a full disk. */
+/* Runs the study with a limit on the size of files, which simulates a full disk. */
 static baum_status run_on_small_disk(baum_study *study, rlim_t size)
 {
   struct rlimit before;
@@ -371,8 +375,8 @@ static baum_status run_on_small_disk(baum_study *study, rlim_t size)
   return status;
 }
 
-/* The disk becomes full in the first line, in the reference, or among the errors. Once there is
- * space, the missing lines are written. */
+/* The disk becomes full while the first line, the reference or the errors are written. When there
+ * is space again, the missing lines must be written. */
 static void a_full_disk_is_a_status_and_loses_nothing(void **state)
 {
   (void)state;

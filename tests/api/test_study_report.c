@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports of a study: their content, and users' names with special characters. */
+/* Tests the reports of a study: their content, and names with special characters. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -83,7 +83,8 @@ static void a_text_names_every_entry_and_what_was_said(void **state)
     assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
     assert_true(count(text, entry.name) >= 1);
   }
-  assert_true(count(text, "refused") >= 3); /* in the counts, the entry and the messages */
+  /* Once in the counts, once in the entry, and once in the messages. */
+  assert_true(count(text, "refused") >= 3);
   assert_true(count(text, "unstable") >= 1);
   assert_int_equal(count(text, "Recommended settings"), 1);
   assert_int_equal(count(text, "\n  1e-10  "), 1);
@@ -127,20 +128,23 @@ static void a_json_has_null_for_what_is_not_known(void **state)
   free(text);
 }
 
-/* tests/browser tests how the page's script shows them. */
+/* How the script in the page shows them is tested by tests/browser. */
 static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
 {
   (void)state;
   char *page = print(scene.study, BAUM_REPORT_PAGE);
   assert_int_equal(count(page, "\"DATA\""), 0);
-  assert_int_equal(count(page, "\"levels\": "), 1);                     /* only rk2 has gains */
-  assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4); /* and 4 methods */
-  assert_int_equal(count(page, "http"), 3); /* in http-equiv and in the namespace of SVG, twice */
+  assert_int_equal(count(page, "\"levels\": "), 1); /* only rk2 has gains */
+  /* There is one object for each entry, and one for each of the 4 methods. */
+  assert_int_equal(count(page, "\n  {\"name\": "), REPORT_ENTRIES + 4);
+  /* "http" occurs once in http-equiv, and twice in the name of the namespace of SVG. */
+  assert_int_equal(count(page, "http"), 3);
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);
 }
 
-/* Expects a picture at q of a rod of 1 m between pins at the origin and at x = `to`. */
+/* Checks that a report contains the picture of a rod at q. The rod is 1 m long, between pins at the
+ * origin and at x = `to`. */
 static void expect_picture(double to, const double *q)
 {
   baum_mechanism *m = NULL;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lack of memory for a report is a status, and no memory is lost. */
-#define _GNU_SOURCE /* of heap.h */
+/* If there is not enough memory for a report, the call must return a status, and no memory may be
+ * lost. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,12 +13,12 @@
 #include "heap.h"
 #include "report_scene.h"
 
-/* A report does not fail if only the memory for reading the processor's name is missing. */
+/* A report must not fail if there is only no memory for reading the processor's name. */
 static void check_form(const baum_study *study, baum_report_form form)
 {
   int failures = 0;
   size_t size = 0;
-  /* a first call allocates what the C library keeps */
+  /* In the first call, the C library allocates memory that it keeps. */
   assert_int_equal(baum_study_print(study, form, NULL, NULL, 0, &size), BAUM_OK);
   long asked = 1;
   for (long n = 0; n < asked; n++) {
@@ -30,7 +31,7 @@ static void check_form(const baum_study *study, baum_report_form form)
     failures += status == BAUM_ERR_MEMORY;
     asked = status == BAUM_ERR_MEMORY ? n + 2 : asked;
   }
-  assert_true(failures >= 6); /* entries, order, methods, two fronts, the text */
+  assert_true(failures >= 6); /* for entries, their order, methods, two fronts, and the text */
 }
 
 static void every_allocation_of_a_report_may_fail(void **state)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names of a study's entries, which settings are separate methods, and the definition of error. */
+/* Tests the names of a study's entries, which settings belong to separate methods, and the
+ * definition of the error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -75,8 +76,8 @@ static void entries_are_called_by_their_gains(void **state)
   baum_study_destroy(study);
 }
 
-/* Factors are copied. Entries with other factors belong to another method, those with another step
- * to the same. */
+/* Factors are copied. Entries with other factors belong to another method. Entries that only have
+ * another step belong to the same method. */
 static void gains_of_rows_belong_to_the_method(void **state)
 {
   baum_study *study = make(*state);
@@ -103,8 +104,8 @@ static void gains_of_rows_belong_to_the_method(void **state)
 
 /* ---- definition of error ---- */
 
-/* Finds the errors of two entries with steps h and h / 2. The error is that of the channel, or the
- * study's default error if channel is NULL. */
+/* Finds the errors of two entries, whose steps are h and h / 2. The study measures the error of
+ * `channel`. If `channel` is NULL, it measures its default error. */
 static void errors_of(const model *m, const baum_channel *channel, double unit, double errors[2])
 {
   baum_study *study = make(m);
@@ -138,7 +139,8 @@ static void error_may_be_of_channels_by_a_unit(void **state)
   double of_speed[2];
   double of_pull[2];
   errors_of(m, NULL, 0.0, own);
-  /* The default error of positions is relative to the characteristic length, here 1 m. */
+  /* By default, the error of positions is relative to the characteristic length, which is 1 m
+   * here. */
   errors_of(m, &place, 1.0, same);
   errors_of(m, &place, 0.5, finer);
   errors_of(m, &speed, 1.0, of_speed);
@@ -147,7 +149,7 @@ static void error_may_be_of_channels_by_a_unit(void **state)
     ASSERT_NEAR(same[k], own[k], 1e-12, 0.0);
     ASSERT_NEAR(finer[k], 2.0 * own[k], 1e-12, 0.0);
   }
-  /* Fourth order: a ratio of 2^4, with allowance for higher terms. */
+  /* The method has order 4. The ratio is therefore 2^4, and the limits allow for higher terms. */
   assert_in_range(own[0] / own[1], 12, 40);
   assert_in_range(of_speed[0] / of_speed[1], 12, 40);
   assert_in_range(of_pull[0] / of_pull[1], 12, 40);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs the whole catalogue through a bounded grid, once with references that the studies compute,
- * once with those of the catalogue, and compares the errors.
+/* Compares errors of runs for the whole catalogue. Each mechanism is run twice through a grid of
+ * limited size: once with a reference that the study computes, and once with the reference of the
+ * catalogue.
  *
  * usage: bench_catalog [ENTRY]
  *
- * The grid has every integrator with each of its formulations, with the gains of its default rule,
- * of `auto` and of two constants, at three steps or tolerances each. Runs that take more than 0.05
- * s are stopped. tests/support/catalog_grid.h defines which entries are wrong.
+ * The grid contains every integrator with each of its formulations. Each has the gains of its
+ * default rule, of `auto` and of two constants, at three steps or tolerances. Runs that take more
+ * than 0.05 s are stopped. tests/support/catalog_grid.h defines which entries are considered
+ * wrong.
  */
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do inaccurate runs have a warning that doubts the motion?
+/* Tests whether inaccurate runs have a warning that doubts their motion.
  *
  *   bench_doubts [-n MECHANISMS] [-f FIRST_SEED] [-s SETTING] [-j THREADS] [-c] [-e]
  *
@@ -9,16 +9,17 @@
  *   -c      print a line of CSV per run instead of the tables
  *   -e      with the option error_check
  *
- * Mechanisms, their equations and the reference are those of tests/judge, which share no code with
- * baum. A mechanism is used if two runs of the reference agree to 1e-6. The error of a run is the
- * largest position error at ten samples, with lengths relative to the characteristic length. A run
- * is right if its error is below 0.01, grey below 0.1, else wrong. Growth is the largest
- * amplification of a perturbation from any of 20 times to any later one; velocities are divided by
- * the mean rate of the motion.
+ * The mechanisms, their equations and the reference are those of tests/judge. They share no code
+ * with baum. A mechanism is used only if two runs of the reference agree to 1e-6. The error of a
+ * run is its largest position error at ten samples. Lengths are relative to the characteristic
+ * length. A run is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong.
+ * The growth of a motion is the largest amplification of a perturbation from any of 20 times to any
+ * later one of them. Velocities are divided by the mean rate of the motion.
  *
- * Fails if more than 3 % of the right runs of a setting are doubted. Also fails if too many wrong
- * fixed-step runs have no warning that doubts the motion: one with growth up to 30, more than 1 %
- * of those with growth up to 1000, or, with error_check, one with growth up to 1e4.
+ * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
+ * too many wrong fixed-step runs have no warning that doubts their motion. These limits are one run
+ * with a growth of up to 30, and more than 1 % of the runs with a growth of up to 1000. With
+ * error_check, it is one run with a growth of up to 1e4.
  */
 #include <math.h>
 #include <pthread.h>
@@ -64,7 +65,7 @@ enum { SETTINGS_COUNT = sizeof SETTINGS / sizeof *SETTINGS, GROWTHS = 4, CODES =
 
 static const double GROWTH_LIMITS[GROWTHS] = {30.0, 1e3, 1e4, INFINITY};
 
-/* A mechanism, its properties and its runs. */
+/* A mechanism, its properties, and the results of its runs. */
 typedef struct entry {
   uint64_t seed;
   const char *failed;
@@ -246,7 +247,8 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Prints quantiles of error / estimated error over the runs that have both. */
+/* Prints quantiles of the error divided by the estimated error. Only runs that have both are
+ * used. */
 static void print_quantiles(const bench *b, int setting)
 {
   double *ratios = malloc((size_t)b->count * sizeof *ratios);
@@ -299,7 +301,7 @@ static void add_runs(const bench *b, tally *tallies)
   }
 }
 
-/* The last tally is the sum over all settings. */
+/* Prints the tables. The last tally is the sum over all settings. */
 static void print_tables(const bench *b, const tally *tallies)
 {
   print_mechanisms(b);
@@ -331,7 +333,7 @@ static bool complain(const char *name, const char *what, long part, long whole)
   return false;
 }
 
-/* Whether the warnings fulfil the conditions in the head of this file. */
+/* Tells whether the warnings satisfy the conditions at the beginning of this file. */
 static bool judge_tallies(const bench *b, const tally *tallies)
 {
   bool fine = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Size and writing time of pages and pictures.
+/* Prints the size of pages and pictures, and how long it takes to write them.
  *
  * usage: bench_draw
  */
@@ -40,7 +40,7 @@ static void print_sizes(const char *name, const baum_mechanism *m, const baum_pa
          (double)html * 1e-3, 1e3 * (end - between) / REPEATS);
 }
 
-/* A slider-crank of the catalogue with all positions and the reactions of its joints. */
+/* Draws a mechanism of the catalogue, with all positions and the reactions of its joints. */
 static void show_catalog(const char *name, int count, double end)
 {
   baum_mechanism *m = NULL;
@@ -77,7 +77,8 @@ static void show_catalog(const char *name, int count, double end)
   baum_mechanism_destroy(m);
 }
 
-/* A row of pendulums side by side, without a run: every sample is the design configuration. */
+/* Draws a row of pendulums side by side. There is no run, so that every sample is the design
+ * configuration. */
 static void show_many(int bodies, int count)
 {
   baum_mechanism *m = NULL;
@@ -116,7 +117,7 @@ static void show_many(int bodies, int count)
   baum_mechanism_destroy(m);
 }
 
-/* The vertices and triangles of a torus: n circles of n points. */
+/* Makes the vertices and triangles of a torus, which consists of n circles with n points each. */
 static baum_outline make_ring(int n, double *points, int32_t *triangles)
 {
   for (int k = 0; k < n * n; k++) {
@@ -137,7 +138,7 @@ static baum_outline make_ring(int n, double *points, int32_t *triangles)
   return ring;
 }
 
-/* A body with an outline of 2 n^2 triangles. */
+/* Draws a body whose outline has 2 n^2 triangles. */
 static void show_mesh(int n)
 {
   const double row[7] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};

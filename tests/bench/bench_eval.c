@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The time of one acceleration with each solver, and how it divides into phases.
+/* Prints the time of one evaluation of the accelerations with each solver, and the times of its
+ * phases.
  *
  * usage: bench_eval [--json] [--case NAME] [--largest N]
  *
- * All solvers run in this process on the same scene with the same code for the geometry, in
- * alternating rounds. parts/timing.h defines the time. --json prints one object a line.
+ * All solvers run in this process, on the same scene and with the same code for the geometry, in
+ * alternating rounds. parts/timing.h defines how times are measured. With --json, the program
+ * prints one object a line.
  */
 #include <math.h>
 #include <stdint.h>
@@ -23,7 +25,7 @@ enum { MOST_SOLVERS = 8, LARGEST_STEPPED = 10000 };
 
 typedef struct arguments {
   bool json;
-  const char *only; /* NULL: all cases */
+  const char *only; /* NULL for all cases */
   int largest;
 } arguments;
 
@@ -44,8 +46,9 @@ typedef struct measured {
   const solver *way;
   void *self;
   double whole;             /* [s] */
-  double upto[PHASE_COUNT]; /* [s] from the start to the end of a phase */
-  double apart;             /* relative difference of a from that of the first solver */
+  double upto[PHASE_COUNT]; /* [s] from the start of an evaluation to the end of each phase */
+  /* Relative difference between the accelerations of this solver and of the first one. */
+  double apart;
 } measured;
 
 static double smaller(double a, double b)
@@ -161,7 +164,8 @@ static bool finish_all(const measured *all, int count)
   return fine;
 }
 
-/* Returns false if something failed or solvers disagree. */
+/* Measures all solvers on one scene. Returns false if something failed, or if the solvers
+ * disagree. */
 static bool bench_scene(scene_kind kind, int n, bool json)
 {
   scene at;
@@ -323,7 +327,7 @@ static bool step_once(void *self, int part)
   return baum_simulation_step(self, 16) == BAUM_OK;
 }
 
-/* Takes steps of 1e-9 s, so that the configuration hardly changes. */
+/* Takes steps of 1e-9 s. They are so short that the configuration hardly changes. */
 static bool bench_steps_of(scene_kind kind, int n)
 {
   scene at;
@@ -364,7 +368,8 @@ static bool bench_steps(const arguments *given)
 
 /* ---- fixed bodies ---- */
 
-/* Returns the time of a step [s]. If `all`, fixed bodies and their joints are solved as well. */
+/* Returns the time of a step [s] of a mechanism with fixed bodies. If `all` is set, the fixed
+ * bodies and their joints are not omitted from the equations. */
 static double time_mounted(int frames, bool all)
 {
   model m;
@@ -407,7 +412,7 @@ static bool bench_fixed_bodies(void)
 
 /* ---- redundant rows ---- */
 
-/* [s] per evaluation with the library's block solver. */
+/* Returns the time of an evaluation [s] with the library's block solver. */
 static double time_library(scene_kind kind)
 {
   scene at;
@@ -429,7 +434,8 @@ static bool bench_redundancy(void)
   } pairs[] = {
     {SCENE_TWO_GUIDES, SCENE_ONE_GUIDE},
     {SCENE_THREE_CRANKS, SCENE_THIRD_BY_A_ROD},
-    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* 4 bodies with, 3 without */
+    /* 4 bodies with the redundant row, and 3 bodies without it. */
+    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS},
   };
   bool fine = true;
   printf("\nredundant rows, ns per evaluation\n%-26s %8s   %-26s %8s %6s\n", "with", "", "without",

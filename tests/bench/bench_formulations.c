@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares formulations: error, violation, steps and evaluations at the same tolerances or steps.
+/* Compares formulations. For the same tolerances or steps, it prints their errors, violations,
+ * steps and evaluations.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *
- * An argument is for example ida/ggl or rk4/projection. Without arguments, the program compares the
- * formulations of IDA, from index 3 down. Fixed steps are 1/100, 1/1000 and 1/10000 of the span.
- * References are those of tests/data. The error is the largest over all samples, with lengths
- * relative to the characteristic length and angles in radians. Phi [m or rad] and Phi' [m/s or
- * rad/s] are the largest over all steps. Evaluations are those of residuals or accelerations;
- * setups are factorizations of matrices.
+ * An argument names an integrator and a formulation, for example ida/ggl or rk4/projection. Without
+ * arguments, the program compares the formulations of IDA, beginning with index 3. Fixed steps are
+ * 1/100, 1/1000 and 1/10000 of the span. The references are taken from tests/data. The error is the
+ * largest one over all samples. Lengths are relative to the characteristic length, and angles are
+ * in radians. Phi [m or rad] and Phi' [m/s or rad/s] are the largest violations over all steps. The
+ * number of evaluations counts evaluations of residuals or of accelerations. Setups are
+ * factorizations of matrices.
  */
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +29,7 @@ typedef struct method {
   baum_formulation formulation;
 } method;
 
-/* Reads "integrator/formulation"; returns false if there is no such pair. */
+/* Reads a text of the form "integrator/formulation". Returns false if there is no such pair. */
 static bool find_method(const char *text, method *out)
 {
   for (int32_t k = 0; baum_integrator_at(k); k++) {

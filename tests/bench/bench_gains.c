@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is the rule `auto` beaten by a constant alpha = beta?
+/* Tests whether a constant alpha = beta is better than the rule `auto`.
  *
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
- * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over
- * perturbed starts. The cost is the number of evaluations of (7), each of which factors its matrix,
- * plus factorizations of the integrator's own matrix; that of `auto` includes its pilot run. The
- * error is the largest over all coordinates and samples, relative to the scales. A constant beats
- * `auto` in a cell if it
+ * A cell is a combination of a problem, an integrator and an rtol. The cost and the error of a cell
+ * are geometric means over perturbed starts. The cost is the number of evaluations of (7), each of
+ * which factors its matrix, plus the factorizations of the integrator's own matrix. The cost of
+ * `auto` includes its pilot run. The error is the largest one over all coordinates and samples,
+ * relative to the scales. In a cell, a constant beats `auto` if it
  *   costs no more than `auto` and has less than a third of its error, or
  *   has no larger error than `auto` and costs less than 1 / 1.25 of its cost.
- * The sweep has 49 constants over 12 decades, four per decade. A run with constant gains is stopped
- * at twice the steps of `auto`, because it can then no longer beat `auto`. A constant with a failed
- * run does not beat `auto` either. --table prints every constant, with a limit of six times the
- * steps of `auto`. --quick takes every fourth alpha and two starts.
+ * The sweep has 49 constants. They cover 12 decades, with four constants in each. If a run with
+ * constant gains takes twice the steps of `auto`, it is stopped, because it can then no longer beat
+ * `auto`. A constant for which a run fails does not beat `auto` either. With --table, the program
+ * prints every constant, and runs may take six times the steps of `auto`. With --quick, it uses
+ * every fourth alpha and two starts.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,14 +33,14 @@ enum { INTEGRATOR_COUNT = sizeof INTEGRATORS / sizeof INTEGRATORS[0] };
 typedef struct arguments {
   bool quick;
   bool table;
-  int problem;            /* -1: all */
-  int lot;                /* number of the set of random perturbations of the starts */
-  const char *integrator; /* NULL: all */
+  int problem;            /* -1 for all problems */
+  int lot;                /* selects a set of random perturbations of the starts */
+  const char *integrator; /* NULL for all integrators */
 } arguments;
 
-/* Geometric means over starts. */
+/* Geometric means over all starts. */
 typedef struct outcome {
-  bool ended; /* the runs from all starts reached the end */
+  bool ended; /* whether the runs from all starts reached the end */
   double alpha;
   double cost;
   double error;
@@ -81,7 +82,8 @@ static double own_factorizations(const baum_simulation *run)
   return (double)own.factorizations;
 }
 
-/* Adds the logarithms of cost, steps and error to the sums in out. */
+/* Makes a run from one start. Adds the logarithms of its cost, steps and error to the sums in
+ * `out`. */
 static baum_status run_once(const cell *at, const gain_start *start,
                             const baum_simulation_options *options, outcome *out)
 {
@@ -151,7 +153,7 @@ static void print_outcome(const cell *at, const char *what, const outcome *o)
   }
 }
 
-/* Returns whether no constant beats `auto`. */
+/* Prints the results of a cell. Returns whether no constant beats `auto`. */
 static bool judge(const cell *at, const arguments *args)
 {
   outcome automatic = run_all(at, baum_gains_auto(), 1000000);

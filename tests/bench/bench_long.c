@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How energy and violations grow in long runs with every fixed-step integrator. The mechanisms are
- * the pendulum A01, the undriven slider-crank, and in space a heavy top and a four-bar (RSSR). None
- * of them dissipates energy, so the energy should stay constant.
+/* Shows how energy and violations grow in long runs, for every fixed-step integrator. Two
+ * mechanisms are planar, the pendulum A01 and the slider-crank without a driver. Two are spatial, a
+ * heavy top and a four-bar (RSSR). None of them dissipates energy, so their energy should stay
+ * constant.
  *
  *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
  *
- * Prints a line for every decade of steps: the smallest and largest energy change since the start
- * that occurs in this decade, relative to the largest kinetic energy; the power p of time with
- * which the change grows, from this decade and the one before; the largest violations since the
- * start; the heap in use; the computing time in seconds. If a run fails, its message is printed.
+ * The program prints a line for every decade of steps. The line contains the smallest and the
+ * largest change of energy since the start that occurs in this decade, relative to the largest
+ * kinetic energy. The power p of time with which this change grows follows; it is computed from
+ * this decade and the one before. Then come the largest violations since the start, the heap in
+ * use, and the computing time in seconds. If a run fails, its message is printed.
  */
 #include <malloc.h>
 #include <math.h>
@@ -20,7 +22,8 @@
 #include "models.h"
 #include "spatial_scenes.h"
 
-/* Steps between two energy samples; prime, so that samples cover all phases of the motion. */
+/* Number of steps between two samples of the energy. It is a prime, so that the samples cover all
+ * phases of the motion. */
 enum { STRIDE = 37 };
 
 static void check(baum_status status)
@@ -58,7 +61,8 @@ static double energy_of(baum_simulation *run, double *kinetic)
   return energy[0] + energy[1];
 }
 
-/* Largest kinetic energy during the first two seconds, from an accurate run. */
+/* Returns the largest kinetic energy in the first two seconds. It is computed by an accurate
+ * run. */
 static double largest_kinetic(const model *m)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -90,7 +94,7 @@ static void print_decade(baum_simulation *run, int64_t first, int64_t last, cons
   (void)fflush(stdout);
 }
 
-/* Takes the steps of a decade and samples the energy. */
+/* Takes the steps of one decade, and samples the energy. */
 static baum_status run_decade(baum_simulation *run, double start, double unit, int64_t steps,
                               band *b)
 {

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is projection as accurate as Baumgarte's gains? For every integrator that offers both, the table
- * has the errors at the same step or tolerance with PROJECTION, with BAUMGARTE and the gains of
- * `auto`, and with the best constant gains alpha = beta of a sweep (four a decade over twelve
- * decades). Runs of the sweep may take at most a quarter more evaluations.
+/* Tests whether projection is as accurate as Baumgarte's gains. For every integrator that offers
+ * both, the table shows three errors at the same step or tolerance. The first error is measured
+ * with PROJECTION. The second is measured with BAUMGARTE and the gains of `auto`. The third is
+ * measured with BAUMGARTE and the best constant gains alpha = beta of a sweep, which has four
+ * constants a decade over twelve decades. A run of the sweep may take at most a quarter more
+ * evaluations than the others.
  *
  * usage: bench_projection
  *
- * The best gain of the sweep has the smallest of 49 scattered errors, so this error is small partly
- * by chance. The geometric mean of the errors at the two neighbouring gains, in brackets, shows the
- * size of this effect.
+ * The best gain of the sweep is the one with the smallest of 49 errors, which scatter. This error
+ * is thus small partly by chance. The number in brackets shows how large this effect is. It is the
+ * geometric mean of the errors at the two neighbouring gains.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +19,7 @@
 
 enum { GAINS = 49, RUNGS = 3 };
 static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
-static const double PARTS[RUNGS] = {16.0, 64.0, 256.0}; /* longest step / step */
+static const double PARTS[RUNGS] = {16.0, 64.0, 256.0}; /* the longest step divided by the step */
 
 typedef struct outcome {
   double error;
@@ -25,7 +27,7 @@ typedef struct outcome {
 } outcome;
 
 typedef struct swept {
-  double error[GAINS]; /* infinite if the run failed or was more expensive */
+  double error[GAINS]; /* infinite if the run failed, or if it was more expensive than allowed */
   int best;
 } swept;
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cost of user functions in Python, for the pendulum of the README: the number of calls in a
-step of rk4, and the overhead of a call, which is its time without that of the function itself.
+"""The cost of short runs from Python, for the slider-crank over 2 s, and of user functions in
+Python, for the pendulum of the README: the number of calls in a step of rk4, and the overhead of a
+call, which is its time without that of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
-`quick` and `full` also measure a study of the pendulum over 2 s with these grids.
+With `quick` or `full`, the program also measures a study of the pendulum over 2 s with this grid.
 
 The overhead is the difference from a run whose functions compute the same values in C, which needs a
-C compiler. All times are CPU times, the smallest of several runs.
+C compiler. Times of short runs are wall times, all others CPU times, the smallest of several runs.
 """
 import ctypes
 import sys
@@ -21,9 +22,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
 import baum
+from baum import catalog
 from compiler import CC, Folder
 
 STEPS, REPEATS = 1000, 7
+SHORT_RUNS = 300
 
 C = """
 int phi(double t, const double *q, double *out, void *user)
@@ -49,7 +52,7 @@ def pendulum(functions):
 
 
 def seconds_of(functions):
-    """Least CPU time of the steps."""
+    """Return the smallest CPU time that the steps take."""
     times = []
     for _ in range(REPEATS):
         s = pendulum(functions).simulation("rk4", step=1e-3)
@@ -60,7 +63,7 @@ def seconds_of(functions):
 
 
 def calls_of(functions):
-    """Calls of each function in a step."""
+    """Return how often each function is called in a step."""
     calls = dict.fromkeys(functions, 0)
 
     def counted(name):
@@ -78,7 +81,7 @@ def calls_of(functions):
 
 
 def own_seconds(name):
-    """The time that the function itself takes."""
+    """Return the time that the function itself takes."""
     q = np.array([0.6, 0.8])
     arguments = (0.0, q, q) if name == "gamma" else (0.0, q)
     timer = timeit.Timer(partial(PYTHON[name], *arguments), timer=time.process_time)
@@ -105,6 +108,33 @@ def report_study(grid, language, phi):
     print(f"study with the {grid} grid, phi in {language}: {len(study)} settings, {seconds:.1f} s")
 
 
+def short_run(m, options):
+    """Wall times of creating a run, advancing it and reading q."""
+    clock = time.perf_counter
+    times = [clock()]
+    s = m.simulation("rk8", rtol=1e-5, **options)
+    times.append(clock())
+    s.advance_to(2.0)
+    times.append(clock())
+    _ = s.q
+    times.append(clock())
+    return np.diff(times), s.counters
+
+
+def report_short_run(**options):
+    m = catalog.build("slider_crank", speed=10.0)
+    runs = [short_run(m, options) for _ in range(SHORT_RUNS)]
+    create, advance, read = 1e6 * np.min([times for times, _ in runs], axis=0)
+    done = runs[0][1]
+    what = ", ".join(options.values()) or "default formulation"
+    print(
+        f"short run, {what}: create {create:.0f} us, advance {advance:.0f} us, read q {read:.1f} us; "
+        f"{done.steps} steps, {done.rejected} rejected, {done.evaluations} evaluations"
+    )
+
+
+report_short_run()
+report_short_run(formulation="baumgarte")
 folder = Folder()
 compiled = ctypes.CDLL(folder.shared_object(C)) if CC else None
 report(["phi"], compiled)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations of random mechanisms against quadruple precision.
+/* Compares accelerations of random mechanisms with those in quadruple precision.
  *
  *   bench_random [COUNT [FIRST SEED]]     10000 mechanisms from seed 0 by default
  *
- * Prints every acceleration with an error above 1e-9, every refusal of independent rows, and their
- * counts; fails if there is any.
+ * The program prints every acceleration with an error above 1e-9, every refusal of independent
+ * rows, and how many there are of each. It fails if there is any.
  */
 #include <stdio.h>
 #include <stdlib.h>

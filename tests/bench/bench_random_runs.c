@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of random mechanisms with every integrator and formulation, compared with an accurate
- * reference.
+/* Runs random mechanisms with every integrator and formulation, and compares the runs with an
+ * accurate reference.
  *
  *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     default: 50 mechanisms from
  *   seed 0, from 0 s over 2 s
  *
- * A negative span runs backward in time. The reference is rk8 with projection at rtol 1e-12. If rk8
- * with gains and KLU does not agree with it, the mechanism is skipped. The error of a run is the
- * largest position error at the end, with lengths relative to the characteristic length. Growth is
- * the amplification of small perturbations of the start. The allowed error is, with a variable
- * step, about PROMISE rtol times the growth; with a fixed step, the step times the growth, but at
- * least WRONG. A run with a larger error and no warning is called poor, or silently wrong if the
- * error is above WRONG. A fixed-step run is called poor instead of silently wrong if a quarter of
- * its step halves the error. Errors that arise during the motion may grow more than perturbations
- * of the start, so check this first if a run is called silently wrong. Prints silently wrong runs,
- * runs that fail although the reference succeeds, and unjustified warnings.
+ * If the span is negative, runs go backward in time. The reference is rk8 with projection at rtol
+ * 1e-12. If a run of rk8 with gains and KLU does not agree with this reference, the mechanism is
+ * skipped. The error of a run is its largest position error at the end. Lengths are relative to the
+ * characteristic length. The growth of a motion is the factor by which it amplifies small
+ * perturbations of the start. With a variable step, the allowed error is about PROMISE rtol times
+ * the growth. With a fixed step, it is the step times the growth, but at least WRONG. A run with a
+ * larger error and no warning is called poor. If its error is above WRONG, it is called silently
+ * wrong. A fixed-step run is called poor instead of silently wrong if its error is halved by a
+ * quarter of its step. Errors that arise during the motion may grow more than perturbations of the
+ * start. If a run is called silently wrong, one should therefore first check whether such errors
+ * have grown. The program prints runs that are silently wrong, runs that fail although the
+ * reference succeeds, and warnings that are not justified.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -60,7 +62,7 @@ typedef struct scene {
   double scale;
   double begin;
   double span;
-  double unit[SIZE]; /* units of position errors: characteristic length, or 1 */
+  double unit[SIZE]; /* units of position errors: the characteristic length, or 1 */
   double q0[SIZE];
   double v0[SIZE];
   double q[SIZE]; /* at the end */
@@ -114,8 +116,8 @@ static void set_velocity(scene *s, const random_body *b)
   assert_int_equal(status, BAUM_OK);
 }
 
-/* Copies the mechanism and sets velocities that fulfil the constraints; returns false if projection
- * fails. */
+/* Makes the mechanism of a seed, and sets velocities that satisfy the constraints. Returns false if
+ * projection fails. */
 static bool make(scene *s, uint64_t seed, double begin, double span)
 {
   chance c = chance_of(seed);
@@ -148,7 +150,7 @@ static bool make(scene *s, uint64_t seed, double begin, double span)
 typedef struct result {
   baum_status status;
   bool began;
-  bool doubts; /* has a warning that doubts the motion */
+  bool doubts; /* whether the run has a warning that doubts the motion */
   double q[SIZE];
   char text[400];
 } result;
@@ -164,7 +166,7 @@ static void read_warnings(const baum_simulation *run, result *out)
   }
 }
 
-/* Runs from (q, v), or from the design configuration if q is NULL. */
+/* Makes a run from (q, v). If q is NULL, it starts from the design configuration. */
 static result run(const scene *s, baum_simulation_options o, const double *q, const double *v)
 {
   baum_simulation *r = NULL;
@@ -193,7 +195,7 @@ static double apart(const scene *s, const double *a, const double *b)
   double most = 0.0;
   for (int i = 0; i < s->nv; i++) {
     double one = fabs(a[i] - b[i]) / s->unit[i];
-    most = one <= most ? most : one; /* NaN stays */
+    most = one <= most ? most : one; /* this keeps NaN */
   }
   return most;
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations and reactions of random spatial mechanisms against quadruple precision.
+/* Compares accelerations and reactions of random spatial mechanisms with those in quadruple
+ * precision.
  *
  *   bench_random_spatial [COUNT [FIRST SEED]]     10000 mechanisms from seed 0 by default
  *
- * Prints every result with an error above 1e-9, every refusal of independent rows, and their
- * counts; fails if there is any.
+ * The program prints every result with an error above 1e-9, every refusal of independent rows, and
+ * how many there are of each. It fails if there is any.
  */
 #include <stdio.h>
 #include <stdlib.h>

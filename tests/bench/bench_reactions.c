@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Balance of reactions with redundant rows and uneven masses.
+/* Tests whether reactions balance the forces if rows are redundant and masses are very different.
  *
  *   bench_reactions [COUNT [FIRST SEED]]     1000 mechanisms from seed 0 by default
  *
- * Each mechanism is evaluated on its constraints and with violations of 1e-6 and 1e-3, by a
- * workspace and by a run. Prints and counts the results whose forces are out of balance by more
- * than 1e-9 of their size, and fails if there are any. Also prints results at mass ratios up to
- * 1e14.
+ * Each mechanism is evaluated on its constraints, and with violations of 1e-6 and 1e-3. It is
+ * evaluated both by a workspace and by a run. The program prints and counts the results in which
+ * forces are out of balance by more than 1e-9 of their size. It fails if there are any. It also
+ * prints results for mass ratios of up to 1e14.
  */
 #include <math.h>
 #include <stdio.h>

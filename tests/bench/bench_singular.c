@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results and warnings of runs through singular configurations.
+/* Prints the results and warnings of runs that pass through singular configurations.
  *
  *   bench_singular [STARTS [MECHANISM [SEED]]]
  *
- * STARTS: 20 by default. MECHANISM: all by default, or one of MECHANISMS. SEED of the starts: 1 by
- * default.
+ * STARTS is the number of starts, 20 by default. MECHANISM is one of MECHANISMS. By default all of
+ * them are run. SEED is the seed for the starts, 1 by default.
  *
- * Each line is for a mechanism and a setting. It counts failed runs; right runs, right runs with a
- * branch warning, and gives the largest error of right runs; then it counts wrong runs (the error
- * of an angle is above 0.1 rad), wrong runs without a branch warning, and wrong runs without any
- * warning. The last two columns are the near-singular intervals and forced steps of all runs.
+ * Each line is for one mechanism and one setting. It first counts the failed runs. Then it counts
+ * the right runs and the right runs with a branch warning, and gives the largest error of right
+ * runs. Finally it counts the wrong runs, in which the error of an angle is above 0.1 rad, the
+ * wrong runs without a branch warning, and the wrong runs without any warning. The last two columns
+ * count the near-singular intervals and the forced steps of all runs.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do tolerances mean the same in space as in the plane? Prints medians of error / rtol for every
- * variable-step integrator with each formulation, at rtol 1e-4, 1e-6 and 1e-8. A line has
+/* Tests whether tolerances mean the same in space as in the plane. For every variable-step
+ * integrator with each formulation, the program prints medians of error / rtol at rtol 1e-4, 1e-6
+ * and 1e-8. Each line contains
  *
  *   the medians over planar and spatial mechanisms of the catalogue, and spatial / planar
  *   the medians over planar mechanisms that consist of bodies ("bodies") and over the same
@@ -9,10 +10,10 @@
  * usage: bench_space [INTEGRATOR [--list]]
  *
  * All mechanisms have a smooth reference and at least one degree of freedom. The error is the
- * largest of all positions and samples, with lengths relative to the characteristic length and
- * angles in radians. --list prints every run. Fails if both ratios of a line are above MOST. One
- * large ratio is accepted, because the motions of planar and spatial mechanisms differ in length
- * and in the growth of errors.
+ * largest one of all positions and samples. Lengths are relative to the characteristic length, and
+ * angles are in radians. With --list, the program prints every run. The program fails if both
+ * ratios of a line are above MOST. If only one ratio is above MOST, this is accepted, because the
+ * motions of planar and spatial mechanisms differ in length and in the growth of errors.
  */
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@ static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
 typedef struct known {
   baum_catalog_entry entry;
   baum_mechanism *mechanism;
-  baum_mechanism *tilted; /* the same in a tilted plane, or NULL */
+  baum_mechanism *tilted; /* the same mechanism in a tilted plane, or NULL */
   int32_t nq;
   bool spatial;
   bool used;
@@ -58,7 +59,7 @@ static known know(int32_t k)
   out.used = mobility.degrees_of_freedom > 0;
   if (out.used && !out.spatial && model_tilt(out.mechanism, 0.0, &out.tilted) == BAUM_OK) {
     (void)baum_mechanism_sizes(out.tilted, &nv, NULL, NULL);
-    if (3 * nv != 7 * out.nq) { /* it has particles or user coordinates */
+    if (3 * nv != 7 * out.nq) { /* then it has particles or user coordinates */
       baum_mechanism_destroy(out.tilted);
       out.tilted = NULL;
     }
@@ -66,8 +67,8 @@ static known know(int32_t k)
   return out;
 }
 
-/* Converts samples of the tilted mechanism to coordinates in the plane. Angles get the revolutions
- * of the reference. */
+/* Converts samples of the tilted mechanism to planar coordinates. Angles get the same numbers of
+ * revolutions as in the reference. */
 static void untilt(const known *of, const double *times, const double *tilted, double *q)
 {
   const baum_catalog_choice choice = {.name = of->entry.name};
@@ -86,7 +87,7 @@ static void untilt(const known *of, const double *times, const double *tilted, d
   }
 }
 
-/* Returns the error of a run, or infinity if the run did not reach its end. */
+/* Returns the error of a run. If the run did not reach its end, returns infinity. */
 static double error_of(const known *of, bool tilted, const baum_simulation_options *o)
 {
   const baum_catalog_choice choice = {.name = of->entry.name};

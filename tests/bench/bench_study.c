@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do the recommended settings of a study keep their errors in other runs, and what do they cost
- * compared with the cheapest setting?
+/* Tests the settings that a study recommends: whether they keep their errors in other runs, and how
+ * much they cost compared with the cheapest setting.
  *
  * usage: bench_study [PROBLEM]
  *
- * A study of the standard grid recommends a setting for each error. A second study runs these and
- * the whole grid from perturbed starts over twice the span. A recommendation is met if its error in
- * the second study is at most the requested one. Its price is its cost divided by that of the
- * cheapest entry of the grid with at most the requested error in the second study.
+ * A study with the standard grid recommends a setting for each error. A second study runs the
+ * recommended settings and the whole grid from perturbed starts over twice the span. A
+ * recommendation is met if, in the second study, its error is at most the requested one. The price
+ * of a recommendation is its cost divided by the cost of the cheapest entry of the grid. This entry
+ * must also have at most the requested error in the second study.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@
 enum { STARTS = 5, TARGETS = 5, WHY = 1024 };
 static const double TARGET[TARGETS] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
 static const double NUDGE[STARTS + 1] = {0.0, 0.03, -0.03, 0.06, -0.06, 0.1};
-static const double LONGEST = 0.03; /* [s] limit of a run; recommended entries take less */
+static const double LONGEST = 0.03; /* [s] limit of a run; recommended entries take less time */
 
 /* ---- problems with perturbed starts ---- */
 
@@ -30,7 +31,7 @@ static baum_status pendulum(double nudge, model *out)
   return model_pendulum_rod(&data, out);
 }
 
-/* Changes the angular velocity of the first body; the other velocities follow from the
+/* Changes the angular velocity of the first body. The other velocities then follow from the
  * constraints. */
 static baum_status nudge_rates(model *m, double rate)
 {
@@ -142,7 +143,7 @@ static void ask(const baum_study *study, advice *out)
 typedef struct tally {
   int asked;
   int met;
-  int expensive; /* price above 1.5 */
+  int expensive; /* number of recommendations with a price above 1.5 */
   double worst;
   double sum;
   int priced;
@@ -153,7 +154,8 @@ static double cost_of(const baum_study_entry *entry)
   return (double)(entry->evaluations + entry->factorizations);
 }
 
-/* Cheapest of the first `count` entries whose error is at most the target. */
+/* Returns the cost of the cheapest among the first `count` entries. Its error must be at most
+ * `target`. */
 static double cheapest(const baum_study *study, int count, double target, char *name, size_t size)
 {
   double least = (double)INFINITY;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sweeps over steps and tolerances in difficult scenes: how many runs are wrong, and how many of
- * them silently.
+/* Makes sweeps over steps and tolerances in difficult scenes. It counts how many runs are wrong,
+ * and how many of these are silently wrong.
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *
@@ -11,12 +11,13 @@
  *   rtol      every variable-step method on this rod at rtol 1e-9, with 320 mass ratios
  *   singular  every variable-step method through singular configurations, with 60 tolerances
  *
- * References are integrated in reduced coordinates without the library. The error is the largest
- * position error at ten samples, with lengths relative to the characteristic length. A run is right
- * if its error is below 0.01, grey below 0.1, and wrong above. A false alarm is a right run with a
- * warning that doubts the motion; a silent run is a wrong run without such a warning. The last
- * table is the sum of all parts. --full runs every linkage with and without gravity, and more
- * steps. --csv writes a line for each run. Fails if a run is silently wrong.
+ * References are integrated in reduced coordinates, without the library. The error of a run is its
+ * largest position error at ten samples. Lengths are relative to the characteristic length. A run
+ * is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong. A false alarm
+ * is a right run that has a warning which doubts the motion. A silent run is a wrong run without
+ * such a warning. The last table is the sum of all parts. With --full, every linkage is run with
+ * and without gravity, and with more steps. With --csv, a line is written for each run. The program
+ * fails if a run is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@
 #include "sweep_runs.h"
 
 static const double MOST_STEPS = 3e4;
-static sweep_tally tally; /* too large for a stack */
+static sweep_tally tally; /* too large for the stack */
 static sweep_tally all;
 
 typedef struct arguments {
@@ -35,7 +36,7 @@ typedef struct arguments {
   FILE *csv;
 } arguments;
 
-/* The k-th of n numbers from first to last, in geometric progression. */
+/* Returns number k of n numbers, which form a geometric progression from `first` to `last`. */
 static double spread(double first, double last, int k, int n)
 {
   return first * pow(last / first, (double)k / (n - 1));
@@ -50,8 +51,8 @@ static void sweep_steps(const sweep_scene *s, double first, double last, int n)
   }
 }
 
-/* Shortens the step until a run is right, then runs with n different steps from a quarter to four
- * times that step, so that about half of the runs are right. */
+/* Shortens the step until a run is right. Then makes runs with n different steps, from a quarter of
+ * this step to four times this step. About half of these runs are right. */
 static void sweep_limit_of(const sweep_scene *s, int method, double longest, int n)
 {
   double step = longest;
@@ -71,7 +72,7 @@ static void sweep_limit(const sweep_scene *s, double longest, int n)
   }
 }
 
-/* Adds the counts of the part to the total and prints them; returns how many runs are silently
+/* Adds the counts of a part to the total, and prints them. Returns how many runs are silently
  * wrong. */
 static int end_part(void)
 {

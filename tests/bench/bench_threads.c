@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The speed of a study with two threads and with one, on the standard grid of an undriven
- * slider-crank.
+/* Compares the speed of a study with two threads and with one thread. The study runs the standard
+ * grid for a slider-crank without a driver.
  *
- * Two threads measure the errors, but only one thread measures the times afterwards, so the wall
- * time does not halve. Here each time is measured once. The total CPU time should not grow.
+ * Two threads measure the errors. Afterwards only one thread measures the times, so that the wall
+ * time is not halved. In this study, each time is measured once. The total CPU time should not
+ * grow.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 
 typedef struct spent {
   double wall; /* [s] */
-  double cpu;  /* [s] of all threads */
+  double cpu;  /* [s] of all threads together */
 } spent;
 
 static double clock_now(clockid_t clock)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How much a live view slows a run: does the same work alternately without and with a view.
+"""Measures how much a live view slows a run. The same work is done alternately without and with a
+view.
 
 usage: bench_view.py [PAIRS]
 
-Two processes read the frames, as browsers do. Times are CPU times, because other programs may use
-the machine. The table lists the cost of calls, and the cost of a frame for the thread of the run and
-for the threads that serve the pages. The last column is the sum at 60 frames per second: the largest
-slowdown of the run, reached on a machine with a single core.
+Two processes read the frames, in the same way as browsers. The times are CPU times, because other
+programs may be using the machine. The table shows the cost of calls. It also shows what a frame
+costs the thread of the run, and what it costs the threads that serve the pages. The last column is
+the sum of these costs at 60 frames per second. It is the largest slowdown of a run, which occurs on
+a machine with a single core.
 """
 
 import contextlib
@@ -20,7 +22,7 @@ import numpy as np
 import baum
 from baum import live
 
-WORK = 0.25  # [s] of each piece
+WORK = 0.25  # [s] duration of each piece of work
 READ = "import sys, urllib.request as r\nfor line in r.urlopen(sys.argv[1] + 'events'): pass"
 
 
@@ -66,7 +68,8 @@ def pages(view, count=2):
 
 
 def spend(work, s, steps):
-    """CPU time of the thread that advances the run and of all other threads, and wall time [s]."""
+    """Return the CPU time of the thread that advances the run, the CPU time of all other threads,
+    and the wall time [s]."""
     begin = time.thread_time(), time.process_time(), time.perf_counter()
     work(s, steps)
     end = time.thread_time(), time.process_time(), time.perf_counter()
@@ -75,8 +78,8 @@ def spend(work, s, steps):
 
 
 def measure(label, mechanism, work, pairs):
-    """Print the costs. Each of two runs is measured both with and without the view, because their
-    memory is not equally fast."""
+    """Print the costs of a view. There are two runs, and each is measured both with and without the
+    view, because their memory is not equally fast."""
     runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
     work(runs[0], 1000)
     steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)
@@ -87,12 +90,14 @@ def measure(label, mechanism, work, pairs):
 
 
 def compare(work, steps, plain, seen, pairs):
-    """Medians of the relative cost of calls and of the times [s] that a frame takes."""
+    """Return the medians of two costs: the relative cost of calls, and the times [s] that a frame
+    takes."""
     found = []
     with seen.view(browser=False) as view, pages(view):
         for k in range(pairs):
             costs = []
-            for frame in (10.0, 1 / 60):  # without frames, only calls cost
+            # in the first case there are no frames, and only calls cost time
+            for frame in (10.0, 1 / 60):
                 live.FRAME = frame
                 spent = {s: spend(work, s, steps) for s in ((plain, seen) if k % 2 else (seen, plain))}
                 costs.append(((spent[seen] - spent[plain])[0] / spent[plain][0], *spent[seen]))

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Work-precision: for every integrator and formulation the cheapest run, over a series of steps or
- * tolerances, whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
+/* Shows work against precision. For every integrator and formulation, runs are made with a series
+ * of steps or tolerances. The table shows the cheapest runs whose largest error over all samples is
+ * at most 1e-4, 1e-6, 1e-8 and 1e-10.
  *
  * usage: bench_work_precision [PROBLEM]
  *
- * Errors of lengths are relative to the characteristic length, those of angles in radians. The time
- * is the CPU time of this thread from the creation of the run to the last sample, the smallest of
- * some repeats. A series ends when a run takes longer than LONGEST or the error no longer
- * decreases.
+ * Errors of lengths are relative to the characteristic length. Errors of angles are in radians. The
+ * time is the CPU time of this thread from the creation of the run to the last sample. It is the
+ * smallest one of several repetitions. A series ends when a run takes longer than LONGEST, or when
+ * the error no longer decreases.
  */
 #include <math.h>
 #include <stdio.h>
@@ -60,13 +61,14 @@ static void keep_cheapest(priced best[TARGETS], double error, priced found)
   }
 }
 
-/* Each step is half of the one before; tolerances decrease by half a decade. */
+/* Returns a step or a tolerance. Each step is half of the one before. Tolerances decrease by half a
+ * decade each. */
 static double setting_of(const problem *at, bool fixed, int rung)
 {
   return fixed ? at->step / exp2(rung) : pow(10.0, -2.0 - 0.5 * rung);
 }
 
-/* Finds the cheapest runs of one integrator with one formulation. */
+/* Finds the cheapest runs for one integrator with one formulation. */
 static void climb(const problem *at, const baum_mechanism *mechanism, baum_simulation_options o,
                   bool fixed, priced best[TARGETS])
 {

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_live.py FOLDER
 
-Uses live views of planar and spatial runs in headless Chromium: frames arrive, the time bar grows,
-buttons and keys pause, step and resume the run, the past can be seen, and the end is shown. Leaves
-screenshots in FOLDER. On failure, lists the errors.
+Uses live views of planar and spatial runs in headless Chromium. It checks that frames arrive and
+that the time bar grows. Buttons and keys must pause, step and resume the run. The past and the end
+of the run must be shown. Screenshots are saved in FOLDER. If a check fails, the program lists the
+errors.
 """
 
 import os
@@ -16,7 +17,7 @@ from check_motion import NAME, SIZES, Checks, check_layout, key, wait
 from chromium import Chromium
 
 STEP = 1e-3  # [s]
-STEPS = 10  # of each call
+STEPS = 10  # number of steps in each call
 
 
 def plane():
@@ -44,7 +45,8 @@ class Loop:
             time.sleep(STEP * STEPS)
 
     def steps(self):
-        """Steps so far. The time can be read at any moment."""
+        """Return the number of steps made so far. This works at any moment, because the time of a
+        run can always be read."""
         return round(self.simulation.time / STEP)
 
     def end(self):
@@ -76,7 +78,8 @@ def check_frames(browser, loop, checks):
     time.sleep(1)
     rate = (browser.run("times.length") - begin) / (time.monotonic() - since)
     checks.expect(rate > 20, f"{rate:.0f} frames a second")
-    # Since the page was opened, because a busy browser handles waiting frames at once.
+    # This is the mean since the page was opened. A busy browser may handle several waiting frames
+    # at once.
     mean = browser.run("1000 * times.length / performance.now()")
     checks.expect(mean <= 61, f"{mean:.0f} frames a second in the mean")
     inside = ("framesAt(at(last)).every(({r}) => { const [x, y] = project(r); "
@@ -90,7 +93,7 @@ def check_buttons(browser, loop, checks):
     browser.click("#play")
     checks.expect(until(browser, "find('play').textContent === 'Run'") and is_held(loop), "Pause does not hold the run")
     before = loop.steps()
-    browser.click("#play + button")  # Step
+    browser.click("#play + button")  # the button Step
     time.sleep(0.3)
     checks.expect(loop.steps() == before + 1, f"Step makes {loop.steps() - before} steps")
     browser.run("document.activeElement.blur()")

@@ -2,10 +2,10 @@
 """usage: check_motion.py FOLDER
 
 Writes pages of planar and spatial runs, with names that contain scripts, and uses them in headless
-Chromium. Checks that pages load without console messages, play, step, scrub, zoom and rotate, fit
-desktop and telephone screens in light and dark, that the plots follow the time, and that solids
-cover each other as they do in space. Leaves pages and screenshots in FOLDER. On failure, lists the
-errors.
+Chromium. The checks are that pages load without console messages, that they play, step, scrub, zoom
+and rotate, and that they fit desktop and telephone screens in light and dark. Plots must follow the
+time, and solids must cover each other as they do in space. Pages and screenshots are saved in
+FOLDER. If a check fails, the program lists the errors.
 """
 
 import base64
@@ -63,38 +63,39 @@ def many_in_space():
     return m.freeze().simulate(np.linspace(0, 1, 51), "rk4", step=1e-2)
 
 
-# ---- a scene of solids whose order no sorting by depth gets right ----
+# ---- a scene of solids that sorting by depth would draw in a wrong order ----
 
 HIGH = 0.3
 
 
 def shape(body, form, points, radius=0.0, **more):
-    """A shape at rest, in the colour of its body."""
+    """Return a shape at rest. It has the colour of its body."""
     return {"style": "body", "form": form, "body": body, "other": body, "element": f"{form} {body}",
             "radius": radius, "points": points, **more}
 
 
 def bar_over(angle, body):
-    """A side of a triangle that passes over the next side and under the previous one."""
+    """Return a side of a triangle. It passes over the next side and under the previous one."""
     c, s = np.cos(angle), np.sin(angle)
     ends = [(x * c + 0.5 * s, x * s - 0.5 * c, HIGH * np.sign(x)) for x in (-1.6, 1.6)]
     return shape(body, "line", ends, 0.12)
 
 
 def solids():
-    """The description of a page, and for points in space the body that is seen there (0: none)."""
+    """Return the description of a page. Also return points in space, each with the body that is
+    seen there, or 0 if there is none."""
     thirds = 2 * np.pi / 3 * np.arange(3)
-    corner = np.sqrt(3) / 2  # distance of two sides' crossing from the middle of a side
+    corner = np.sqrt(3) / 2  # distance from the middle of a side to where two sides cross
     shapes = [bar_over(angle, k + 1) for k, angle in enumerate(thirds)]
     seen = []
     for k, angle in enumerate(thirds):
         c, s = np.cos(angle), np.sin(angle)
         height = HIGH * corner / 1.6
         seen.append(((corner * c + 0.5 * s, corner * s - 0.5 * c, height), k + 1))
-    shapes += [  # a ring about a bar: above it at x = 4, and below it
+    shapes += [  # a ring around a bar; it is above the bar at x = 4, and below it elsewhere
         shape(4, "line", [(4, -1.5, 0), (4, 1.5, 0)], 0.12),
         shape(5, "line", [(3.5, 0, -0.6), (4.5, 0, -0.6), (4.5, 0, 0.6), (3.5, 0, 0.6), (3.5, 0, -0.6)], 0.12),
-        shape(6, "box", [(8, 0, 0), (0.5, 0.5, 0.5)]),  # a bar through a box
+        shape(6, "box", [(8, 0, 0), (0.5, 0.5, 0.5)]),  # a bar that passes through a box
         shape(7, "cylinder", [(6.5, 0, 0), (9.5, 0, 0)], 0.2),
         shape(1, "area", [(11, -1, 0), (13, -1, 0), (13, 1, 0), (12, 0, 0), (11, 1, 0)]),  # concave
         shape(2, "mesh", [(15, -1, 0), (17, -1, 0), (16, 1, 0), (16, -0.3, 1)],
@@ -126,7 +127,8 @@ def write_solids(template, path):
     return seen
 
 
-# For each of these points, the body whose colour its pixel has in any light: 0 for the paper or the floor.
+# Returns for each of these points the body whose colour the pixel has, in any light. It is 0 for
+# the paper or the floor.
 BODIES_AT = """(points => {
   const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
   [copy.canvas.width, copy.canvas.height] = [stage.width, stage.height];
@@ -161,7 +163,7 @@ def key(browser, name):
 
 
 def wait(browser, until_not="asked"):
-    """Wait until the page has drawn the requested frame, or until something else does not hold."""
+    """Wait until the page has drawn the requested frame, or until a condition is no longer true."""
     for _ in range(500):
         if not browser.run(f"Boolean({until_not})"):
             return
@@ -169,7 +171,7 @@ def wait(browser, until_not="asked"):
 
 
 def mouse(browser, *steps, **more):
-    """Send mouse events at positions (x, y) in units of the stage's width and height."""
+    """Send mouse events at positions (x, y). The units are the width and the height of the stage."""
     left, top, width, height = browser.run(
         "(() => { stage.scrollIntoView({block: 'center'}); const r = stage.getBoundingClientRect();"
         " return [r.left, r.top, r.width, r.height]; })()"
@@ -201,7 +203,7 @@ def check_layout(browser, checks):
 
 
 def check_time(browser, checks):
-    """Check that playing, steps, the time bar and clicks on plots change time and picture."""
+    """Check that playing, steps, the time bar and clicks on plots change the time and the picture."""
     checks.expect(not browser.run("playing"), "a page with #t= plays")
     checks.expect(abs(browser.run("now") - 0.5) < 1e-6, "#t= is not shown")
     before = browser.run(INK)
@@ -229,7 +231,8 @@ def check_time(browser, checks):
     browser.click("#play")
 
 
-# A body turns by TURN [rad] between the first two samples: 0.4 of the way is shown only if it turns little.
+# Between the first two samples, a body is rotated by TURN [rad]. The page may show an orientation
+# 0.4 of the way between them only if TURN is small.
 SHARE_SHOWN = """(() => {
   const column = table[3 + bodies.find(body => body.kind === 'body').q], kept = column[1];
   column[1] = column[0] + TURN;
@@ -253,7 +256,7 @@ def check_view(browser, spatial, checks):
     after = browser.run("[view.scale, view.azimuth, view.shift[0]]")
     moved = 1 if spatial else 2
     checks.expect(after[moved] != before[moved], "dragging does not turn" if spatial else "dragging does not move")
-    if spatial:  # what is near follows the hand
+    if spatial:  # what is near must follow the pointer
         browser.run("window.near = view.centre.map((x, i) => x + 50 / view.scale * view.axes[6 + i])")
         x, y, _ = browser.run("project(near)")
         mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.52, 0.52), ("mouseReleased", 0.52, 0.52))
@@ -331,7 +334,7 @@ def check_marks(browser, checks):
 
 
 def touch(browser, *moments):
-    """Two fingers at these positions, in units of the stage's width and height."""
+    """Put two fingers at these positions. The units are the width and the height of the stage."""
     left, top, width, height = browser.run("(() => { stage.scrollIntoView({block: 'center'});"
                                            " const r = stage.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()")
     browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
@@ -343,7 +346,8 @@ def touch(browser, *moments):
 
 
 def check_two_fingers(browser, spatial, checks):
-    """Check that two fingers move, zoom and, in space, rotate the picture, and that what is below them stays there."""
+    """Check that two fingers move and zoom the picture and, in space, rotate it. What is below the
+    fingers must stay there."""
     place = "[view.scale, view.azimuth, view.tilt, ...view.shift]"
     key(browser, "0")
     wait(browser)
@@ -364,14 +368,15 @@ def check_two_fingers(browser, spatial, checks):
 
 
 def check_speed(browser, page, checks):
-    """Measure the time to draw a frame. In space, it includes the wait for a graphics card, which
-    software replaces here: the limit is for the rest."""
+    """Measure how long it takes to draw a frame. In space this includes the wait for a graphics
+    card, which software replaces here. The limit is therefore for the time without this wait."""
     browser.size(1280, 900)
     browser.open(page)
     took, script = browser.run(
         "(() => { play(false); const copy = pen.drawImage.bind(pen); let waited = 0, least = [Infinity, Infinity];"
         " pen.drawImage = (...a) => { const begin = performance.now(); copy(...a); waited += performance.now() - begin; };"
-        " for (let batch = 0; batch < 20; batch++) { const begin = performance.now(); waited = 0;"  # others use the machine, too
+        # the shortest batch counts, because other programs also use the machine
+        " for (let batch = 0; batch < 20; batch++) { const begin = performance.now(); waited = 0;"
         " for (let k = 0; k < 5; k++) { now = first + span * k / 5; draw(); }"
         " const took = performance.now() - begin;"
         " least = [Math.min(least[0], took / 5), Math.min(least[1], (took - waited) / 5)]; } return least; })()")

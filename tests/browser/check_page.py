@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_page.py FOLDER
 
-Writes the pages of studies, with a title that contains a script, and uses them in headless Chromium
-as a reader would: on desktop and telephone screens and on paper, in light and dark. Also breaks a
-page in several ways and tests that the checks then fail. Leaves pages and screenshots in FOLDER. On
-failure, lists the errors.
+Writes the pages of studies, with a title that contains a script. Uses them in headless Chromium as
+a reader would: on desktop and telephone screens and on paper, in light and dark. The program also
+breaks a page in several ways, and tests that the checks then fail. Pages and screenshots are saved
+in FOLDER. If a check fails, the program lists the errors.
 """
 
 import json
@@ -18,12 +18,13 @@ from chromium import Chromium
 TITLE = "</title><script>window.taken = 1</script> <img src=x onerror=\"window.taken = 1\"> & 曲柄"
 NAME = '<b onclick="window.taken = 1">A</b> & \'B\' Ä曲柄 ' + "long" * 30
 SIZES = [(1280, 900, False), (420, 800, True)]
-PAPER = (718, 1000)  # A4 between its margins
+PAPER = (718, 1000)  # [px] an A4 page without its margins
 CHARTS, MAPS = 4, 4
-TEXT, GRAPHICS = 4.5, 3.0  # least contrasts, WCAG 2.1 level AA
-LEAST_TEXT = 9.0  # [px] height of the letters of a chart with what is above and below them
-LEAST_GAP = 6.0  # [px] between marks of one kind in a map
-SABOTAGE = {  # a part of the page, and what breaks it
+TEXT, GRAPHICS = 4.5, 3.0  # smallest contrasts, of WCAG 2.1 level AA
+# [px] smallest height of a chart's letters, including the space above and below them
+LEAST_TEXT = 9.0
+LEAST_GAP = 6.0  # [px] smallest distance between marks of one kind in a map
+SABOTAGE = {  # for each part of the page, what breaks it
     "  texts();\n": "  texts(); undefinedFunction();\n",
     "max-width: 1320px": "min-width: 1400px",
     "#picture { float: right;": "#picture { position: absolute;",
@@ -52,8 +53,8 @@ def slider_crank():
 
 
 def make_studies(mechanism):
-    """Four studies: one with more methods than colours, a stress test, one with a single entry, and
-    one that was not run."""
+    """Four studies. One has more methods than colours, one is a stress test, one has a single
+    entry, and one was not run."""
     grid, stress, single, waiting = (
         baum.study(mechanism, 0, 0.1, repeats=1, entry_limit=0.05, validate=False) for _ in range(4))
     for name in ("euler", "rk4", "ab3", "rk8"):
@@ -78,7 +79,7 @@ class Checks:
 
 
 def luminance(colour):
-    """Relative luminance of "#rrggbb", WCAG 2.1."""
+    """Return the relative luminance of "#rrggbb" (WCAG 2.1)."""
     channels = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
     linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
@@ -103,8 +104,8 @@ BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map
     const at = element.getBoundingClientRect();
     return [at.left, at.top, at.right, at.bottom]; })))"""
 
-# Returns the width of the picture, how much of it the window shows, and how many lines of text of the
-# header it covers.
+# Returns the width of the picture, how much of it the window shows, and how many lines of the
+# header's text it covers.
 PICTURE = """(() => {
   const at = document.querySelector('#picture svg').getBoundingClientRect();
   const texts = document.createRange();
@@ -117,7 +118,7 @@ PICTURE = """(() => {
   return [at.width, drawn.length, covered.reduce((sum, lines) => sum + lines, 0)];
 })()"""
 
-# Lists texts that are wider than their table cells, and numbers that take more than one line.
+# Lists texts that are wider than their table cells, and numbers that need more than one line.
 BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
   const lines = document.createRange();
   lines.selectNodeContents(cell);
@@ -127,8 +128,8 @@ BAD_CELLS = """Array.from(document.querySelectorAll('th, td')).filter(cell => {
 
 
 def check_layout(browser, checks):
-    """Check that the page fits the window, cells show all their text, with numbers on one line, and
-    no texts overlap."""
+    """Check that the page fits the window. Cells must show all their text, with numbers on one
+    line, and no texts may overlap."""
     width, room = browser.run(
         "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
@@ -155,8 +156,8 @@ def check_layout(browser, checks):
 
 
 def check_entries(browser, study, checks):
-    """Check that the table has one row for each entry, with its name, and all messages of failed
-    entries."""
+    """Check that the table has one row with the right name for each entry, and that it has all
+    messages of failed entries."""
     names = browser.run("Array.from(document.querySelectorAll('#rows tbody tr'), row =>"
                         " `${row.cells[0].textContent}, ${row.cells[1].textContent}`)")
     wanted = [entry.name for entry in study.entries]
@@ -170,8 +171,8 @@ def check_entries(browser, study, checks):
 
 
 def check_advice(browser, checks):
-    """Check that a run with a recommended setting costs what the library states, except for the
-    effect of rounding the setting."""
+    """Check the cost of recommended settings. A run with such a setting must cost what the library
+    states, except for the effect of rounding the setting."""
     advice = json.loads(browser.run("document.getElementById('data').textContent"))["report"]["recommendations"]
     why = {each["setting"]: each["why"] for each in advice if each["setting"]}
     rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"
@@ -211,8 +212,8 @@ def count(browser, selector):
 
 
 def check_maps(browser, study, checks):
-    """Check that the maps show the gains of every run, and of refused runs if they can be
-    computed."""
+    """Check that the maps show the gains of every run. The gains of refused runs must be
+    shown, too, if they can be computed."""
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")
@@ -224,7 +225,7 @@ def check_maps(browser, study, checks):
 
 
 def check_parts(browser, study, checks):
-    """Check the number of all other elements of the page."""
+    """Check how many elements of each other kind the page has."""
     wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#environment dd": 6,
               "#methods tbody tr": len(study.methods), "#methods svg": 8}
     for selector, number in wanted.items():
@@ -236,7 +237,7 @@ def check_parts(browser, study, checks):
 
 
 def cells(browser, column):
-    """Return the values of a column in all visible rows, None for unknown ones."""
+    """Return the values of a column in all visible rows. Values that are not known are None."""
     return browser.run(
         "Array.from(document.querySelectorAll('#rows tbody tr')).filter(row => !row.hidden)"
         f".map(row => row.cells[{column}].dataset.v === '' ? null"
@@ -250,7 +251,7 @@ def is_sorted(values, reverse):
 
 
 def check_table(browser, study, checks):
-    column = 2  # the error
+    column = 2  # the column of errors
     button = f"#rows thead th:nth-child({column + 1}) button"
     expected = [entry.error for entry in study.entries if entry.state == "done"]
     before = cells(browser, column)
@@ -315,7 +316,7 @@ def check_colours(browser, checks):
 
 
 def check_everywhere(browser, page, study, checks):
-    """Check any study's page at each window size, in both colour schemes, and on paper."""
+    """Check the page of any study, for each window size, in both colour schemes, and on paper."""
     for width, height, phone in SIZES:
         for scheme in ("light", "dark"):
             checks.where = f"{os.path.basename(page)}, {width} px, {scheme}"
@@ -344,7 +345,7 @@ def check_grid(browser, study, checks):
 
 
 def check_sabotage(browser, page, study, checks):
-    """Check that each way to break the page makes a check fail."""
+    """Check that each way of breaking the page makes a check fail."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     broken = page.replace(".html", "_broken.html")
@@ -357,7 +358,7 @@ def check_sabotage(browser, page, study, checks):
         try:
             for _ in check_everywhere(browser, broken, study, found):
                 pass
-        except (RuntimeError, ValueError):  # what the checks look at is not even there
+        except (RuntimeError, ValueError):  # something that the checks need is missing
             found.wrong.append("no page")
         checks.expect(found.wrong, f"nobody notices {other!r}")
         print(f"noticed: {found.wrong[0] if found.wrong else 'nothing'}"[:150])

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_shapes.py FOLDER [--write]
 
-Draws each kind of element as an SVG picture and as a page in headless Chromium, and compares the
-pictures with those in tests/browser/references, which --write replaces. Look at the new sheets
-before you commit them. Leaves sheets of all pictures in FOLDER. On failure, lists the kinds whose
-pictures differ; their places in the sheets are marked.
+Draws each kind of element as an SVG picture and as a page in headless Chromium. Compares the
+pictures with those in tests/browser/references. With --write, it replaces these references. Look at
+the new sheets before you commit them. Sheets of all pictures are saved in FOLDER. If pictures
+differ, the program lists the kinds of elements. Their places in the sheets are marked.
 
 A sheet has COLUMNS pictures in a row, in the order of scenes.py, with 16 shades of grey.
 """
@@ -25,13 +25,14 @@ from check_motion import key, wait
 from chromium import Chromium
 
 REFERENCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "references")
-WIDTH, HEIGHT, COLUMNS = 320, 240, 6  # [px] of a picture
+WIDTH, HEIGHT, COLUMNS = 320, 240, 6  # [px] size of a picture, and number of pictures in a row
 SCALE = 2  # pictures are drawn larger by this factor
-TOLERANCE = 0.6  # shades, of the mean over 3 x 3 pixels; the same Chromium gives 0
+# [shades] for the mean over 3 x 3 pixels; with the same Chromium, there is no difference
+TOLERANCE = 0.6
 SCENES = {"plane": scenes.PLANE, "space": scenes.SPACE}
-PAGES = ("plane", "space")  # the pages of which there are references
+PAGES = ("plane", "space")  # the pages for which there are references
 
-# Returns the shades of an image or a canvas, a hexadecimal digit for each pixel.
+# Returns the shades of an image or a canvas. There is a hexadecimal digit for each pixel.
 SHADES = """(source => {
   const canvas = document.createElement('canvas'), pen = canvas.getContext('2d');
   [canvas.width, canvas.height] = [%d, %d];
@@ -56,7 +57,7 @@ def shades(text):
 
 
 def write_png(path, image):
-    """Write rows of shades 0 to 15; the width is even."""
+    """Write rows of shades from 0 to 15. The width must be even."""
     rows = (image[:, ::2] << 4 | image[:, 1::2]).astype(np.uint8)
     lines = b"".join(b"\0" + row.tobytes() for row in rows)
     head = struct.pack(">IIBBBBB", image.shape[1], image.shape[0], 4, 0, 0, 0, 0)
@@ -67,7 +68,7 @@ def write_png(path, image):
 
 
 def read_png(path):
-    """Read what write_png() has written."""
+    """Read a file that write_png() has written."""
     with open(path, "rb") as file:
         data = file.read()
     width, height = struct.unpack(">II", data[16:24])
@@ -92,7 +93,7 @@ def place(k):
 
 
 def difference(a, b):
-    """The largest difference of two pictures after both are blurred [shades]."""
+    """Return the largest difference of two pictures [shades], after both have been blurred."""
     d = np.pad(a.astype(float) - b, 1)
     d = d[:-2] + d[1:-1] + d[2:]
     return np.abs(d[:, :-2] + d[:, 1:-1] + d[:, 2:]).max() / 9
@@ -102,7 +103,7 @@ def difference(a, b):
 
 
 def read_images(browser, folder, images):
-    """The shades of pictures that are given as addresses of data."""
+    """Return the shades of pictures. Each picture is given as the text of a data address."""
     page = os.path.join(folder, "images.html")
     with open(page, "w", encoding="utf-8") as file:
         file.writelines(f'<img src="data:image/{image}">' for image in images)
@@ -111,7 +112,7 @@ def read_images(browser, folder, images):
 
 
 def enlarge(size):
-    """Give all pictures the width of a line that they have in a page."""
+    """Give all pictures the width of lines that they have in a page."""
     width, height = map(int, size.groups())
     scale = SCALE * min(WIDTH / width, HEIGHT / height)
     return f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
@@ -122,7 +123,8 @@ def svg_image(svg):
     return "svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-# Returns the numbers of open joints at the start, and after all bodies have been moved; null without gaps.
+# Returns the number of open joints at the start, and the number after all bodies have been moved.
+# Returns null if there are no gaps.
 GAPS = """(() => {
   const gaps = shapes.filter(shape => shape.style === 'gap'), frames = framesAt(at(first));
   const open = () => gaps.filter(shape => isOpen(ends(shape, frames))).length, before = open();
@@ -131,7 +133,8 @@ GAPS = """(() => {
 
 
 def page_image(browser, folder, name, m, wrong):
-    """A picture of the page; adds the name to `wrong` if the page does not see that a joint opens."""
+    """Return a picture of the page. If the page does not notice that a joint opens, add the name to
+    `wrong`."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run = m.freeze().simulate([0, 1e-6], "rk4", step=1e-6)
@@ -155,7 +158,7 @@ def page_image(browser, folder, name, m, wrong):
 
 
 def draw_all(browser, folder, wrong):
-    """The SVG texts, and all sheets: for each the names and the pictures."""
+    """Return the SVG texts and all sheets. A sheet consists of names and pictures."""
     svgs, images = {}, {}
     for group, kinds in SCENES.items():
         mechanisms = {name: scenes.build(kinds, name) for name in kinds}
@@ -172,7 +175,7 @@ def draw_all(browser, folder, wrong):
 
 
 def check_sheet(title, pictures, folder):
-    """Compare with the references; return the names of kinds that differ."""
+    """Compare the pictures with the references. Return the names of kinds that differ."""
     path = os.path.join(REFERENCES, f"{title}.png")
     names, sheet = list(pictures), join(pictures.values())
     known = read_png(path) if os.path.exists(path) else sheet[:0]
@@ -190,7 +193,8 @@ def check_sheet(title, pictures, folder):
 
 
 def check_kinds():
-    """Check that there is a scene for each kind; user coordinates have no place."""
+    """Check that there is a scene for each kind of element. User coordinates are excluded, because
+    they have no place."""
     used = {e.kind.name for kinds in SCENES.values() for name in kinds for e in scenes.build(kinds, name)}
     missing = sorted(set(KINDS) - used - {"coordinates"})
     for name in missing:
@@ -199,7 +203,7 @@ def check_kinds():
 
 
 def check_sensitivity(browser, folder, svgs, sheets):
-    """Check that a picture without its last shape differs from that with it."""
+    """Check that a picture changes if its last shape is removed."""
     wrong = []
     for group, texts in svgs.items():
         images = [svg_image(text[: text.rindex("<g>")] + "</svg>") for text in texts.values()]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Controls a headless Chromium through its debugging pipe, with the standard library only."""
+"""Controls a headless Chromium through its debugging pipe. Needs only the standard library."""
 
 import base64
 import json
@@ -11,15 +11,15 @@ import time
 
 
 class Chromium:
-    """One page in one browser; `events` collects its log, its exceptions and its network
-    requests."""
+    """A page in a browser. `events` collects its log, its exceptions and its network requests."""
 
     def __init__(self, program="chromium"):
         self._folder = tempfile.mkdtemp()
         to_browser, self._write = os.pipe()
         self._read, from_browser = os.pipe()
 
-        def take_pipes():  # it reads descriptor 3 and writes 4; both may be in use by now
+        # Chromium reads descriptor 3 and writes descriptor 4, and both may be in use already
+        def take_pipes():
             ends = os.dup(to_browser), os.dup(from_browser)
             os.dup2(ends[0], 3)
             os.dup2(ends[1], 4)
@@ -94,7 +94,7 @@ class Chromium:
         self.call("Emulation.setEmulatedMedia", media=media, features=features)
 
     def open(self, path):
-        """Open a file, or an address that begins with http."""
+        """Open a file. If the path begins with http, open it as an address."""
         self.events.clear()
         url = path if path.startswith("http:") else "file://" + os.path.abspath(path)
         self.call("Page.navigate", url=url)
@@ -129,8 +129,9 @@ class Chromium:
             file.write(base64.b64decode(answer["data"]))
 
     def complaints(self):
-        """Return console messages, exceptions, and reports of blocked content. The software that
-        replaces a graphics card reports that copying pictures takes time; this report is omitted."""
+        """Return console messages, exceptions, and reports of blocked content. Copying pictures
+        takes time with the software that replaces a graphics card. The report about this is
+        omitted."""
         out = []
         for event in self.events:
             details = event["params"]
@@ -144,7 +145,7 @@ class Chromium:
         return [text for text in out if "GPU stall due to ReadPixels" not in text]
 
     def requests(self):
-        """Return the addresses that were requested, except the page's own."""
+        """Return the addresses that the page has requested, except its own address."""
         urls = [
             event["params"]["request"]["url"]
             for event in self.events

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mechanisms of the checks of pages that move: a slider-crank and a double pendulum in space."""
+"""Mechanisms for the checks of pages that move. They are a slider-crank and a double pendulum in
+space."""
 
 import baum
 from baum import inertia
 
 
 def plane(name):
-    """The mechanism, not frozen; its crank has the name."""
+    """Return the mechanism, which is not frozen. Its crank has the given name."""
     m = baum.Mechanism()
     crank = m.planar_body(name, mass=1, inertia=0.1, position=(0.5, 0), angular_velocity=5, held=True)
     rod = m.planar_body("rod", mass=1, inertia=0.4, position=(2, 0))
@@ -19,7 +20,7 @@ def plane(name):
 
 
 def space(name):
-    """The mechanism, not frozen; its upper body has the name."""
+    """Return the mechanism, which is not frozen. Its upper body has the given name."""
     m = baum.Mechanism(up="z")
     body = m.spatial_body(name, mass=2, inertia=inertia.box(2, 0.3, 0.4, 0.05), position=(0, 0.5, 0),
                           angular_velocity=(1, 0, 0))

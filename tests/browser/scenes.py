@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One small mechanism for each kind of element, in the plane and in space."""
+"""One small mechanism for each kind of element, both planar and spatial."""
 
 import numpy as np
 
@@ -19,21 +19,21 @@ def scene(scenes):
 
 
 def arm(m, name="arm", start=(0, 0), end=(2, 0.5)):
-    """Add a body between two points. Its axes are those of the ground."""
+    """Add a body between two points. Its axes are parallel to those of the ground."""
     middle = (np.array(start, float) + end) / 2
     add = m.planar_body if len(start) == 2 else m.spatial_body
     return add(name, mass=1, inertia=0.1 if len(start) == 2 else BOX, position=middle)
 
 
 def pair(m):
-    """Add two arms that meet at (2, 0.5); the ends are pinned to the ground."""
+    """Add two arms that meet at (2, 0.5). Their other ends are pinned to the ground."""
     a, b = arm(m, "a"), arm(m, "b", (2, 0.5), (4, 0))
     m.revolute("left", m.ground, a, point=(0, 0))
     m.revolute("right", m.ground, b, point=(4, 0))
     return a, b
 
 
-# ---- the plane ----
+# ---- planar elements ----
 
 
 @scene(PLANE)
@@ -211,7 +211,7 @@ def user_force(m):
     m.force("drag", [a], lambda t, q, v: -0.1 * v)
 
 
-# ---- space ----
+# ---- spatial elements ----
 
 
 def spatial_pair(m, end=(2, 1, 0)):

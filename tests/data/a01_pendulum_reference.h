@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pendulum A01 of the library of benchmarks of IFToMM and A Coruna, to 10 s. Columns: x, y.
- * README.md of this folder says where the values come from. */
+/* Pendulum A01 of the library of benchmarks of IFToMM and A Coruna, from 0 to 10 s. Columns: x, y.
+ * README.md in this folder says where the values come from. */
 #ifndef BAUM_TEST_A01_PENDULUM_REFERENCE_H
 #define BAUM_TEST_A01_PENDULUM_REFERENCE_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of Flores, Leine, Glocker with an eccentricity of 0.05 m, crank driven at 150 rad/s.
- * Columns: x, y and angle of crank, rod and slider. README.md of this folder says where the values
- * come from. */
+/* Slider-crank of Flores, Leine, Glocker with an eccentricity of 0.05 m. A driver rotates the crank
+ * at 150 rad/s. Columns: x, y and angle of crank, rod and slider. README.md in this folder says
+ * where the values come from. */
 #ifndef BAUM_TEST_SLIDER_CRANK_DRIVEN_REFERENCE_H
 #define BAUM_TEST_SLIDER_CRANK_DRIVEN_REFERENCE_H
 

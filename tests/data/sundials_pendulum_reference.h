@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pendulum of SUNDIALS' cvPendulum_dns. Columns: x, y. README.md of this folder says where the
+/* Pendulum of SUNDIALS' cvPendulum_dns. Columns: x, y. README.md in this folder says where the
  * values come from. */
 #ifndef BAUM_TEST_SUNDIALS_PENDULUM_REFERENCE_H
 #define BAUM_TEST_SUNDIALS_PENDULUM_REFERENCE_H

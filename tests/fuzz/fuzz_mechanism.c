@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms with arbitrary definitions are built, frozen, described and evaluated. Results of
- * successful calls have to be finite, and a copy has to give the same accelerations. */
+/* Builds, freezes, describes and evaluates mechanisms with arbitrary definitions. If a call
+ * succeeds, its results must be finite. A copy of the mechanism must give the same
+ * accelerations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,7 @@ static pose draw_pose(baum_workspace *w, fuzz_bytes *b, int nv)
   return p;
 }
 
-/* Makes every evaluation at one pose. */
+/* Makes every kind of evaluation in one configuration. */
 static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
 {
   static double out[SIZE * SIZE];
@@ -64,7 +65,7 @@ static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
   check_finite(status, lambda, nc);
 }
 
-/* Projects and assembles. After a failure q and v have to be unchanged. */
+/* Projects a configuration and assembles it. If this fails, q and v must be unchanged. */
 static void move(baum_workspace *w, pose *p, int nv)
 {
   pose before = *p;
@@ -79,7 +80,7 @@ static void move(baum_workspace *w, pose *p, int nv)
   FUZZ_CHECK(status == BAUM_OK || memcmp(&before, p, sizeof before) == 0);
 }
 
-/* Computes the accelerations at one pose; NaN if that fails. */
+/* Computes the accelerations in one configuration. If this fails, they are NaN. */
 static void accelerations_of(const baum_mechanism *m, const pose *p, double *a, int nv)
 {
   baum_workspace *w = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs with arbitrary options, and arbitrary calls on them. After each call the state of the run
- * has to be finite. */
+/* Makes runs with arbitrary options, and arbitrary calls on these runs. After each call, the state
+ * of the run must be finite. */
 #include <math.h>
 #include <string.h>
 
@@ -8,9 +8,10 @@
 
 enum { STEPS = 40, CHANNELS = 14, WIDTH = 400, LOOKS = 6, MECHANISMS = 2 };
 
-/* ---- mechanisms: made once ---- */
+/* ---- mechanisms, which are made only once ---- */
 
-/* A particle on a massless rod, which has no functions of the user and allows every formulation. */
+/* Makes a particle on a massless rod. It has no user functions, so that every formulation can be
+ * used. */
 static baum_mechanism *make_pendulum(every_element *parts)
 {
   baum_mechanism *m = NULL;
@@ -44,7 +45,7 @@ static const every_element *mechanism_at(int k)
 
 /* ---- calls ---- */
 
-/* A run, and the rest of the input. */
+/* A run, and the bytes of the input that have not been used yet. */
 typedef struct scene {
   baum_simulation *run;
   const every_element *parts;
@@ -105,7 +106,7 @@ static void set_acting(const scene *s)
   (void)fuzz_status(baum_simulation_set_driver(s->run, s->parts->motor, x[0], x[1], x[2]));
 }
 
-/* From a chosen call on, the functions of the user fail; or they no longer fail. */
+/* Makes the user functions fail from a chosen call on, or makes them work again. */
 static void set_fault(const scene *s)
 {
   if (s->parts->fault) {
@@ -141,7 +142,7 @@ static void get_channels(const scene *s)
   }
 }
 
-/* A run that is restored from its own saved state has to be at the same time again. */
+/* Saves a run and restores it. Afterwards it must be at the same time as before. */
 static void save_and_restore(const scene *s)
 {
   enum { BYTES = 1 << 20 };

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs are restored from bytes: arbitrary ones, or a saved run with some words changed and its
- * checksum corrected. If the bytes are refused, the run has to be unchanged. If they are accepted,
- * later calls may fail but not crash. The saved run can then be restored exactly. */
+/* Restores runs from bytes. These bytes are arbitrary, or they are a saved run in which some words
+ * were changed and the checksum was corrected. If the bytes are refused, the run must be unchanged.
+ * If they are accepted, later calls may fail, but they must not crash. After that, it must be
+ * possible to restore the saved run exactly. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,9 +11,9 @@
 
 enum { WORD = 8, MOST_CHANGES = 6, STEPS = 20 };
 
-/* ---- runs: made once ---- */
+/* ---- runs, which are made only once ---- */
 
-/* A saved run, and the positions that it reaches from there. */
+/* A saved run, and the positions that it reaches some steps later. */
 typedef struct scene {
   const every_element *parts;
   baum_simulation *run;
@@ -101,7 +102,7 @@ static void seal(unsigned char *bytes, size_t size)
   memcpy(bytes + size - WORD, &sum.value, WORD);
 }
 
-/* Changes some words of a saved run or its length. Returns the length. */
+/* Changes some words of a saved run, or its length. Returns the length. */
 static size_t change(scene *s, fuzz_bytes *b)
 {
   size_t size = s->size;
@@ -128,7 +129,7 @@ static baum_status restore_any(scene *s, fuzz_bytes *b)
     return baum_simulation_restore(s->run, b->at, b->left);
   }
   size_t size = change(s, b);
-  /* a separate allocation, so that a sanitizer reports reading past its end */
+  /* The memory is allocated separately, so that a sanitizer reports reading past its end. */
   unsigned char *bytes = malloc(size);
   FUZZ_CHECK(bytes);
   memcpy(bytes, s->changed, size);

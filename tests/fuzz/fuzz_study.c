@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies that continue from a file: arbitrary bytes; or a real file with changed bits and lines,
- * also with lines of another study; or a real file in which fields are changed and the checksums of
- * their lines corrected. A refused file has to be unchanged. An accepted one has to give exactly
- * the entries of a study without a file, unless a checksum was corrected. In every case, a
- * completed study that is run again has nothing to do. */
-#define _GNU_SOURCE /* mkstemp */
+/* Continues studies from files. A file consists of arbitrary bytes, or of a real file in which bits
+ * and lines are changed, including lines of another study. A third kind is a real file in which
+ * fields were changed and the digests of their lines corrected. If a file is refused, it must be
+ * unchanged. If it is accepted, the study must have exactly the entries of a study without a file,
+ * unless a digest was corrected. In every case, if a completed study is run again, nothing may be
+ * left to do. */
+#define _GNU_SOURCE /* for mkstemp */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@
 
 enum { ENTRIES = 3, TEXT = 1 << 15, LINES = 64, MOST_CHANGES = 8, FORMS = 4 };
 
-/* ---- the file: one for all inputs ---- */
+/* ---- the file, which is the same for all inputs ---- */
 
 static char path[] = "/tmp/baum-fuzz-study-XXXXXX";
 
@@ -50,7 +51,7 @@ static size_t read_file(char text[TEXT])
 
 /* ---- studies ---- */
 
-/* Study 1 ends at another time than study 0. */
+/* Makes study 0 or study 1, which ends at another time. */
 static baum_study *make_study(int which)
 {
   static model pendulum;
@@ -68,7 +69,8 @@ static baum_study *make_study(int which)
     baum_simulation_options run = baum_simulation_options_default();
     run.integrator = k < 2 ? baum_rk4() : baum_euler();
     run.formulation = k < 2 ? BAUM_FORMULATION_PROJECTION : BAUM_FORMULATION_BAUMGARTE;
-    run.gains = k < 2 ? run.gains : baum_gains_fixed(1e3, 1e3); /* unstable: refused */
+    /* Unstable gains, so that the entry is refused. */
+    run.gains = k < 2 ? run.gains : baum_gains_fixed(1e3, 1e3);
     run.step = k == 1 ? 0.01 : 0.02;
     FUZZ_CHECK(baum_study_add(study, &run) == BAUM_OK);
   }
@@ -82,7 +84,7 @@ static baum_study_entry entry_of(const baum_study *study, int k)
   return entry;
 }
 
-/* Two NaNs are the same. */
+/* Tells whether two numbers are the same. Two NaNs are considered the same. */
 static bool same(double a, double b)
 {
   return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
@@ -104,11 +106,11 @@ static void check_same_entries(const baum_study *one, const baum_study *other, b
   }
 }
 
-/* Study 0 without a file, the file that it writes, and the file of study 1. */
+/* Study 0 without a file, the file that study 0 writes, and the file that study 1 writes. */
 typedef struct truth {
   baum_study *study;
   char text[2][TEXT];
-  uint64_t seed; /* of the checksums of the lines of study 0 */
+  uint64_t seed; /* for the digests in the lines of study 0 */
 } truth;
 
 static const truth *true_ones(void)
@@ -136,11 +138,11 @@ static const truth *true_ones(void)
 
 /* ---- texts ---- */
 
-/* Lines with their ends. Lines beyond LINES are not read. */
+/* The lines of a file, each with its line end. At most LINES lines are read. */
 typedef struct document {
   char line[LINES][BAUM_I_STUDY_LINE];
   int count;
-  bool sealed; /* whether a line that no study has written has a correct checksum */
+  bool sealed; /* whether a line that no study has written has a correct digest */
 } document;
 
 static void add_line(document *d, const char *line)
@@ -161,7 +163,7 @@ static void add_text(document *d, const char *text)
   }
 }
 
-/* Replaces a word of a line and corrects the checksum. */
+/* Replaces a word of a line, and corrects the digest of the line. */
 static void change_field(document *d, fuzz_bytes *b, char *line, const truth *t)
 {
   static const char *const words[] = {
@@ -203,7 +205,8 @@ static void change(document *d, fuzz_bytes *b, const truth *t)
   }
 }
 
-/* Returns whether a line that no study has written has a correct checksum. */
+/* Writes the changed file. Returns whether a line that no study has written has a correct
+ * digest. */
 static bool write_changed(fuzz_bytes *b, const truth *t)
 {
   static document d;
@@ -224,7 +227,7 @@ static bool write_changed(fuzz_bytes *b, const truth *t)
   return d.sealed;
 }
 
-/* ---- what a study makes of it ---- */
+/* ---- how a study reads the file ---- */
 
 static void read_all(const baum_study *study, fuzz_bytes *b)
 {
@@ -252,7 +255,7 @@ static void read_all(const baum_study *study, fuzz_bytes *b)
     baum_study_recommend_budget(study, 1e-3, &options, sizeof options, text, sizeof text));
 }
 
-/* Running the completed study again has to compute nothing and leave the file unchanged. */
+/* Runs the completed study again. This must compute nothing and leave the file unchanged. */
 static void check_over(const baum_study *study)
 {
   static char before[TEXT];
@@ -289,8 +292,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  /* A line with a corrected checksum may mark an entry as done that cannot be simulated. The study
-   * then fails when it measures the CPU time of that entry. */
+  /* A line with a corrected digest may say that an entry is done, although it cannot be simulated.
+   * In this case the study fails when it measures the CPU time of that entry. */
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a fuzzer's target on stored inputs, without the fuzzer: replay FILE... */
+/* Runs the target of a fuzzer on stored inputs, without the fuzzer. Usage: replay FILE... */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -24,7 +24,8 @@ int main(int count, char **paths)
   for (int k = 1; k < count; k++) {
     size_t size = 0;
     unsigned char *bytes = read_file(paths[k], &size);
-    /* printed first, so that the last name belongs to the input that fails */
+    /* The name is printed first. If the program fails, the last name in the output is the name of
+     * this input. */
     (void)printf("%s\n", paths[k]);
     (void)fflush(stdout);
     (void)LLVMFuzzerTestOneInput(bytes, size);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program of a user of the catalogue, which is a separate library. */
+/* A user's program that uses the catalogue, which is a separate library. */
 #include <stdio.h>
 
 #include <baum/baum.h>

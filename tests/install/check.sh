@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check.sh PREFIX PROJECT
-# Programs can be built with an installed baum by CMake and by a plain command line, shared and
-# static; CMake refuses another version; no installed file contains the path of the build.
+# Checks an installed baum. Programs must build with it by CMake and by a plain command line, with
+# shared and with static libraries. CMake must refuse another version. No installed file may contain
+# the path of the build.
 set -eu
 prefix=$1
 project=$2
@@ -55,7 +56,7 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
-# link OUT ARGUMENT...: link a program that uses every backend with the static libraries.
+# link OUT ARGUMENT... links a program that uses every backend with the static libraries.
 link() {
   out=$1
   shift
@@ -76,7 +77,8 @@ case $(pkg-config --static --libs baum) in
   *) echo "every backend on archives alone"; link "$build/all_static" -static ;;
 esac
 
-# The C blocks of its first chapter, in order: functions unchanged, statements as the body of main.
+# Makes a program of the C blocks in the first chapter. Functions are copied unchanged, and
+# statements become the body of main.
 echo "the tutorial's program, as it is printed"
 awk -v main="$build/main" '
   /^## / { chapter++ }

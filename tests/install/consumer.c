@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The smallest program of a user: it checks that the library at run time is the one it was compiled
- * against. */
+/* The smallest program of a user. It checks that the library that it loads has the same version as
+ * the headers with which it was compiled. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program that calls CVODE, IDA, QR and the catalogue, so that linking it needs all their
+/* A program that calls CVODE, IDA, QR and the catalogue. Linking it therefore needs all their
  * libraries. */
 #include <stdio.h>
 

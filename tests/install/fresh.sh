@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: fresh.sh RELEASE ROOT CLONE COMMAND...
-# As root: makes a bare Debian RELEASE (bookworm, trixie) in ROOT and runs the COMMANDs there, in the clone CLONE of the
-# project. Uses the mirror, proxy and certificates that apt and pip use here. Removes ROOT at the end; after a failure
-# it stays, without mounts.
+# Must be run as root. Makes a bare Debian RELEASE (bookworm, trixie) in the folder ROOT, and runs
+# the COMMANDs there, in CLONE, which is a clone of the project. It uses the mirror, proxy and
+# certificates that apt and pip use on this machine. At the end, ROOT is removed. If a command
+# fails, ROOT remains, but nothing is mounted in it.
 set -eu
 release=$1
 root=$2

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: packages.sh FOLDER
-# As root on a system that may be changed, in the top folder of the project: installs the Debian packages of FOLDER,
-# runs the README's first program in Python, builds programs in C, and removes the packages.
+# Must be run as root, on a system that may be changed, in the top folder of the project. It
+# installs the Debian packages in FOLDER, runs the README's first program in Python, builds programs
+# in C, and removes the packages.
 set -eu
 folder=$(cd "$1" && pwd)
 project=$PWD

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs on every system for which packages are built: every integrator against stored results, a
- * redundant mechanism, a study with two threads whose files have names beyond ASCII, and messages
- * in a locale with a decimal comma.
+/* This program runs on every system for which packages are built. It compares every integrator with
+ * stored results. It also tests a mechanism with redundant rows, a study with two threads whose
+ * files have names beyond ASCII, and messages in a locale with a decimal comma.
  *
- * usage: portable FOLDER
- * Prints results with all digits, for comparison between systems. */
+ * usage: portable FOLDER Prints results with all digits, for comparison between systems. */
 #include <locale.h>
 #include <math.h>
 #include <stdbool.h>
@@ -14,7 +13,7 @@
 #include <baum/baum.h>
 #include <baum/catalog.h>
 
-static const double END = 0.05; /* [s], 1.2 revolutions of the crank */
+static const double END = 0.05; /* [s] 1.2 revolutions of the crank */
 
 static int failures;
 
@@ -26,8 +25,9 @@ static void check(bool holds, const char *what, const char *message)
   }
 }
 
-/* x of the slider at END on Linux x86-64. Other systems and compilers agree to rounding; CVODE and
- * IDA to their tolerance, because their steps depend on the last digits. */
+/* The position x of the slider at END, on Linux x86-64. Other systems and compilers must agree to
+ * rounding. CVODE and IDA must agree to their tolerance, because their steps depend on the last
+ * digits. */
 static const struct stored {
   const char *integrator;
   double x;         /* [m] */
@@ -53,7 +53,7 @@ static baum_mechanism *build(const char *name)
   return mechanism;
 }
 
-/* Returns coordinate k at the time t, or NaN. */
+/* Returns coordinate k at time t. If the run fails, returns NaN. */
 static double advance(const char *name, const baum_integrator *integrator, double t, int k)
 {
   baum_mechanism *mechanism = build(name);
@@ -105,11 +105,11 @@ static void path_in(char *path, size_t size, const char *folder, const char *nam
   (void)snprintf(path, size, "%s/%s", folder, name);
 }
 
-/* Writes a report and checks that the file has its title. */
+/* Writes a report, and checks that the file contains its title. */
 static void write_report(const baum_study *study, const char *path, const char *title)
 {
   check(baum_study_write(study, BAUM_REPORT_TEXT, title, path) == BAUM_OK, path, baum_message());
-#ifndef _WIN32 /* whose fopen() takes no UTF-8 */
+#ifndef _WIN32 /* fopen() on Windows does not accept UTF-8 */
   char text[64] = "";
   FILE *file = fopen(path, "r");
   size_t size = file ? fread(text, 1, sizeof text - 1, file) : 0;

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions of fresh.sh and wheels.sh, which source this file: a bare Debian in a folder, made and used as root.
+# Functions that make a bare Debian in a folder and use it as root. The scripts fresh.sh and
+# wheels.sh source this file.
 
-# Mounts and processes are in separate namespaces and end with these.
+# Mounts and processes are in separate namespaces. They end together with the command.
 apart="unshare --mount --pid --fork --kill-child"
 
-# make_root ROOT RELEASE [OPTION OF debootstrap...]: with the mirror, proxy and certificates that apt and pip use here.
+# make_root ROOT RELEASE [OPTION OF debootstrap...] makes the bare system. It uses the mirror, proxy
+# and certificates that apt and pip use on this machine.
 make_root() {
   root=$1
   release=$2
@@ -18,7 +20,8 @@ make_root() {
     return 1
   }
   apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90here" || true
-  # If the package ca-certificates is installed later, it also adds this folder's certificates to the bundle.
+  # If the package ca-certificates is installed later, it adds the certificates in this folder to
+  # the bundle.
   mkdir -p "$root/usr/local/share/ca-certificates"
   cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates" 2>/dev/null || true
   for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt "${PIP_CERT:-}"; do
@@ -26,7 +29,8 @@ make_root() {
   done
 }
 
-# inside ROOT FOLDER COMMAND...: run it in the bare system, with only those environment variables that locate the packages.
+# inside ROOT FOLDER COMMAND... runs a command in the bare system. It has only those environment
+# variables that say where packages are.
 inside() {
   root=$1
   folder=$2

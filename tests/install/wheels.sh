@@ -1,9 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: wheels.sh PROJECT
-# As root: builds the packages for all systems and runs them: on Linux in bare Debians that have Python and nothing
-# else, for aarch64 in an emulator, for Windows in Wine, WebAssembly in Node. What is for macOS is only built.
-# BAUM_TARGETS names some of the targets of build_wheels.py; linux-x86_64 is always among them.
+# Must be run as root. Builds the Python packages for all systems and runs them. The packages for
+# Linux run in a bare Debian that has only Python; for aarch64 this Debian runs in an emulator. The
+# packages for Windows run in Wine, and the packages for WebAssembly run in Node. The packages for
+# macOS are built, but not run.
+# BAUM_TARGETS names some of the targets of build_wheels.py. The target linux-x86_64 is always
+# built.
 set -eu
 cd "$1"
 project=$PWD
@@ -16,12 +19,12 @@ fail() {
   exit 1
 }
 
-# The package of a target.
+# package TARGET prints the path of a target's package.
 package() {
   find "$work/out" -name "baum-*$1*" | head -n 1
 }
 
-# unpack TARGET FILE: what the package contains, in test/ of the target's folder.
+# unpack TARGET FILE unpacks a package into the folder test/ of the target.
 unpack() {
   test=$work/$1/test
   rm -rf "$test"
@@ -36,7 +39,7 @@ unpack() {
   ! grep -rF "$project" "$test" || fail "$2 contains the path of the build"
 }
 
-# compile TARGET SUFFIX LINK...: examples/first.c and portable.c.
+# compile TARGET SUFFIX LINK... compiles examples/first.c and portable.c.
 compile() {
   compiler=$work/$1/bin/cc
   suffix=$2
@@ -47,8 +50,9 @@ compile() {
   done
 }
 
-# compare TARGET: the largest differences to Linux x86-64, of CVODE and IDA apart. Wide vectors change the last digits
-# there, unless the library does not find them.
+# compare TARGET prints the largest differences from the results on Linux x86-64. The differences in
+# runs with CVODE and IDA are listed separately. In these runs the last digits differ on a processor
+# with wide vectors, unless the library does not detect the vectors.
 compare() {
   case $1 in
     *aarch64 | wasm*)
@@ -67,7 +71,7 @@ compare() {
     "$work/linux-x86_64/test/portable.txt" "$test/portable.txt"
 }
 
-# run TARGET COMMAND... : run first.c and portable.c; in the command, @ stands for the program.
+# run TARGET COMMAND... runs first.c and portable.c. In the command, @ is replaced by the program.
 run() {
   target=$1
   shift
@@ -81,7 +85,8 @@ run() {
   compare "$target"
 }
 
-# needs LIBRARY PATTERN: it needs no other shared libraries.
+# needs LIBRARY PATTERN checks that a library needs no other shared libraries than those that match
+# the pattern.
 needs() {
   if readelf -d "$1" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' | grep -vE "$2"; then
     fail "$1 needs these"
@@ -102,7 +107,7 @@ test_linux() {
   done
 }
 
-# The first program in Python of the README.
+# Prints the first Python program of the README.
 readme_program() {
   awk '/^```python/ { inside = 1; next } /^```/ && inside { exit } inside' "$project/bindings/python/README.md"
 }
@@ -182,7 +187,8 @@ test_windows() {
   test_windows_layout
 }
 
-# The structs of the Python package have the layout of Windows: test_abi.py with a compiler whose programs Wine runs.
+# Checks that the structs in the Python package have the layout of Windows. test_abi.py is run with
+# a compiler whose programs are run by Wine.
 test_windows_layout() {
   cat >"$test/cc" <<END
 #!/bin/sh

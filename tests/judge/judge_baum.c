@@ -56,7 +56,7 @@ static baum_status add_driver(builder *b, int k, const judge_joint *j)
   return baum_mechanism_add_driver(b->m, &def, &b->joints[k]);
 }
 
-/* Sets the fields that all joint definitions share. */
+/* Sets the fields that the definitions of all joints share. */
 #define PLACE(def)                                      \
   (def).body_a = body_of(b, j->a);                      \
   (def).body_b = body_of(b, j->b);                      \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Builds a judge_scene as a mechanism of the library. */
+/* Builds the mechanism of a judge_scene with the library. */
 #ifndef BAUM_JUDGE_BAUM_H
 #define BAUM_JUDGE_BAUM_H
 
@@ -7,8 +7,8 @@
 
 #include "judge_scene.h"
 
-/** Builds and freezes the mechanism; returns NULL on failure. Driver laws point into the scene, so
- *  it must outlive the mechanism. */
+/** Builds and freezes the mechanism. Returns NULL if this fails. The laws of its drivers keep
+ * pointers into the scene, so the scene must not be destroyed before the mechanism. */
 baum_mechanism *judge_build(const judge_scene *s);
 
 #endif

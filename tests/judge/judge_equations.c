@@ -7,7 +7,7 @@
 /* ---- points ---- */
 
 typedef struct marker {
-  int first; /* first column of the point's body; -1: ground */
+  int first; /* first column of the body on which the point is; -1 for ground */
   bool turns;
   double w;
   double angle;
@@ -57,7 +57,7 @@ static double cross(const double a[2], const double b[2])
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/* Adds `sign` times the derivative of direction . p' with respect to the velocities to the row. */
+/* Adds `sign` times the derivative of direction . p' with respect to the velocities to a row. */
 static void add_point(double *row, const marker *m, const double direction[2], double sign)
 {
   if (m->first >= 0) {
@@ -81,7 +81,7 @@ typedef struct gap {
   marker b;
   double d[2];
   double dd[2];
-  double bias[2]; /* d'' if all accelerations are 0 */
+  double bias[2]; /* the value of d'' if all accelerations are 0 */
 } gap;
 
 static gap measure_gap(const judge_scene *s, const judge_joint *j, const double *q, const double *v)
@@ -108,7 +108,8 @@ static void fill_pin(const gap *g, int row, judge_rows *out)
   }
 }
 
-/* Row u . d for the gap d between two points, with the unit vector u fixed in body a. */
+/* Sets the row of u . d. Here d is the gap between two points, and u is a unit vector fixed in body
+ * a. */
 static void fill_along(const gap *g, const double axis[2], int row, judge_rows *out)
 {
   double u[2];
@@ -241,7 +242,7 @@ double judge_kinetic(const judge_scene *s, const double *v)
 
 /* ---- factors ---- */
 
-/* Reflection x -= 2 h (h . x) for the unit vector h, whose entries before `from` are 0. */
+/* Reflects x by x -= 2 h (h . x). h is a unit vector, and its entries before `from` are 0. */
 static void reflect(const double *h, int from, int n, double *x)
 {
   double sum = 0.0;
@@ -360,7 +361,7 @@ bool judge_project(const judge_scene *s, double t, bool weighted, double *q, dou
     for (int i = 0; i < s->n; i++) {
       q[i] += step[i];
     }
-    if (size < 1e-9) { /* quadratic convergence: the next step would be below rounding */
+    if (size < 1e-9) { /* convergence is quadratic, so the next step would be below rounding */
       judge_evaluate_rows(s, t, q, v, &rows);
       bool fine = judge_factor(s, &rows, weighted, &f);
       if (fine) {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equations of motion of a judge_scene for bench_doubts. They use no code of the library:
+/* The equations of motion of a judge_scene, for bench_doubts. They use no code of the library:
  *
  *   M a + J^T lambda = g,  J a = gamma
  *
- * M is constant and diagonal. With J~ = J M^-1/2 and the Householder factors J~^T = Q (R; 0),
+ * M is constant and diagonal. With J~ = J M^-1/2 and the Householder factorization J~^T = Q (R; 0),
+ * the solution is
  *
  *   a = M^-1/2 Q (R^-T gamma; Q2^T M^-1/2 g),
  *
- * which, unlike J~ J~^T, does not square the condition number of J~.
+ * Unlike a solution with J~ J~^T, this one does not square the condition number of J~.
  */
 #ifndef BAUM_JUDGE_EQUATIONS_H
 #define BAUM_JUDGE_EQUATIONS_H
@@ -24,9 +25,9 @@ typedef struct judge_rows {
 typedef struct judge_factors {
   int n;
   int m;
-  double columns[JUDGE_ROWS][JUDGE_N]; /* Householder vectors of J~^T */
+  double columns[JUDGE_ROWS][JUDGE_N]; /* the Householder vectors of J~^T */
   double r[JUDGE_ROWS][JUDGE_ROWS];
-  double root[JUDGE_N]; /* M^1/2, or ones */
+  double root[JUDGE_N]; /* M^1/2, or ones if not weighted */
 } judge_factors;
 
 void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const double *v,
@@ -34,21 +35,23 @@ void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const 
 void judge_forces(const judge_scene *s, const double *q, const double *v, double *g);
 double judge_mass(const judge_scene *s, int column);
 
-/** Factors J~, or J if not weighted. Returns false if the rows are dependent within rounding. */
+/** Factors J~ if `weighted` is set, and otherwise J. Returns false if the rows are dependent up to
+ * rounding. */
 bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
 
-/** Replaces x by the nearest vector with J x = rhs, in the metric M, or in the Euclidean metric if
- *  the factors are not weighted. */
+/** Replaces x by the nearest vector for which J x = rhs. The distance is measured in the metric M,
+ * or in the Euclidean metric if the factors are not weighted. */
 void judge_nearest(const judge_factors *f, const double *rhs, double *x);
 
-/** Writes column k < n - m of an orthonormal basis of the null space of J; needs unweighted
- *  factors. */
+/** Writes column k < n - m of an orthonormal basis of the null space of J. The factors must not be
+ * weighted. */
 void judge_null_vector(const judge_factors *f, int k, double *out);
 
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/** Replaces q and v by the nearest ones on the constraints, in the metric of judge_nearest(). */
+/** Replaces q and v by the nearest ones on the constraints. The metric is the same as in
+ * judge_nearest(). */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 
 double judge_kinetic(const judge_scene *s, const double *v);

@@ -11,7 +11,7 @@ static const double NUDGE = 1e-6;
 
 typedef struct run {
   const judge_scene *s;
-  int columns; /* of the extrapolation table */
+  int columns; /* number of columns of the extrapolation table */
   double tolerance;
   double h;
   int steps;
@@ -20,7 +20,8 @@ typedef struct run {
 
 /* ---- a step ---- */
 
-/* y contains q from index 0 and v from index JUDGE_N. */
+/* Computes the derivative of y. The positions q begin at index 0 of y, and the velocities v at
+ * index JUDGE_N. */
 static bool slope(const judge_scene *s, double t, const double *y, double *dy)
 {
   memcpy(dy, y + JUDGE_N, (size_t)s->n * sizeof *dy);
@@ -36,7 +37,8 @@ static void add_scaled(const judge_scene *s, const double *y, double h, const do
   }
 }
 
-/* Gragg's modified midpoint rule with `parts` substeps and smoothing at the end. */
+/* Takes a step by Gragg's modified midpoint rule, with `parts` substeps and smoothing at the
+ * end. */
 static bool midpoint(const judge_scene *s, double t, const double *y, const double *dy, double h,
                      int parts, double *out)
 {
@@ -77,12 +79,12 @@ static double scale_error(const run *r, const double *error, const double *y)
   }
   for (int i = 0; i < r->s->n; i++) {
     double one = fmax(fabs(error[i]), fabs(error[JUDGE_N + i]) / speed);
-    most = one <= most ? most : one; /* NaN stays */
+    most = one <= most ? most : one; /* this keeps NaN */
   }
   return most / r->tolerance;
 }
 
-/* Extrapolates by the Aitken-Neville scheme, which overwrites each row of the table by the next.
+/* Extrapolates by the Aitken-Neville scheme. It overwrites each row of the table by the next one.
  * Returns the error divided by the tolerance. */
 static double extrapolate(const run *r, double t, const double *y, const double *dy, double h,
                           double *out)
@@ -118,7 +120,7 @@ static void pack(const judge_state *from, double *y)
   memcpy(y + JUDGE_N, from->v, sizeof from->v);
 }
 
-/* Returns the factor for the next step size, from the error divided by the tolerance. */
+/* Returns by which factor to change the step. `error` is the error divided by the tolerance. */
 static double rescale(const run *r, double error)
 {
   double factor = 0.85 * pow(fmax(error, 1e-30), -1.0 / (2 * r->columns - 1));
@@ -210,8 +212,8 @@ static double along(const judge_scene *s, const double *direction, const double 
   return sum;
 }
 
-/* Computes by differences the matrix that maps small changes of positions and velocities at sample
- * k to those at sample k + 1. */
+/* Computes a matrix by differences. It maps small changes of positions and velocities at sample k
+ * to the changes that they cause at sample k + 1. */
 static bool differentiate(const judge_scene *s, const judge_reference *ref, int k, double h,
                           matrix *out)
 {
@@ -259,7 +261,8 @@ static void multiply(const matrix *a, const matrix *b, matrix *out)
   }
 }
 
-/* Computes the largest singular value of the first `rows` rows by power iteration with A^T A. */
+/* Computes the largest singular value of the first `rows` rows. It is found by power iteration with
+ * A^T A. */
 static double largest_singular_value(const matrix *a, int rows)
 {
   double x[FREE];
@@ -282,7 +285,7 @@ static double largest_singular_value(const matrix *a, int rows)
       }
       square += z[j] * z[j];
     }
-    size = sqrt(sqrt(square)); /* x has length 1 from the second pass on */
+    size = sqrt(sqrt(square)); /* from the second iteration on, x has length 1 */
     for (int j = 0; j < a->columns; j++) {
       x[j] = square > 0.0 ? z[j] / sqrt(square) : 0.0;
     }
@@ -290,12 +293,13 @@ static double largest_singular_value(const matrix *a, int rows)
   return size;
 }
 
-/* Computes the growth of perturbations from every sample to every later one. */
+/* Computes how much perturbations grow from every sample to every later sample. */
 static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;
   matrix product;
-  matrix from[JUDGE_SEGMENTS]; /* maps changes at each earlier sample to the present one */
+  /* Each maps changes at an earlier sample to changes at the present one. */
+  matrix from[JUDGE_SEGMENTS];
   ref->growth = 1.0;
   ref->growth_end = 1.0;
   ref->growth_q = 1.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference motion of a judge_scene, and how it amplifies perturbations. The method is
- * extrapolation of the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966) with the
+/* The reference motion of a judge_scene, and how much it amplifies perturbations. The method is
+ * extrapolation of the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966). It uses the
  * accelerations of judge_equations, and a projection after each step. */
 #ifndef BAUM_JUDGE_REFERENCE_H
 #define BAUM_JUDGE_REFERENCE_H
@@ -17,22 +17,24 @@ typedef struct judge_state {
 typedef struct judge_reference {
   double t[JUDGE_SEGMENTS + 1];
   judge_state at[JUDGE_SEGMENTS + 1];
-  double agreement;   /* largest difference of two runs, of orders 14 and 12, at 1e-12 and 1e-10 */
-  double rate;        /* [1/s] mean over the samples of |v|, with v in m/s and rad/s */
-  double kinetic;     /* [J] largest kinetic energy of the samples */
-  double growth;      /* largest factor of perturbations between any two samples */
-  double growth_end;  /* from any sample to the last */
-  double growth_q;    /* as growth, but only positions count at the later sample */
-  const char *failed; /* why there is no reference, or NULL */
+  /* Largest difference between two runs, which have the orders 14 and 12 and the tolerances 1e-12
+   * and 1e-10. */
+  double agreement;
+  double rate;        /* [1/s] mean of |v| over the samples, with v in m/s and rad/s */
+  double kinetic;     /* [J] largest kinetic energy at a sample */
+  double growth;      /* largest factor by which perturbations grow between any two samples */
+  double growth_end;  /* the same from any sample to the last one */
+  double growth_q;    /* like growth, but only positions count at the later sample */
+  const char *failed; /* why there is no reference, or NULL if there is one */
 } judge_reference;
 
-/** Integrates twice from (q, v) at t = 0 to the end of the scene. (q, v) must fulfil the
- *  constraints to rounding. Errors of positions are relative to `length`. Returns true if both runs
- *  agree to 1e-6. */
+/** Integrates twice from (q, v) at t = 0 to the end of the scene. (q, v) must satisfy the
+ * constraints to rounding. Errors of positions are relative to `length`. Returns true if both runs
+ * agree to 1e-6. */
 bool judge_find_reference(const judge_scene *s, const double *q, const double *v, double length,
                           judge_reference *out);
 
-/** Returns whether a column is an angle. */
+/** Returns whether a column of q is an angle. */
 bool judge_is_angle(const judge_scene *s, int column);
 
 #endif

@@ -25,7 +25,8 @@ static bool read_start(judge_case *c)
   return true;
 }
 
-/* Tests that library and reference have the same mechanism: compares accelerations at the start. */
+/* Checks that the library and the reference have the same mechanism. Their accelerations at the
+ * start must agree. */
 static bool accelerations_agree(judge_case *c)
 {
   const judge_scene *s = &c->scene;
@@ -94,7 +95,7 @@ static void compare(const judge_case *c, const double *rows, judge_outcome *out)
     for (int i = 0; i < s->n; i++) {
       double unit = judge_is_angle(s, i) ? 1.0 : c->length;
       double one = fabs(rows[(k - 1) * s->n + i] - truth[i]) / unit;
-      out->error_end = one <= out->error_end ? out->error_end : one; /* NaN stays */
+      out->error_end = one <= out->error_end ? out->error_end : one; /* this keeps NaN */
     }
     out->error = out->error_end <= out->error ? out->error : out->error_end;
   }

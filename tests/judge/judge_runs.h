@@ -11,12 +11,12 @@ typedef struct judge_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  double step; /* [s] fixed step; 0: chosen by rtol */
-  double rtol; /* [-] 0: fixed step */
+  double step; /* [s] fixed step, or 0 if rtol determines the steps */
+  double rtol; /* [-] 0 for a fixed step */
 } judge_setting;
 
 typedef enum judge_class {
-  JUDGE_UNUSED, /* the library does not support the setting, or it was not run */
+  JUDGE_UNUSED, /* the library does not support the setting, or the setting was not run */
   JUDGE_STOPPED,
   JUDGE_RIGHT,
   JUDGE_GREY,
@@ -29,8 +29,8 @@ enum { JUDGE_CODES = 8, JUDGE_SAMPLES = JUDGE_SEGMENTS / 2 };
 typedef struct judge_outcome {
   judge_class class;
   baum_status status;
-  double error;     /* [-] largest of positions over the samples: lengths / length, angles / rad */
-  double error_end; /* [-] at the last sample */
+  double error;     /* [-] largest error of positions at a sample: lengths / length, angles / rad */
+  double error_end; /* [-] the same at the last sample */
   bool doubted;
   int codes[JUDGE_CODES];
   int code_count;
@@ -42,14 +42,15 @@ typedef struct judge_case {
   judge_reference reference;
   baum_mechanism *m;
   double length;
-  const char *failed; /* why there is no reference, or NULL */
+  const char *failed; /* why there is no reference, or NULL if there is one */
 } judge_case;
 
-/** Draws a scene and finds its reference. The caller calls judge_close(), also after a failure. */
+/** Generates the scene of a seed, and finds its reference. The caller must call judge_close(), even
+ * after a failure. */
 bool judge_open(judge_case *c, uint64_t seed);
 void judge_close(judge_case *c);
 
-/** Runs a setting and compares it with the samples of the reference. */
+/** Makes a run with a setting, and compares it with the samples of the reference. */
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generates scenes. It places links first and then joints where links meet, so that the design
- * configuration fulfils the constraints. Velocities are random and then projected onto the
- * constraints. Lengths are about 1 m. */
+/* Generates scenes at random. Links are placed first. Then joints are placed where links meet, so
+ * that the design configuration satisfies the constraints. Velocities are random and then projected
+ * onto the constraints. Lengths are about 1 m. */
 #include "judge_scene.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@ static const double PI = 3.14159265358979323846;
 typedef struct pen {
   judge_scene *s;
   judge_dice dice;
-  double spread;  /* log10 of the largest mass ratio */
-  bool frictions; /* dampers */
+  double spread;  /* log10 of the largest ratio of two masses */
+  bool frictions; /* whether there are dampers */
 } pen;
 
 /* ---- random numbers ---- */
@@ -81,7 +81,7 @@ static void local_of(const judge_scene *s, int body, const double world[2], doub
   out[1] = -sin(angle) * d[0] + cos(angle) * d[1];
 }
 
-/* Writes the point at `share` of the rod: -0.5 is its start, 0.5 its tip. */
+/* Writes a point of a rod. `share` is -0.5 at its start, and 0.5 at its tip. */
 static void point_on(const judge_scene *s, int body, double share, double out[2])
 {
   const judge_body *b = &s->bodies[body];
@@ -144,7 +144,8 @@ static double angle_of(const judge_scene *s, int body)
   return body == JUDGE_GROUND ? 0.0 : s->bodies[body].pose[2];
 }
 
-/* Adds a slot or a translational joint at a point; its axis on a has `angle` against the ground. */
+/* Adds a slot or a translational joint at a point. Its axis, on body a, is at `angle` to the
+ * ground. */
 static void add_slider(pen *p, judge_kind kind, int a, int b, const double at[2], double angle)
 {
   judge_joint *j = add_joint(p, kind, a, b);
@@ -191,7 +192,8 @@ static void from_polar(const double from[2], double radius, double angle, double
 
 /* ---- springs ---- */
 
-/* Returns the smaller mass or inertia of two bodies; the ground does not count. */
+/* Returns the smaller of the masses, or of the inertias, of two bodies. The ground is not
+ * counted. */
 static double lighter(const judge_scene *s, int a, int b, bool inertia)
 {
   double least = INFINITY;
@@ -251,7 +253,7 @@ static void add_attached(pen *p, int parent, const double at[2], const double to
   double angle = judge_between(d, 0.0, 2.0 * PI);
   bool particle = judge_chance(d, 0.25);
   double begin[2] = {at[0], at[1]};
-  if (particle) { /* it hangs on a rod or slides in a slot */
+  if (particle) { /* it hangs on a rod, or slides in a slot */
     bool slides = kind < 0.4 && !is_particle(p->s, parent);
     int body = add_particle(p, slides ? at : to);
     if (slides) {
@@ -303,7 +305,8 @@ static void grow_tree(pen *p, int count)
   }
 }
 
-/* Writes where rods of lengths ra from a and rb from b meet; false if they cannot. */
+/* Writes the point where a rod of length ra from a meets a rod of length rb from b. Returns false
+ * if they cannot meet. */
 static bool meet(const double a[2], double ra, const double b[2], double rb, double out[2])
 {
   double d[2] = {b[0] - a[0], b[1] - a[1]};
@@ -319,7 +322,8 @@ static bool meet(const double a[2], double ra, const double b[2], double rb, dou
   return true;
 }
 
-/* Adds a chain of rods through points, pinned to ground at its start, and at its end if closed. */
+/* Adds a chain of rods through points. Its start is pinned to ground, and also its end if `closed`
+ * is set. */
 static void add_chain(pen *p, double points[][2], int count, bool closed)
 {
   int before = JUDGE_GROUND;
@@ -341,7 +345,8 @@ static bool draw_four_bar(pen *p, bool near)
     link[k] = judge_between(d, 0.3, 1.3);
   }
   link[3] = judge_between(d, 0.4, 1.5);
-  if (near) { /* change point: longest + shortest link = nearly the sum of the others */
+  /* A change point: the longest plus the shortest link is almost the sum of the others. */
+  if (near) {
     double off = draw_decades(d, -3.0, -1.3) * (judge_chance(d, 0.5) ? 1.0 : -1.0);
     link[0] = judge_between(d, 0.25, 0.7);
     link[1] = judge_between(d, link[0], 1.3);
@@ -407,7 +412,7 @@ static bool draw_slider_crank(pen *p)
   return true;
 }
 
-/* Draws a tree and closes a loop by a distance joint or a slot between two of its bodies. */
+/* Generates a tree. A distance joint or a slot between two of its bodies then closes a loop. */
 static bool draw_loop(pen *p)
 {
   grow_tree(p, 2 + judge_below(&p->dice, 3));
@@ -427,9 +432,9 @@ static bool draw_loop(pen *p)
   return true;
 }
 
-/* Draws a light rod between a slot of ground and a bob. The bob moves almost freely until the rod
- * is perpendicular to the slot; then its velocity changes abruptly, as on a string that comes
- * taut. */
+/* Generates a light rod between a slot of ground and a bob. The bob moves almost freely until the
+ * rod is perpendicular to the slot. Then its velocity changes abruptly, like that of a bob on a
+ * string that becomes taut. */
 static void draw_taut(pen *p)
 {
   judge_dice *d = &p->dice;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random planar mechanisms as plain numbers, for bench_doubts. Both the library's mechanism and the
- * reference are built from these numbers. No code is shared with the other random mechanisms of the
- * tests. Conventions of coordinates, axes and rows are those of planar.h. */
+/* Random planar mechanisms for bench_doubts, described only by numbers. The library's mechanism and
+ * the reference are both built from these numbers. No code is shared with the other random
+ * mechanisms that tests use. The conventions for coordinates, axes and rows are those of
+ * planar.h. */
 #ifndef BAUM_JUDGE_SCENE_H
 #define BAUM_JUDGE_SCENE_H
 
@@ -15,7 +16,7 @@ typedef struct judge_body {
   bool particle;
   double mass;
   double inertia;
-  double length; /* [m] of the rod, along its x axis; 0: particle */
+  double length; /* [m] length of the rod, which is along its x axis; 0 for a particle */
   double pose[3];
   int first; /* index of its first coordinate */
 } judge_body;
@@ -25,8 +26,9 @@ typedef enum judge_kind {
   JUDGE_SLOT,
   JUDGE_TRANSLATIONAL,
   JUDGE_DISTANCE,
-  JUDGE_DRIVE_ANGLE, /* drives revolute joint `of`; bodies and points are that joint's */
-  JUDGE_DRIVE_SLIDE  /* the same for a pin in a slot */
+  /* Drives the revolute joint `of`, and has the bodies and points of this joint. */
+  JUDGE_DRIVE_ANGLE,
+  JUDGE_DRIVE_SLIDE /* drives a pin in a slot in the same way */
 } judge_kind;
 
 typedef struct judge_joint {
@@ -35,8 +37,8 @@ typedef struct judge_joint {
   int b;
   double point_a[2];
   double point_b[2];
-  double axis[2]; /* unit, in a's axes */
-  double kept;    /* [m or rad] length or angle that the joint keeps */
+  double axis[2]; /* unit vector in the axes of body a */
+  double kept;    /* [m or rad] the length or angle that the joint prescribes */
   int of;
   double law[5]; /* s = law[0] + law[1] t + law[2] sin(law[3] t + law[4]) */
 } judge_joint;
@@ -61,26 +63,26 @@ typedef struct judge_scene {
   int body_count;
   int joint_count;
   int spring_count;
-  int load_body; /* JUDGE_GROUND: none */
+  int load_body; /* JUDGE_GROUND if there is no load */
   double load[3];
   double gravity;
-  int n;    /* coordinates */
-  int rows; /* constraint rows */
+  int n;    /* number of coordinates */
+  int rows; /* number of constraint rows */
   bool conservative;
   bool driven;
   double mass_ratio;
   double q[JUDGE_N]; /* design configuration */
-  double v[JUDGE_N]; /* consistent with the constraints */
+  double v[JUDGE_N]; /* velocities that are consistent with the constraints */
   double end;        /* [s] */
 } judge_scene;
 
-/** Draws the scene of a seed. Returns false if no consistent start is found. */
+/** Generates the scene of a seed. Returns false if it finds no consistent start. */
 bool judge_scene_draw(judge_scene *s, uint64_t seed);
 
-/** Evaluates the law of a driver: value, rate and acceleration. */
+/** Evaluates the law of a driver. s receives its value, rate and acceleration. */
 void judge_law(const judge_joint *joint, double t, double s[3]);
 
-/* Random number generator xorshift64*. */
+/* A random number generator, xorshift64*. */
 typedef struct judge_dice {
   uint64_t state;
 } judge_dice;

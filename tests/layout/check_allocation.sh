@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_allocation.sh SOURCE
-# Every public function is tested in exactly one of two files: functions that allocate, whose allocations are made to
-# fail one after the other, or functions that allocate nothing. The functions of elements are in both files, through
-# the table in tests/support/every_element_kinds.c.
+# Checks that every public function is tested in exactly one of two files. One file is for functions
+# that allocate memory; it makes their allocations fail one after the other. The other file is for
+# functions that allocate nothing. The functions of elements are in both files, through the table in
+# tests/support/every_element_kinds.c.
 set -eu
 cd "$1"
 with=tests/api/test_calls_losing_memory.c
@@ -20,7 +21,7 @@ listed=$({
   sed -n 's/^ *X(\(baum_[a-z_0-9]*\),.*/\1/p' "$without"
   echo "$by_table"
 } | sort)
-# Joins declarations of several lines.
+# Joins declarations that extend over several lines.
 functions=$(cat include/baum/*.h | awk '
   /^BAUM_(CATALOG_)?API/ { text = ""; inside = 1 }
   inside { text = text " " $0 }
@@ -28,7 +29,7 @@ functions=$(cat include/baum/*.h | awk '
 [ -n "$functions" ] || { echo "no public functions read"; exit 1; }
 
 failures=0
-# complain WHY NAMES
+# complain WHY NAMES prints the names, unless there are none.
 complain() {
   [ -z "$2" ] && return
   printf '%s:\n%s\n' "$1" "$2"

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_euler_only.sh PROGRAM
-# A static program that calls only baum_euler() contains and loads nothing of SUNDIALS.
+# Checks a static program that calls only baum_euler(). It must neither contain nor load anything of
+# SUNDIALS.
 set -eu
 program=$1
 

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_libraries.sh SHARED STATIC
-# The shared library loads only SUNDIALS, KLU, COLAMD, the C library, and MPI where SUNDIALS uses it (Debian 13). Neither library calls anything under the GPL,
-# or BLAS, LAPACK or Fortran.
+# Checks what the shared library loads. This may only be SUNDIALS, KLU, COLAMD, the C library, and
+# MPI where SUNDIALS uses it (Debian 13). Neither library may call anything under the GPL, or BLAS,
+# LAPACK or Fortran.
 set -eu
 shared=$1
 static=$2

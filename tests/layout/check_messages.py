@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/messages.md lists every message and warning of the library, as the sources in src contain
-it.
+"""docs/messages.md lists every message and every warning of the library. They are found in the
+sources in src.
 
 usage: check_messages.py --check|--write PROJECT
        check_messages.py --untriggered COVERAGE_JSON PROJECT
 
-The first form compares the page with the sources; --write writes it. It also fails for messages of
-more than three clauses. The second form reads the lines that the tests executed (gcovr --json,
-stage coverage) and lists the messages that no test triggered. A message that shares its line with a
-condition counts as triggered only if both outcomes of the line occurred.
+With --check, the program compares the page with the sources. With --write, it writes the page. In
+both cases it fails if a message has more than three clauses. With --untriggered, the program reads
+which lines the tests executed (gcovr --json, stage coverage). It lists the messages that no test
+has triggered. If a message is in the same line as a condition, it counts as triggered only if both
+outcomes of the condition occurred.
 """
 
 import json
@@ -16,7 +17,8 @@ import re
 import sys
 from pathlib import Path
 
-# Functions that set a message: the positions of two arguments, status or code and format.
+# The functions that set a message. For each, the positions of two arguments: the status or code,
+# and the format.
 SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
 MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
@@ -35,7 +37,8 @@ def without_comments(text):
 
 
 def arguments_at(text, opening):
-    """The arguments of the call whose parenthesis opens at this position, and its end."""
+    """Return the arguments of a call and its end. The call's parenthesis opens at the position
+    `opening`."""
     depth, start, found, k = 0, opening + 1, [], opening
     while k < len(text):
         quote = re.compile(r'"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)*\'').match(text, k)
@@ -53,7 +56,7 @@ def arguments_at(text, opening):
 
 
 class Source:
-    """One file: its macros, tables of texts, functions and messages."""
+    """One source file, with its macros, tables of texts, functions and messages."""
 
     def __init__(self, path, name):
         self.name, self.text = name, without_comments(path.read_text(encoding="utf-8"))
@@ -65,8 +68,8 @@ class Source:
         self.functions = re.findall(r"(?m)^(?:static )?[\w ]+?[ *](\w+)\(([^;{}]*?)\)\n\{\n(.*?)^\}", self.text, flags=re.S)
 
     def literals(self, expression):
-        """The texts that an expression may have: one for each branch of its conditions, or each
-        entry of a table."""
+        """Return the texts that an expression may have. There is one for each branch of a
+        condition, and for each entry of a table."""
         for name, value in self.strings.items():
             expression = re.sub(rf"\b{name}\b", lambda _, v=value: v, expression)
         table = re.match(r"(\w+)\[", expression)
@@ -88,8 +91,8 @@ class Source:
         self.messages += [(code, text, first, self.text[:end].count("\n") + 1) for text in texts]
 
     def expanded(self, template, values):
-        """The variants of a template: each %s with known texts of several words is replaced by each
-        of them."""
+        """Return the variants of a template. Where texts of several words are known for a %s, it is
+        replaced by each of them."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
@@ -106,7 +109,8 @@ class Source:
     def read(self):
         for sink, (code, form) in self.sinks.items():
             for start, end, arguments in self.calls(sink):
-                if isinstance(code, str):  # a macro with its own status and beginning
+                # this is a macro that has its own status and the beginning of the message
+                if isinstance(code, str):
                     texts, status, values = self.literals(form + " " + arguments[0]), code, arguments[1:]
                 else:
                     texts, status, values = self.literals(arguments[form]), arguments[code], arguments[form + 1:]
@@ -119,8 +123,8 @@ class Source:
         return self.messages
 
     def wrapper_of(self, start, values):
-        """The function around a call that passes on texts of its caller, and the parameters that
-        are these texts."""
+        """Find the function that contains a call, if this function passes on texts of its caller.
+        Return the function and the parameters that are these texts."""
         for name, parameters, body in self.functions:
             at = self.text.find(body)
             if at <= start < at + len(body) and name not in SINKS:
@@ -144,7 +148,7 @@ def readable(text):
 
 
 def read(project):
-    """{folder: [(file, code, text, first line, last line)]}"""
+    """Return {folder: [(file, code, text, first line, last line)]}."""
     found = {}
     for path in sorted((project / "src").rglob("*.c")):
         name = str(path.relative_to(project / "src"))
@@ -168,7 +172,7 @@ def page(found):
 
 
 def executed(path):
-    """{file: {line: (count, whether all branches of the line were taken)}}"""
+    """Return {file: {line: (count, whether all branches of the line were taken)}}."""
     with open(path, encoding="utf-8") as file:
         files = json.load(file)["files"]
     return {f["file"]: {line["line_number"]: (line["count"], all(b["count"] for b in line["branches"])) for line in f["lines"]}

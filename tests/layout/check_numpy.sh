@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_numpy.sh PROJECT CMAKE CTEST GENERATOR
-# If Python has no NumPy, the build omits the tests that need it and explains how to enable them.
+# Checks a build with a Python that has no NumPy. It must omit the tests that need NumPy, and
+# explain how to enable them.
 set -eu
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-printf '#!/bin/sh\nexec python3 -I -S "$@"\n' >"$scratch/python3" # without site-packages
+# a Python that does not see installed packages
+printf '#!/bin/sh\nexec python3 -I -S "$@"\n' >"$scratch/python3"
 chmod +x "$scratch/python3"
 "$2" -S "$1" -B "$scratch/build" -G "$4" -DPython3_EXECUTABLE="$scratch/python3" -DBAUM_EXAMPLES=OFF >"$scratch/log" 2>&1 ||
   { cat "$scratch/log"; exit 1; }

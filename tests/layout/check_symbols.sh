@@ -1,16 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_symbols.sh SHARED STATIC HEADERS
-# Symbols of the libraries have our prefix, and exported ones are declared in a public header. The
-# libraries call no function that prints, opens files or ends the process; only base/alloc
-# allocates memory; and threads share no data that can change.
+# Checks the symbols of the libraries. They must have our prefix, and exported symbols must be
+# declared in a public header. The libraries must not call functions that print, open files or end
+# the process. Only base/alloc may allocate memory. Threads must not share data that can change.
 set -eu
 shared=$1
 static=$2
 headers=$3
 failures=0
 
-# complain WHY NAMES
+# complain WHY NAMES prints the names, unless there are none.
 complain() {
   [ -z "$2" ] && return
   printf '%s:\n%s\n' "$1" "$2"
@@ -19,11 +19,11 @@ complain() {
 
 exported=$(nm -D --defined-only "$shared" | awk '{ print $NF }')
 global=$(nm -g --defined-only "$static" | awk 'NF >= 3 { print $NF }')
-# One line per call out of the library: object symbol.
+# Each line is a call to a function outside of the library, in the form: object symbol.
 called=$(nm -g --undefined-only "$static" | awk '
   /:$/ { object = $1; sub(/:$/, "", object); next }
   NF == 2 { print object, $2 }')
-# Symbols that compilers add for coverage and sanitizers.
+# These symbols are added by compilers for coverage and for sanitizers.
 added='^(__asan|__ubsan|__tsan|__gcov|__llvm|_GLOBAL_)'
 
 [ -n "$exported" ] && [ -n "$global" ] || { echo "nm read nothing"; exit 1; }
@@ -38,7 +38,8 @@ complain "in the static library without the prefix baum_" \
   "$(echo "$global" | grep -Ev "^baum_|$added" || true)"
 
 quiet=' (printf|__printf_chk|fprintf|__fprintf_chk|vprintf|vfprintf|puts|putchar|fputs|fputc|fwrite|perror|fopen|freopen|open|system|exit|_exit|_Exit|quick_exit|abort|signal|sigaction)$'
-# The library opens only the files and reports of studies, and the file with the processor's name.
+# The library may open only three kinds of files: study files, reports, and the file that contains
+# the processor's name.
 complain "prints, opens a file, or ends the process" "$(echo "$called" | grep -E "$quiet" |
   grep -Ev '^(study_file|file)\.c\.o (fputs|fwrite)$|^platform\.c\.o f?open$|^report_environment\.c\.o fopen$' || true)"
 complain "allocates outside base/alloc" "$(echo "$called" |

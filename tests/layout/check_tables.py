@@ -3,11 +3,11 @@
 
 usage: check_tables.py [--write] PROJECT FORMULATIONS BENCH_FORMULATIONS
 
-Compares docs/measured.md (examples/formulations) and docs/theory/formulations.md
-(tests/bench/bench_formulations), except for times: counts within 5 %, other numbers within a factor
-of 3, because the rounding of a processor decides about single steps. Numbers below 1e-12 are
-rounding errors and not compared. --write copies what is printed into the documents, except for
-times.
+The program compares the tables in docs/measured.md (examples/formulations) and
+docs/theory/formulations.md (tests/bench/bench_formulations) with what these programs print. Times
+are not compared. Counts must agree within 5 %, and other numbers within a factor of 3, because the
+rounding of a processor may decide about single steps. Numbers below 1e-12 are rounding errors and
+are not compared. With --write, everything except times is copied into the documents.
 """
 
 import re
@@ -16,7 +16,7 @@ import sys
 
 COUNT, FACTOR, ROUNDING = 0.05, 3.0, 1e-12
 NUMBER = re.compile(r"(?<![\w.-])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
-WALL = 3  # column of docs/measured.md
+WALL = 3  # the column of docs/measured.md that contains times
 PROBLEMS = {"pendulum A01, 10 s": "pendulum, 10 s", "free slider-crank, 0.2 s: 5 turns": "free slider-crank, 0.2 s",
             "Grashof four-bar, 5 s": "four-bar, 5 s", "Andrews' mechanism, 7 bodies, 0.03 s": "Andrews, 0.03 s"}
 FORMS = "ida/index3", "ida/index2", "ida/ggl", "ida/baumgarte"
@@ -31,7 +31,7 @@ def with_short_exponents(text):
 
 
 def formulations(program, present):
-    """The rows of docs/measured.md, with the times of the present document."""
+    """Return the rows for docs/measured.md. The times in them are those of the present document."""
     printed = run(program)
     first = next(k for k, line in enumerate(printed) if line.startswith("integrator "))
     rows = printed[first + 1:printed.index("", first)]
@@ -43,7 +43,7 @@ def formulations(program, present):
 
 
 def bench(program, *methods):
-    """{(problem, method, k): cells} for the k-th tolerance or step."""
+    """Return {(problem, method, k): cells}, where k is the number of the tolerance or step."""
     found, rung = {}, {}
     for line in run(program, *methods)[2:]:
         problem, method, _, *cells = (cell.strip() for cell in line.strip("| ").split("|"))
@@ -62,8 +62,9 @@ def row(*cells):
 
 
 def tables(project, formulations_program, bench_program):
-    """(document, beginning of the table's first line, lines before its first row, function of the
-    rows there)"""
+    """Return a list of all tables. For each table it has the document, the text with which the
+    table's first line begins, and the number of lines before its first row. Then comes a function
+    that returns the rows."""
     ida, fixed = bench(bench_program), bench(bench_program, "generalized_alpha/index3", "rk4/projection")
 
     def cells(found, problem, method, rung, *which):
@@ -97,7 +98,7 @@ def agree(a, b):
 
 
 def same(old, new):
-    """Whether two cells are equal except for numbers, and these numbers agree."""
+    """Return whether two cells agree. Their texts must be equal, and their numbers must agree."""
     return (NUMBER.sub("#", old).split() == NUMBER.sub("#", new).split()
             and all(map(agree, NUMBER.findall(old), NUMBER.findall(new))))
 

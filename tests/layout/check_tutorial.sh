@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_tutorial.sh PROJECT PROGRAM...
-# README.md and docs/tutorial.md show compiled code: README.md contains examples/first.c; every ```c block consists of
-# consecutive lines of a file in examples/, every ```text block of consecutive lines that a PROGRAM prints.
+# Checks that README.md and docs/tutorial.md show code that is compiled. README.md must contain
+# examples/first.c. Every ```c block must consist of consecutive lines of a file in examples/. Every
+# ```text block must consist of consecutive lines that a PROGRAM prints.
 set -eu
 project=$1
 shift
@@ -16,14 +17,15 @@ fail() {
   failures=$((failures + 1))
 }
 
-# holds FILE BLOCK: whether FILE contains the lines of BLOCK one after the other.
+# holds FILE BLOCK tells whether FILE contains the lines of BLOCK, one after the other.
 holds() {
   awk -v RS='\001' 'NR == FNR { text = "\n" $0; next }
     { found = index(text, "\n" $0) > 0 }
     END { exit !found }' "$1" "$2"
 }
 
-# check DOCUMENT LANGUAGE FOLDER: a file of the folder contains every block of the language.
+# check DOCUMENT LANGUAGE FOLDER checks that some file in the folder contains every block of the
+# language.
 check() {
   blocks=$scratch/$(basename "$1").$2
   mkdir "$blocks"

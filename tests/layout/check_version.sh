@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_version.sh VERSION PROJECT
-# Build, header and Python package have the same version.
+# Checks that the build, the header and the Python package have the same version.
 set -eu
 version=$1
 cd "$2"

@@ -1,14 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_words.sh PROJECT
-# Terms of the field are used everywhere, and comments and docstrings keep to the
-# columns of the formatter.
+# Checks that the terms of the field are used everywhere, and that comments and docstrings are not
+# wider than the formatter's limit.
 set -eu
 cd "$1"
 columns=100
 failures=0
 
-# banned WORD INSTEAD: matches whole words only, so not parts of identifiers with underscores.
+# banned WORD INSTEAD reports a banned word. It finds only whole words, and not parts of identifiers
+# with underscores.
 banned() {
   found=$(grep -rnwEI --include='*.[ch]' --include='*.py' --include='*.md' --include='*.gp' -e "$1" \
     README.md docs include src bindings/python/baum examples tests --exclude-dir=corpus) || return 0

@@ -12,7 +12,7 @@
 const model_pendulum MODEL_PENDULUM_A01 = {.gravity = 9.81, .x = -1.0};
 const model_pendulum MODEL_PENDULUM_SUNDIALS = {.gravity = 13.750371636040745, .x = 1.0};
 
-#define QUARTER 1.5707963267948966 /* of a revolution */
+#define QUARTER 1.5707963267948966 /* [rad] a quarter of a revolution */
 
 /* ---- a mechanism and its parts ---- */
 
@@ -70,8 +70,8 @@ static baum_status from_catalog(const char *name, const baum_catalog_setting *se
   return status == BAUM_OK ? model_adopt(mechanism, out) : status;
 }
 
-/* Replaces the mechanism by one without user derivatives, which are then computed by
- * differences. */
+/* Replaces the mechanism by one without user derivatives. The library then computes these
+ * derivatives by differences. */
 static baum_status without_derivatives(baum_status status, model *m)
 {
   baum_mechanism *copy = NULL;

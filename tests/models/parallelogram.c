@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cranks of 1 m and 1 kg with feet at (0, 0), (2, 0) and (1, above), which carry a coupler of 2 m
- * and 2 kg.
+/* Cranks of 1 m and 1 kg carry a coupler of 2 m and 2 kg. Their feet are at (0, 0), (2, 0) and (1,
+ * above).
  *
- * Two cranks keep the coupler horizontal. A third crank of the same length needs only one of the
- * two rows of its pin; the other row is redundant. Alternatively, a massless rod of 1 m from the
- * tip of the third crank to the coupler's left end replaces the pin, and gives only the row that is
- * needed. With three cranks and `above` > 0 the mechanism has no singular configurations; with two
- * cranks it is singular where it is flat.
+ * Two cranks keep the coupler horizontal. A third crank of the same length therefore needs only one
+ * of the two rows of its pin, and the other row is redundant. Instead of the pin, there may be a
+ * massless rod of 1 m from the tip of the third crank to the left end of the coupler. It gives only
+ * the row that is needed. With three cranks and `above` > 0, the mechanism has no singular
+ * configurations. With two cranks, it is singular where it is flat.
  */
 #include "models.h"
 
 #include <math.h>
 
-static const double RATE = 2.0; /* [rad/s] default */
+static const double RATE = 2.0; /* [rad/s] the default value */
 
 static baum_planar_body_def rod(const char *name, double mass, double length)
 {
@@ -66,7 +66,7 @@ static void pin_tip(baum_i_parts *parts, baum_body_id crank, baum_body_id couple
                    (baum_i_spot){coupler, {along, above}});
 }
 
-/* Adds a second pin where the last crank's tip is pinned to the coupler. */
+/* Adds a second pin at the place where the tip of the last crank is pinned to the coupler. */
 static void double_pin(baum_i_parts *parts, const model_parallelogram_data *data,
                        baum_body_id crank, baum_body_id coupler)
 {

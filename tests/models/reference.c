@@ -8,7 +8,8 @@
 
 #include <baum/catalog.h>
 
-/* Returns row i of the reference; computes it in `row` if it comes from the catalogue. */
+/* Returns row i of the reference. If the reference comes from the catalogue, the row is computed in
+ * `row`. */
 static const double *find_row(const reference *with, int i, double *row)
 {
   if (with->q) {

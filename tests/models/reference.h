@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares runs with reference trajectories. The error is the largest over all samples, with
- * lengths relative to the characteristic length and angles in radians. */
+/* Compares runs with reference trajectories. The error is the largest one over all samples. Lengths
+ * are relative to the characteristic length, and angles are in radians. */
 #ifndef BAUM_TEST_REFERENCE_H
 #define BAUM_TEST_REFERENCE_H
 
@@ -14,38 +14,39 @@ typedef struct reference {
   int samples;
   int width;
   const double *t;     /* (samples) [s] */
-  const double *q;     /* (samples x width) NULL: from the catalogue */
-  const char *entry;   /* of the catalogue if q is NULL */
-  const char *lengths; /* (width) 'm' for a length, 'r' for an angle */
+  const double *q;     /* (samples x width) or NULL for a reference of the catalogue */
+  const char *entry;   /* name of the catalogue's entry, if q is NULL */
+  const char *lengths; /* (width) 'm' for each length, 'r' for each angle */
   void (*columns)(const double *q,
-                  double *out); /* (width) computes the columns from all coordinates; NULL: the
-                                 * coordinates themselves */
+                  /* (width) computes the columns from all coordinates; if it is NULL, the columns
+                   * are the coordinates. */
+                  double *out);
 } reference;
 
 /* The result of a run. */
 typedef struct reference_run {
-  baum_status status; /* > 0: warnings */
+  baum_status status; /* > 0 if there were warnings */
   double error;       /* NaN if the run failed */
   baum_counters counters;
   char message[256];
 } reference_run;
 
-/* Runs a mechanism through all samples and compares. */
+/* Runs a mechanism through all samples, and compares it with the reference. */
 reference_run reference_compare(const reference *with, const baum_mechanism *mechanism,
                                 const baum_simulation_options *options);
 
-/* Runs with tolerances 1e-4 to 1e-12. */
+/* Runs with tolerances from 1e-4 to 1e-12. */
 enum { REFERENCE_RUNGS = 9 };
 typedef struct reference_ladder {
   reference_run runs[REFERENCE_RUNGS]; /* rtol = 1e-(4 + k) */
 } reference_ladder;
 
 double reference_rtol(int rung);
-/* Runs with each rtol in place of options->rtol, and prints a table. */
+/* Makes a run with each rtol instead of options->rtol, and prints a table. */
 reference_ladder reference_climb(const reference *with, const baum_mechanism *mechanism,
                                  const baum_simulation_options *options);
-/* The largest rtol from which on all successful runs have at most the error `wanted`; NaN if there
- * is none. */
+/* Returns the largest rtol for which the following holds: with this and all smaller rtol, all
+ * successful runs have at most the error `wanted`. Returns NaN if there is none. */
 double reference_rtol_needed(const reference_ladder *ladder, double wanted);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shared by tests against reference trajectories. Include after cmocka.h. */
+/* Functions that tests with reference trajectories share. Include after cmocka.h. */
 #ifndef BAUM_TEST_REFERENCE_TEST_H
 #define BAUM_TEST_REFERENCE_TEST_H
 
@@ -9,7 +9,7 @@
 #include "check.h"
 #include "reference.h"
 
-/* Adams with BAUMGARTE and gains by the rule `auto`. */
+/* Returns options for Adams with BAUMGARTE and the gains of the rule `auto`. */
 static inline baum_simulation_options adams_options(void)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -18,7 +18,8 @@ static inline baum_simulation_options adams_options(void)
   return options;
 }
 
-/* IDA with GGL: constraints on positions and velocities are among its equations. */
+/* Returns options for IDA with GGL. Its equations contain the constraints on positions and on
+ * velocities. */
 static inline baum_simulation_options ggl_options(void)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -27,8 +28,8 @@ static inline baum_simulation_options ggl_options(void)
   return options;
 }
 
-/* Runs and prints a series of tolerances; fails unless the error reaches `wanted` at some rtol and
- * keeps it at all tighter ones. */
+/* Makes runs with a series of tolerances and prints them. Fails unless the error is at most
+ * `wanted` at some rtol and at all smaller ones. */
 static inline void assert_reached(const reference *with, const baum_mechanism *mechanism,
                                   const baum_simulation_options *options, double wanted)
 {
@@ -41,7 +42,7 @@ static inline void assert_reached(const reference *with, const baum_mechanism *m
   printf("error %.0e needs rtol %.0e\n", wanted, needed);
 }
 
-/* Checks the same values by RK4 with projection, which does not use SUNDIALS. */
+/* Checks the same reference by RK4 with projection, which does not use SUNDIALS. */
 static inline void assert_reached_by_rk4(const reference *with, const baum_mechanism *mechanism,
                                          double step, double wanted)
 {

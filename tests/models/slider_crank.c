@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Variants of the eccentric slider-crank of the catalogue. If the rod is as long as the crank and
- * there is no eccentricity, rod and crank coincide at a crank angle of pi / 2, and J loses rank. */
+ * there is no eccentricity, rod and crank coincide when the crank angle is pi / 2. There J loses
+ * rank. */
 #include "models.h"
 
 #include <math.h>
@@ -57,7 +58,7 @@ static void give_velocities(baum_i_parts *parts, const double *p, const crank_bo
   }
 }
 
-/* Puts the rod horizontally at the crank's tip, and the slider out of place. */
+/* Places the rod horizontally at the tip of the crank, and the slider at a wrong place. */
 static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodies *bodies)
 {
   double angle = p[BAUM_I_SLIDER_CRANK_ANGLE];
@@ -71,7 +72,8 @@ static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodie
   change_body(parts, bodies->id[2], slider, NULL);
 }
 
-/* Returns the last frame, with its centre of mass at the crank's pin; without frames, ground. */
+/* Adds frames. Returns the last one, whose centre of mass is at the pin of the crank. If there are
+ * no frames, returns ground. */
 static baum_body_id add_frames(baum_i_parts *parts, int count)
 {
   baum_body_id last = BAUM_GROUND;

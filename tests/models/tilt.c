@@ -7,9 +7,9 @@
 
 #include "base/rotation.h"
 
-/* Orientation of the tilted plane against the ground, a quaternion. */
-static const double TILT[4] = {0.7, -0.1, 0.5, 0.5}; /* of unit length */
-/* Principal moments of inertia, relative to the moment about the normal of the plane. */
+/* The orientation of the tilted plane relative to the ground, as a quaternion. */
+static const double TILT[4] = {0.7, -0.1, 0.5, 0.5}; /* its length is 1 */
+/* Principal moments of inertia, divided by the moment about the normal of the plane. */
 static const double SHAPE[3] = {0.6, 0.7, 1.0};
 
 static void tilt(const double *xy, double z, double out[3])
@@ -57,7 +57,8 @@ typedef struct twin {
   baum_body_id *bodies;  /* (count) */
   double *angles;        /* (count) [rad] */
   baum_joint_id *joints; /* (count) */
-  double *relative;      /* (count) [rad] angle of body b minus angle of body a of each joint */
+  /* (count) [rad] for each joint, the angle of body b minus the angle of body a. */
+  double *relative;
 } twin;
 
 static bool is_ground(baum_body_id id)
@@ -75,7 +76,8 @@ static double angle_of(const twin *t, baum_body_id id)
   return is_ground(id) ? 0.0 : t->angles[id.index1 - 1];
 }
 
-/* Converts a point or direction: to ground axes if it belongs to ground, else to body axes. */
+/* Converts a point or direction. If it belongs to ground, it is converted to ground axes, otherwise
+ * to body axes. */
 static void put(baum_body_id on, const double xy[2], double z, double out[3])
 {
   if (is_ground(on)) {
@@ -87,7 +89,7 @@ static void put(baum_body_id on, const double xy[2], double z, double out[3])
   }
 }
 
-/* Copies the fields that all definitions with two bodies begin with. */
+/* Copies the fields with which all definitions with two bodies begin. */
 #define PLACE(t, from, to)                                   \
   do {                                                       \
     (to).name = (from).name;                                 \
@@ -135,7 +137,7 @@ static baum_status add_body(twin *t, int k)
   return baum_mechanism_add_spatial_body(t->into, &to, &t->bodies[k]);
 }
 
-/* Each of these functions adds joint k if it is of the kind that the function's name says.
+/* Each of these functions adds joint k, if this joint is of the kind in the function's name.
  * Otherwise it calls the function above it, which tries another kind. */
 
 static baum_status add_driver(twin *t, int k)
@@ -145,7 +147,7 @@ static baum_status add_driver(twin *t, int k)
     baum_mechanism_get_driver(t->planar, baum_mechanism_joint_at(t->planar, k), &def, sizeof def);
   int of = def.joint.index1 - 1;
   def.joint = t->joints[of];
-  def.value -= t->relative[of]; /* spatial angles are 0 in the design configuration */
+  def.value -= t->relative[of]; /* because spatial angles are 0 in the design configuration */
   return status == BAUM_OK ? baum_mechanism_add_driver(t->into, &def, &t->joints[k]) : status;
 }
 

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Builds planar mechanisms of spatial elements, in a plane that is tilted against the ground axes.
- * Each closed loop then has three redundant rows. */
+/* Builds planar mechanisms from spatial elements, in a plane that is tilted relative to the ground
+ * axes. Each closed loop then has three redundant rows. */
 #ifndef BAUM_TEST_MODELS_TILT_H
 #define BAUM_TEST_MODELS_TILT_H
 
 #include "models.h"
 
-/* Adds spatial elements for the bodies, particles, pins, guides, rods, drivers, springs and loads
- * of a planar mechanism, with the same names in the same order, and its gravity. */
+/* Adds a spatial element for each body, particle, pin, guide, rod, driver, spring and load of a
+ * planar mechanism. They have the same names and the same order. Also sets the gravity. */
 baum_status model_tilt_into(const baum_mechanism *planar, baum_mechanism *into);
-/* Makes and freezes such a mechanism. In its design configuration the last body is `aside` [m] off
- * the plane. */
+/* Makes and freezes such a mechanism. In the design configuration, the last body is off the plane
+ * by `aside` [m]. */
 baum_status model_tilt(const baum_mechanism *planar, double aside, baum_mechanism **out);
 
-/* Converts x, y, angle in the plane to q (7) of a body in space. */
+/* Converts x, y and angle in the plane to q (7) of a spatial body. */
 void model_tilt_body(const double pose[3], double q[7]);
-/* Converts back; the angle is between -pi and pi. `off` is the deviation from the plane: [m],
- * [rad]. */
+/* Converts in the other direction. The angle is between -pi and pi. `off` is set to the deviations
+ * from the plane, in m and in rad. */
 void model_untilt_body(const double q[7], double pose[3], double off[2]);
 
 #endif

@@ -11,7 +11,7 @@ static void scale(double *x, int count, double factor)
   }
 }
 
-/* Each of these functions tries one kind of element; if the element is of another kind, the library
+/* Each of these functions tries one kind of element. If the element is of another kind, the library
  * returns BAUM_ERR_ARGUMENT. */
 
 static baum_status change_particle(baum_mechanism *m, baum_body_id id, const model_units *u)

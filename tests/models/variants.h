@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Many slider-cranks that differ in one number: copies of a frozen one with another mass of the
- * slider. */
+/* Many slider-cranks that differ in one number. They are copies of a frozen slider-crank with
+ * another mass of the slider. */
 #ifndef BAUM_TEST_MODELS_VARIANTS_H
 #define BAUM_TEST_MODELS_VARIANTS_H
 
 #include "models.h"
 
-/* The mechanism and state that all variants share; constant, so any number of threads may use
- * it. */
+/* The mechanism and the state that all variants share. They are constant, so that any number of
+ * threads may use them. */
 typedef struct variant_plan {
   model m;
   double q[9];
@@ -22,8 +22,8 @@ typedef struct variant_result {
   double lambda[9];
 } variant_result;
 
-/* Copies the mechanism, sets the slider's mass [kg] and freezes it; then computes the accelerations
- * at the plan's state if `out` is not NULL, and destroys the copy. */
+/* Copies the mechanism, sets the mass of the slider [kg] and freezes the copy. If `out` is not
+ * NULL, computes the accelerations at the state of the plan. Then destroys the copy. */
 baum_status variant_make(const variant_plan *plan, double mass, variant_result *out);
 
 #endif

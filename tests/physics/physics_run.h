@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shared by the tests of this folder: mechanisms by number, and runs whose constraints a separate
- * workspace evaluates. Include after cmocka.h. */
+/* Code that the tests of this folder share. It selects mechanisms by number, and makes runs whose
+ * constraints are evaluated by a separate workspace. Include after cmocka.h. */
 #ifndef BAUM_TEST_PHYSICS_RUN_H
 #define BAUM_TEST_PHYSICS_RUN_H
 
@@ -10,7 +10,8 @@
 #include "check.h"
 #include "models.h"
 
-enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 }; /* sizes of the slider-cranks, the largest mechanisms */
+/* Sizes for the slider-cranks, which are the largest mechanisms here. */
+enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 };
 
 /* ---- mechanisms ---- */
 
@@ -38,7 +39,7 @@ static inline model build_mechanism(physics_mechanism which)
 
 /* ---- runs ---- */
 
-/* A run with a workspace of its own that evaluates the constraints. */
+/* A run, together with a workspace that is used only to evaluate the constraints. */
 typedef struct watched_run {
   baum_simulation *run;
   baum_workspace *workspace;
@@ -79,7 +80,7 @@ static inline double largest_of(const double *values, int count)
   return largest;
 }
 
-/* Phi at the present state of the run. */
+/* Computes Phi at the present state of the run. */
 static inline void watch_phi(const watched_run *watched, double phi[PHYSICS_NC])
 {
   check(baum_workspace_phi(watched->workspace, baum_simulation_time(watched->run),

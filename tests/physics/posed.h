@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A model at a given state, with the accelerations of the library and those of an oracle that
- * solves with the same M, J, g and gamma in quadruple precision. Include after cmocka.h. */
+/* A model in a given state. Its accelerations are computed by the library and by an oracle. The
+ * oracle solves the equations with the same M, J, g and gamma in quadruple precision. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_POSED_H
 #define BAUM_TEST_POSED_H
 
@@ -18,16 +19,16 @@ typedef struct posed {
   int32_t nq;
   int32_t nv;
   int32_t nc;
-  double *memory; /* holds the arrays below */
+  double *memory; /* one block of memory for the arrays below */
   double *q;      /* (nq) */
   double *v;      /* (nv) */
-  double *a;      /* (nv) by the library */
-  double *want_a; /* (nv) by the oracle */
+  double *a;      /* (nv) as computed by the library */
+  double *want_a; /* (nv) as computed by the oracle */
   double *lambda; /* (nc) */
   double *want_lambda;
 } posed;
 
-/* Takes ownership of a new model and sets its design configuration. */
+/* Becomes the owner of a new model, and sets its state to the design configuration. */
 static inline posed pose_model(baum_status built, model m)
 {
   check(built);
@@ -56,7 +57,7 @@ static inline void unpose(posed *p)
   model_destroy(&p->m);
 }
 
-/* Deterministic, uniform. */
+/* Returns a pseudo-random number, uniform in [low, high). */
 static inline double draw(uint64_t *seed, double low, double high)
 {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;

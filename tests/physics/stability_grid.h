@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares baum_stability_at() with runs of mechanisms. A mechanism starts with all rows violated.
- * A pair of gains is observed to be stable if the largest violation in the last quarter of the run
- * is smaller than in the first. The grid covers the part of the plane of (alpha h, beta^2 h^2) that
- * contains the predicted region, for every fixed-step integrator. Each mechanism has a program of
- * its own, so that they run in parallel. Include after cmocka.h.
+/* Compares baum_stability_at() with runs of mechanisms. In such a run, all rows of the mechanism
+ * are violated at the start. A pair of gains is considered stable if the largest violation in the
+ * last quarter of the run is smaller than in the first quarter. For every fixed-step integrator,
+ * pairs on a grid are tested. The grid covers the part of the plane of (alpha h, beta^2 h^2) that
+ * contains the predicted region. Each mechanism has a separate test program, so that they can run
+ * in parallel. Include after cmocka.h.
  *
- * Choice of the step: the motion itself causes a steady violation of (alpha h / beta^2 h^2) h^2
- * |gamma|, which must be far below the initial violation of 1e-6 of the length scale. With h omega
- * = 1e-5 the steady violation is 1e-10 of the length scale, or 20 times that in the corner of the
- * grid. It is smaller for methods of higher order.
+ * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / beta^2
+ * h^2) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the length scale.
+ * If h omega = 1e-5, the steady violation is 1e-10 of the length scale. In the corner of the grid
+ * it is 20 times as large. For methods of higher order it is smaller.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H
@@ -19,26 +20,27 @@
 
 enum { CELLS = 44, STEPS = 3000, CALM = 32, OUTLINE = 2000 };
 
-static const double OFF = 1e-6; /* initial error: relative to the length scale, and in rad */
-/* A violation has grown if it is this many times the initial one, 1e-3 of the scale, where the
- * equations are no longer linear. */
+static const double OFF = 1e-6; /* initial error, as a fraction of the length scale, or in rad */
+/* A violation is considered to have grown if it is this many times the initial one. It is then 1e-3
+ * of the scale, where the equations are no longer linear. */
 static const double GROWN = 1e3;
-/* A violation has decayed if it is below this fraction of the initial one. With Phi' = 0 at the
- * start, a mode of a one-step method initially has a fraction (1 - z1) / (z2 - z1) of the
- * violation, here at least 1/100, so no growing mode is overlooked. A multistep method has further
- * modes that may be smaller, so its runs never end early as decayed. */
+/* A violation is considered to have decayed if it is below this fraction of the initial one. If
+ * Phi' = 0 at the start, a mode of a one-step method initially has the fraction
+ * (1 - z1) / (z2 - z1) of the violation. Here this is at least 1/100, so that no growing mode is
+ * overlooked. A multistep method has further modes, which may be smaller. For this reason its runs
+ * never end early as decayed. */
 static const double DECAYED = 1e-3;
 
-/* Size of the grid relative to the region. */
+/* Size of the grid divided by the size of the region. */
 static const double BEYOND = 1.1;
 
-/* A step of 1e-5 / omega; the initial omega is 3.1, 2 or 150 rad/s. */
+/* Returns a step of 1e-5 / omega. At the start, omega is 3.1, 2 or 150 rad/s. */
 static inline double step_of(physics_mechanism which)
 {
   return which == PENDULUM ? 1e-5 / 3.1 : which == FOUR_BAR ? 1e-5 / 2.0 : 1e-5 / 150.0;
 }
 
-/* Changes every coordinate by a different amount, so that every row is violated. */
+/* Changes every coordinate by a different amount, so that all rows are violated. */
 static inline void violate(const watched_run *watched, const baum_mechanism *mechanism)
 {
   double q[PHYSICS_NQ];
@@ -53,7 +55,8 @@ static inline void violate(const watched_run *watched, const baum_mechanism *mec
   check(baum_simulation_set_state(watched->run, 0.0, q, v));
 }
 
-/* Starts a run in the violated state; `consistent` is an assembled run, created once. */
+/* Starts a run in the violated state. `consistent` is an assembled run, which is created only
+ * once. */
 static inline watched_run start(const model *m, const watched_run *consistent,
                                 const baum_integrator *integrator, double step, baum_gains gains)
 {
@@ -82,9 +85,9 @@ static inline watched_run start_consistent(const model *m)
 
 /* ---- observed stability ---- */
 
-/* Whether the largest violation of the last quarter is below that of the first. Runs end early if
- * the violation has grown, or if it stays decayed for CALM steps: fewer steps could be a zero
- * crossing. */
+/* Tells whether the largest violation in the last quarter of the run is below that in the first
+ * quarter. A run ends early if its violation has grown. It also ends early if the violation stays
+ * decayed for CALM steps, because with fewer steps it could just be passing through zero. */
 static inline bool watch_decay(const watched_run *watched, bool one_step)
 {
   double phi[PHYSICS_NC];
@@ -111,8 +114,8 @@ static inline bool watch_decay(const watched_run *watched, bool one_step)
 
 typedef struct window {
   const baum_integrator *integrator;
-  double alpha_h;  /* largest value of the grid; the smallest is one cell */
-  double beta2_h2; /* likewise */
+  double alpha_h;  /* the largest value of the grid; the smallest is one cell */
+  double beta2_h2; /* the largest value of the grid; the smallest is one cell */
 } window;
 
 static inline bool predict(const window *w, double alpha_h, double beta2_h2)
@@ -122,7 +125,7 @@ static inline bool predict(const window *w, double alpha_h, double beta2_h2)
   return z.stability == BAUM_STABLE;
 }
 
-/* Size of the grid that contains the predicted region. */
+/* Returns the size of the grid. The grid contains the predicted region. */
 static inline window make_window(const baum_integrator *integrator)
 {
   static double alpha_h[OUTLINE];
@@ -131,7 +134,7 @@ static inline window make_window(const baum_integrator *integrator)
   window w = {integrator, 0.0, 0.0};
   check(baum_stability_outline(integrator, 1.0, OUTLINE, alpha_h, beta2_h2, &count));
   assert_true(count > 0 && count <= OUTLINE);
-  for (int32_t k = 0; k < count; k++) { /* fmax() ignores the NaN between parts */
+  for (int32_t k = 0; k < count; k++) { /* fmax() ignores the NaN that separates parts */
     w.alpha_h = fmax(w.alpha_h, BEYOND * alpha_h[k]);
     w.beta2_h2 = fmax(w.beta2_h2, BEYOND * beta2_h2[k]);
   }
@@ -148,8 +151,9 @@ static inline double beta2_at(const window *w, double j)
   return fmax(0.0, w->beta2_h2 * j / CELLS);
 }
 
-/* Whether the prediction differs at a neighbouring grid point or at a distance of 1e-9 cells: then
- * the boundary passes through the cell, or the point is marginal. */
+/* Tells whether the prediction is different at a neighbouring grid point, or at a distance of 1e-9
+ * cells. In the first case the boundary passes through the cell, and in the second case the point
+ * is marginal. */
 static inline bool at_boundary(const window *w, int i, int j)
 {
   static const double reach[] = {1.0, 1e-9};
@@ -214,12 +218,13 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   model_destroy(&m);
   assert_int_equal(t.differ_elsewhere, 0);
   assert_true(t.agree >= 97 * CELLS * CELLS / 100);
-  /* A grid without the region, or inside it, would agree without showing anything. */
+  /* If the whole grid were inside or outside of the region, prediction and observation would agree
+   * without any significance. */
   assert_true(t.stable > CELLS * CELLS / 10 && t.stable < CELLS * CELLS * 9 / 10);
 }
 
-/* Fixed-step integrators with gains, except dp5, whose region is computed in the same way as that
- * of rk8. */
+/* The fixed-step integrators that have gains. dp5 is missing, because its region is computed in the
+ * same way as that of rk8. */
 #define EVERY_INTEGRATOR(X)   \
   X(baum_euler)               \
   X(baum_semi_implicit_euler) \
@@ -231,7 +236,7 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   X(baum_ab3)                 \
   X(baum_ab4)
 
-/* One test per integrator, with its name. */
+/* Defines one test for an integrator, named after it. */
 #define DEFINE_GRID(integrator, mechanism)                         \
   static void integrator##_is_stable_where_predicted(void **state) \
   {                                                                \

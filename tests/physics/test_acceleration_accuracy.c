@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The accuracy of accelerations and multipliers, compared with a solution in quadruple precision
- * with the same M, J, g and gamma. Every case prints the largest errors of a and of lambda, each
- * relative to its largest element. */
+/* Tests the accuracy of accelerations and multipliers. They are compared with a solution in
+ * quadruple precision for the same M, J, g and gamma. For every case, the test prints the largest
+ * error of a and the largest error of lambda. Each is relative to the largest element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,15 +13,16 @@
 
 static const double PI = 3.14159265358979324;
 
-/* About ten times rounding, amplified by condition numbers of a few hundred, after refinement. */
+/* This is about ten times the rounding error after refinement. Condition numbers of a few hundred
+ * amplify rounding errors. */
 static const double ORDINARY = 1e-12;
-/* At a distance d [rad] from a singular configuration, lambda has the error of J a, divided by d^2.
- * With refinement by residuals in double precision 1e-16 / d^2 would remain. The solvers compute
- * residuals in higher precision, which gives full accuracy at 1e-4 rad and seven digits at 1e-6
- * rad. */
+/* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
+ * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
+ * remain. The solvers compute residuals in higher precision. This gives full accuracy at 1e-4 rad,
+ * and seven digits at 1e-6 rad. */
 static const double NEAR = 1e-12;
 static const double NEAREST = 1e-7;
-/* Masses differ by a factor of 1e6, so six digits could be lost; only about two are. */
+/* Masses differ by a factor of 1e6, so six digits could be lost. Only about two are lost. */
 static const double UNEVEN = 1e-10;
 
 /* ---- table ---- */
@@ -45,7 +46,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* Prints a case and checks its errors. lambda_limit may be infinite. */
+/* Prints a case and checks its errors. `lambda_limit` may be infinite. */
 static void note(table *t, const char *name, errors found, double limit, double lambda_limit)
 {
   bool fine = found.a <= limit && (found.lambda <= lambda_limit || isinf(lambda_limit));
@@ -87,7 +88,8 @@ static posed driven_crank(uint64_t *seed, int size)
   return pose_model(status, m);
 }
 
-/* Rotates the crank of Andrews' mechanism by a random angle. Assembly moves the other bodies. */
+/* Rotates the crank of Andrews' mechanism by a random angle. Assembly then moves the other
+ * bodies. */
 static posed andrews(uint64_t *seed, int size)
 {
   (void)size;
@@ -114,7 +116,7 @@ static posed pose_n_four_bar(model_n_four_bar data)
   return pose_model(status, m);
 }
 
-/* Poses an N-four-bar at least 0.2 rad from its flat configuration. */
+/* Chooses a configuration of an N-four-bar that is at least 0.2 rad from its flat configuration. */
 static posed n_four_bar(uint64_t *seed, int size)
 {
   model_n_four_bar data = model_n_four_bar_a02(size);
@@ -147,8 +149,8 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* The oracle must give the acceleration that follows from the equation of motion in the crank
- * angle, the only degree of freedom. */
+/* The equation of motion in the crank angle, the only degree of freedom, gives an acceleration. The
+ * oracle must find the same acceleration. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;
@@ -158,7 +160,7 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* M, J and g are rounded, which the condition number at 0.2 rad amplifies. */
+    /* M, J and g are rounded. The condition number at 0.2 rad amplifies this. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);
@@ -171,7 +173,7 @@ static void the_oracle_reads_the_same_system_in_both_ways(void **state)
   posed p = chain(&seed, 30);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.a, p.lambda));
-  /* Both results are rounded once to double precision. */
+  /* Both results were rounded once to double precision. */
   assert_true(quad_error(p.nv, p.a, p.want_a) <= 0x1p-52);
   assert_true(quad_error(p.nc, p.lambda, p.want_lambda) <= 0x1p-52);
   unpose(&p);
@@ -268,8 +270,8 @@ static errors measure_alternating(int loops, double crank, double coupler)
 
 enum { LINKS = 100 };
 
-/* Measures a chain of 1 kg links in which every second link has the mass `other`; the mass of the
- * last link is multiplied by `tip`. */
+/* Measures a chain whose links are 1 kg. Every second link has the mass `other` instead, and the
+ * mass of the last link is multiplied by `tip`. */
 static errors measure_uneven_chain(double tip, double other)
 {
   double mass[LINKS];
@@ -312,8 +314,8 @@ static void a_chain_of_100000_links_keeps_ten_digits_of_a(void **state)
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.want_a, p.want_lambda));
   errors found = {quad_error(p.nv, p.a, p.want_a), quad_error(p.nc, p.lambda, p.want_lambda)};
   unpose(&p);
-  /* Only a is tested: the condition number, which amplifies errors of lambda, grows as the square
-   * of the length. */
+  /* Only a is tested. Errors of lambda are amplified by the condition number, which grows as the
+   * square of the length. */
   note(&t, "chain N = 100000", found, 1e-10, (double)INFINITY);
   assert_int_equal(t.failures, 0);
 }

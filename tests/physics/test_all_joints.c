@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a mechanism with every kind of joint (support/joint_scenes.c), with every integrator of this
- * build in every formulation that it offers, for half a second with large motions. Also tests
- * reactions: with them every body fulfils its equations of motion, and they do no work. */
+/* Runs a mechanism with every kind of joint (support/joint_scenes.c). It is run for half a second
+ * with large motions, with every integrator of this build and all its formulations. The test also
+ * checks reactions. They must satisfy the equations of motion of every body, and they must do no
+ * work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +29,7 @@ typedef struct outcome {
   double start[SIZE];
   double q[SIZE];
   double max_phi;
-  double energy_change; /* relative to the largest kinetic energy */
+  double energy_change; /* relative to the largest kinetic energy of the run */
 } outcome;
 
 static baum_simulation_options reference_options(double step)
@@ -97,18 +98,20 @@ typedef struct method {
   baum_formulation formulation;
 } method;
 
-/* Returns the limit of the error, of the violation and of the relative change of energy, by order
- * (0: variable step). Each limit is at least three times the largest measured value. This value is
- * 3e-2 at order 1, for 500 steps of a double pendulum. It falls by a factor of about 200 with every
- * order, down to the error of the reference. */
+/* Returns the limit of the error, of the violation and of the relative change of energy. The limits
+ * are listed by order, and the first one is for variable steps. Each limit is at least three times
+ * the largest measured value. For order 1 this measured value is 3e-2, after 500 steps of a double
+ * pendulum. With every order it falls by a factor of about 200, until it reaches the error of the
+ * reference. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {5e-5, 1.5e-1, 4e-4, 3e-6, 3e-8, 3e-10, 3e-11, 3e-11, 3e-11};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 3e-3; /* IDA controls the error of y only, which is less accurate at index 3. */
+    return 3e-3; /* IDA controls only the error of y, which is less accurate at index 3. */
   }
-  /* Adams methods have larger error constants, 5/12, 3/8 and 251/720, than Runge-Kutta methods,
-   * about 1/k!. After a knot of a spline driver they also use derivatives from before the knot. */
+  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
+   * constants of Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use
+   * derivatives from before a knot of a spline driver after this knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
@@ -130,7 +133,7 @@ static void try_method(const joint_scene *scene, const outcome *reference, const
   outcome out = run_scene(scene, &options);
   double most = allowed(with);
   expect("the error", difference(&out, reference->q), most, scene, with);
-  /* Projection reduces violations to rounding. */
+  /* Projection reduces violations to rounding errors. */
   bool projected = with->formulation == BAUM_FORMULATION_PROJECTION;
   expect("the violation", out.max_phi, projected ? 1e-14 : most, scene, with);
   if (scene->conservative) {
@@ -159,7 +162,7 @@ static outcome find_reference(const joint_scene *scene)
   baum_simulation_options coarse = reference_options(2e-4);
   outcome out = run_scene(scene, &fine);
   outcome other = run_scene(scene, &coarse);
-  assert_true(difference(&out, other.q) <= 1e-11); /* the finer run has 1/16 of it */
+  assert_true(difference(&out, other.q) <= 1e-11); /* the error of the finer run is 1/16 of this */
   assert_true(out.max_phi <= 1e-14);
   assert_true(!scene->conservative || out.energy_change <= 1e-12);
   return out;
@@ -170,7 +173,7 @@ static void every_method_carries_every_joint(void **state)
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
     outcome reference = find_reference(&joint_scenes[k]);
-    /* At least two Euler and three Runge-Kutta methods, each with three formulations. */
+    /* These are at least two Euler and three Runge-Kutta methods, each with three formulations. */
     assert_true(try_methods(&joint_scenes[k], &reference) >= 15);
   }
 }
@@ -193,8 +196,8 @@ static void scenes_have_their_degrees_of_freedom_and_move_far(void **state)
 
 /* ---- without degrees of freedom ---- */
 
-/* Returns the index of the first joint that has a coordinate and that the last joint does not
- * drive, or -1. */
+/* Returns the index of the first joint that has a coordinate and is not driven by the last joint.
+ * Returns -1 if there is none. */
 static int find_free_joint(const baum_mechanism *m)
 {
   for (int k = 0; k < m->joint_count; k++) {
@@ -219,8 +222,8 @@ static void read_start(const baum_mechanism *m, int joint, double out[2])
   baum_simulation_destroy(run);
 }
 
-/* Makes a scene with one degree of freedom and adds a driver that starts with the joint's initial
- * value and velocity. Returns NULL if no joint is suitable. */
+/* Makes a scene with one degree of freedom, and adds a driver to it. The driver starts with the
+ * initial value and velocity of the joint. Returns NULL if no joint is suitable. */
 static baum_mechanism *make_driven(const joint_scene *scene)
 {
   baum_mechanism *free_one = joint_scene_make(scene);
@@ -255,8 +258,8 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
   return out;
 }
 
-/* Without degrees of freedom Phi = 0 determines the positions, so the kinematics integrator and a
- * run with projection may differ only by rounding. */
+/* Without degrees of freedom, the equation Phi = 0 determines the positions. A run with the
+ * kinematics integrator and a run with projection may therefore differ only by rounding. */
 static void kinematics_carries_every_joint(void **state)
 {
   (void)state;
@@ -279,13 +282,13 @@ static void kinematics_carries_every_joint(void **state)
     baum_mechanism_destroy(mechanism);
     tried++;
   }
-  assert_true(tried >= 8); /* at least eight kinds of joints */
+  assert_true(tried >= 8); /* at least eight kinds of joints are suitable */
 }
 
 /* ---- reactions ---- */
 
-/* A mechanism in motion, and the residual M a - g. The test subtracts all reactions from it, after
- * which it must be zero. */
+/* A mechanism in motion, and its residual M a - g. The test subtracts all reactions from the
+ * residual. Afterwards the residual must be zero. */
 typedef struct balance {
   test_point p;
   baum_workspace *workspace;
@@ -327,8 +330,8 @@ static void close_balance(balance *b)
   test_point_close(&b->p);
 }
 
-/* Subtracts sign times f, a force at a point and a moment, from the residual of one body. Returns
- * its power. */
+/* Subtracts sign * f from the residual of one body. f consists of a force at a point and a moment.
+ * Returns the power of f. */
 static double apply(balance *b, int index, const double at[3], const double f[3], double sign)
 {
   const baum_i_frame *frame = &b->p.point.frames[index];
@@ -342,7 +345,8 @@ static double apply(balance *b, int index, const double at[3], const double f[3]
   return share[0] * frame->vx + share[1] * frame->vy + share[2] * frame->w;
 }
 
-/* Subtracts the reaction of a joint from the residuals of its bodies. Returns its power. */
+/* Subtracts the reaction of a joint from the residuals of its bodies. Returns the power of this
+ * reaction. */
 static double take_off(balance *b, int index)
 {
   const baum_mechanism *m = b->p.mechanism;
@@ -374,7 +378,7 @@ static void check_balance(const joint_scene *scene, double t)
   for (int k = 0; k < b.p.mechanism->joint_count; k++) {
     double power = take_off(&b, k);
     if (b.p.mechanism->joints[k]->type->scleronomic) {
-      /* The power is zero except for rounding of lambda and v. */
+      /* The power must be zero, except for rounding errors of lambda and v. */
       ASSERT_NEAR(power, 0.0, 0.0, 1e-12 * push * speed);
     }
   }

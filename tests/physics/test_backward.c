@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs the free and the driven slider-crank forward and then backward in time, with stabilization,
- * and with IDA at higher index. Violations must not grow in either direction, and the error back at
- * the start must be comparable with that at the far end. */
+/* Runs the free and the driven slider-crank forward and then backward in time. The runs use
+ * stabilization, or IDA at higher index. Violations must not grow in either direction. After the
+ * way back, the error at the start must be comparable with the error at the far end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,28 +17,29 @@
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
-/* Limit of the largest violation of the backward run divided by that of the forward run. Both are
- * due to local errors, which depend somewhat on the direction and on the chosen steps. */
+/* The largest violation of the backward run may be at most this many times the largest violation of
+ * the forward run. Both come from local errors, which depend a little on the direction and on the
+ * steps chosen. */
 static const double MOST_VIOLATION = 4.0;
-/* Limit of the error back at the start divided by the error at the far end. A ratio of 4 is
- * expected: 1 from the position error at the far end, 2 from the velocity error there, which acts
- * for twice the time, and 1 from the backward run. The rest allows for a far end whose error is
- * small by chance. */
+/* The error back at the start may be at most this many times the error at the far end. A ratio of 4
+ * is expected: 1 from the position error at the far end, 2 from the velocity error there, which
+ * acts for twice the time, and 1 from the backward run. The limit is larger, because the error at
+ * the far end may be small by chance. */
 static const double MOST_ERROR = 20.0;
-/* Rounding in about 1e4 steps. Needed for the driven crank, whose other errors vanish because q is
- * a function of time alone. */
+/* Rounding errors of about 1e4 steps. The driven crank needs this term, because its positions are a
+ * function of time alone and have no other errors. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s] or NaN; the samples of tests/data are multiples of it */
+  double step; /* [s], or NaN; the sample times of tests/data are multiples of the step */
   double rtol;
   baum_formulation formulation;
 } method;
 
 typedef struct journey {
-  double error[2]; /* at the far end; back at the start */
-  double phi[2];   /* largest violation forward; backward */
+  double error[2]; /* at the far end, and back at the start */
+  double phi[2];   /* largest violation in the forward and in the backward run */
 } journey;
 
 static double scaled_error(const baum_mechanism *mechanism, const double *q, const double *want)
@@ -100,7 +101,7 @@ static void assert_returns(physics_mechanism which, const method *with)
          j.phi[0], j.phi[1]);
   (void)fflush(stdout);
   model_destroy(&m);
-  /* Without degrees of freedom, the error at the far end may by chance be far below the
+  /* If there are no degrees of freedom, the error at the far end may by chance be far below the
    * tolerance. */
   double by_chance = which == DRIVEN_CRANK && !isnan(with->rtol) ? 0.1 * with->rtol : 0.0;
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared break times. A torque that jumps at three times acts on a body on a pin, without
- * gravity. Between the jumps the exact motion is a polynomial of degree 2. Methods of order 2 and
- * higher, except generalized-alpha, reproduce it to rounding if no step crosses a jump. */
+/* Tests break times that a mechanism declares. A torque acts on a body on a pin, without gravity.
+ * It jumps at three times. Between the jumps the exact motion is a polynomial of degree 2. If no
+ * step crosses a jump, methods of order 2 and higher reproduce this motion to rounding.
+ * Generalized-alpha is an exception, see allowed(). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,11 +20,13 @@
 
 enum { BREAKS = 3 };
 
-/* The first time is a multiple of STEP, the others are not. The last two are less than a step
- * apart. */
+/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
+ * step apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
 static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0,
-                                          1.0}; /* [N m]; inertia about the pin: 1 kg m^2 */
+                                          /* [N m]; the moment of inertia about the pin is 1 kg
+                                           * m^2. */
+                                          1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
@@ -47,7 +50,7 @@ static int torque(double t, const double *q, const double *v, const double *inpu
   return 0;
 }
 
-/* Computes the exact motion from rest at t = 0. */
+/* Computes the exact motion. It starts at rest at t = 0. */
 static void exact(double t, double *angle, double *rate)
 {
   double from = 0.0;
@@ -115,10 +118,11 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Returns the allowed error. Variable steps: ten times rtol, for angular velocities of up to 6
- * rad/s. Euler methods: (h/2) |torque| t in the angle. Generalized-alpha: h^2 times 50 N m, times
- * 20, because its acceleration in the first step after a break has a lower order. Other methods:
- * rounding in about 200 steps. */
+/* Returns the largest allowed error. For variable steps, it is ten times rtol. The angular
+ * velocities are up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
+ * generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the first step
+ * after a break has a lower order. For all other methods, it is the rounding error of about 200
+ * steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -172,7 +176,8 @@ static void breaks_are_met_forward_and_backward(void **state)
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of t */
+      /* Rounding error of t. */
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP);
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }
     baum_simulation_destroy(run);
@@ -180,7 +185,7 @@ static void breaks_are_met_forward_and_backward(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Outputs do not change the motion, not even outputs at breaks. */
+/* Outputs must not change the motion, even if they are at breaks. */
 static void outputs_change_nothing(void **state)
 {
   (void)state;
@@ -210,8 +215,8 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Only the torque does work, so its work must equal the kinetic energy. A step across a jump would
- * cause an error. */
+/* Only the torque does work. This work must therefore equal the kinetic energy. If a step crossed a
+ * jump, both would differ. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -228,7 +233,8 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* The errors of angle and angular velocity are multiplied by up to 50 N m and 6 rad/s. */
+    /* In the work and the energy, errors of angle and angular velocity are multiplied by up to 50 N
+     * m and 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
@@ -237,8 +243,8 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A law (s, s', s'') whose velocity jumps at the first break and whose acceleration jumps at the
- * second. */
+/* A law (s, s', s''). Its velocity jumps at the first break, and its acceleration jumps at the
+ * second break. */
 static int kinked(double t, double s[3], void *user)
 {
   (void)user;
@@ -292,7 +298,7 @@ static void kinematics_pass_breaks_in_both_directions(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Breaks that are closer to each other than the shortest step count as one. */
+/* Breaks are treated as one if they are closer to each other than the shortest step. */
 static void breaks_next_to_each_other_are_one(void **state)
 {
   (void)state;

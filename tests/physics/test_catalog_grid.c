@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares errors in studies that compute their own references with errors in studies that use the
- * stored references of the catalogue. bench_catalog does this for the whole catalogue. */
+/* Compares the errors of two studies. One computes its own references, and the other uses the
+ * references stored in the catalogue. This test covers some entries. bench_catalog does the same
+ * for the whole catalogue. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +11,8 @@
 
 #include "catalog_grid.h"
 
-static const double LIMIT = 5.0; /* [s] time limit of a run; only slow builds come near it */
+/* [s] time limit of a run; only in slow builds do runs come near it. */
+static const double LIMIT = 5.0;
 
 static void judge(const char *name, const baum_integrator *integrator, catalog_tally *sum)
 {
@@ -35,7 +37,7 @@ static void errors_of_entries_are_those_that_stored_references_tell(void **state
     judge(names[k], baum_rk4(), &sum);
     judge(names[k], baum_rk8(), &sum);
   }
-  /* All kinds of outcomes have occurred. */
+  /* Outcomes of all kinds must have occurred. */
   assert_true(sum.compared > sum.off && sum.off > 0);
   assert_true(sum.unstable > 0 && sum.at_floor > 0);
   print_message("%d entries, %d compared, %d off, %d unstable, %d at the floor\n", sum.entries,

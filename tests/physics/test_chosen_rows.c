@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The choice of omitted rows changes during the motion. Two bars that two pins join rigidly make
- * several revolutions, with every integrator, formulation and solver, and must move as if they were
- * welded. */
+/* In this mechanism, the choice of omitted rows changes during the motion. Two pins join two bars
+ * rigidly. The bars make several revolutions with every integrator, formulation and solver, and
+ * they must move as if they were welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,8 @@
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
-static const double END = 2.0;   /* [s] three revolutions; omitted rows change several times */
+/* [s] three revolutions, in which the omitted rows change several times. */
+static const double END = 2.0;
 static const double RATE = 10.0; /* [rad/s] */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
@@ -47,8 +48,8 @@ static void find_motion(double exact[LOCKED_NV])
   baum_mechanism_destroy(m);
 }
 
-/* Runs to END. The only warning must be that multipliers are not unique. With KLU near-singular
- * intervals are allowed too, because its pivots do not measure singularity accurately. */
+/* Runs to END. The run may warn only that multipliers are not unique. With KLU it may also report
+ * near-singular intervals, because KLU's pivots do not measure singularity accurately. */
 static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -64,8 +65,8 @@ static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulatio
   return run;
 }
 
-/* Excludes methods of order 1 and 2, which give a warning at this step, and IDA at index 3, which
- * always gives one. */
+/* Tells whether a method is tested. Methods of order 1 and 2 are excluded, because they give a
+ * warning at this step. IDA at index 3 is excluded, because it always gives one. */
 static bool is_asked(const baum_simulation_options *o)
 {
   int order = baum_integrator_order(o->integrator);
@@ -73,7 +74,8 @@ static bool is_asked(const baum_simulation_options *o)
          o->formulation != BAUM_FORMULATION_INDEX3;
 }
 
-/* Allowed error: that of order 3 at this step, or of several hundred steps at this tolerance. */
+/* The largest allowed error. It is the error of a method of order 3 at this step, or of several
+ * hundred steps at this tolerance. */
 static const double ERROR = 2e-4;
 
 static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
@@ -105,8 +107,8 @@ static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* RATTLE and generalized-alpha reuse pivots from step to step, but must choose them again when the
- * omitted rows change. */
+/* RATTLE and generalized-alpha use the same pivots in many steps. When the omitted rows change,
+ * they must choose new pivots. */
 static void index_3_methods_make_several_revolutions(void **state)
 {
   (void)state;
@@ -119,7 +121,8 @@ static void index_3_methods_make_several_revolutions(void **state)
     o.integrator = methods[k];
     o.step = STEP;
     baum_simulation *run = run_to_end(m, &o);
-    assert_true(apart(baum_simulation_q(run), exact) < 1e-2); /* order 2: (omega h)^2, 20 rad */
+    /* An error of order 2: (omega h)^2 times 20 rad. */
+    assert_true(apart(baum_simulation_q(run), exact) < 1e-2);
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
@@ -136,8 +139,8 @@ static void *save(baum_simulation *run, size_t *size)
   return buffer;
 }
 
-/* The restored run has chosen its own rows at its start and must replace them by those of the saved
- * run. */
+/* At its start, the restored run has chosen rows of its own. It must replace them by the rows of
+ * the saved run. */
 static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 {
   (void)state;
@@ -167,7 +170,8 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
     }
     baum_energy_account account;
     check(baum_simulation_energy_account(one, &account, sizeof account));
-    /* errors of the method and of the corrections when rows change; the kinetic energy is 100 J */
+    /* This allows for errors of the method, and for the corrections when rows change. The kinetic
+     * energy is 100 J. */
     assert_true(fabs(account.residual) < 1e-4);
     baum_simulation_destroy(one);
     baum_simulation_destroy(other);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The residual of the energy account is below 100 rtol with variable steps, and has the order of
- * the method with fixed steps. Tests all mechanisms of account_scenes.h with every formulation. The
- * residual of a run is the largest at 8 times, relative to the largest energy or work. */
+/* With variable steps, the residual of the energy account must be below 100 rtol. With fixed steps,
+ * it must have the order of the method. The test covers all mechanisms of account_scenes.h with
+ * every formulation. The residual of a run is the largest one at 8 times. It is relative to the
+ * largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,8 +58,9 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- fixed steps ---- */
 
-/* Returns the number of steps of the coarsest run. The step is so short that error terms of the
- * next order are small, and so long that the residuals of the finest run are above 1e-13. */
+/* Returns the number of steps of the coarsest run. With this number, the step is short enough for
+ * error terms of the next order to be small. It is long enough for the residuals of the finest run
+ * to be above 1e-13. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -68,8 +70,8 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* A measured slope may exceed the order if terms of higher order dominate. It may be lower than the
- * order by at most this, if such terms have the opposite sign. */
+/* If terms of higher order dominate, a measured slope may be larger than the order. If such terms
+ * have the opposite sign, it may be smaller than the order by at most this. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -88,12 +90,13 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   double slope = log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  /* Below 1e-12 the residual is the rounding of a sum of several thousand works. */
+  /* If the residual is below 1e-12, it is the rounding error of a sum of several thousand works. */
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
-/* Tells whether the order can be observed. Not at index 3 from a start that violates the
- * constraints, because the first step jumps onto them. RATTLE supports neither dampers nor M(q). */
+/* Tells whether the order of a method can be observed in a scene. This is impossible at index 3 if
+ * the start violates the constraints, because the first step jumps onto them. RATTLE supports
+ * neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -128,8 +131,9 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
 
 /* ---- variable steps ---- */
 
-/* Returns the limit of residual / rtol. IDA at index 3 does not control the error of velocities and
- * exceeds its tolerance: 197 was measured, and 340 with another compiler's rounding. */
+/* Returns the largest allowed value of residual / rtol. IDA at index 3 does not control the error
+ * of velocities, and exceeds its tolerance. The values measured were 197, and 340 with the rounding
+ * of another compiler. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
@@ -183,15 +187,15 @@ static void residuals_of_sundials_fall_with_the_tolerance(void **state)
   close_all(baum_ida());
 }
 
-/* ---- what the residual is ---- */
+/* ---- what causes the residual ---- */
 
-/* A motion at TIMES times, and its largest errors: that of q against an exact motion, if given, and
- * those of the account. */
+/* A motion at TIMES times, and its largest errors. They are the error of q, if an exact motion is
+ * given, and the errors of the account. */
 typedef struct motion {
   double q[TIMES][WIDTH];
   double error;    /* largest error of q, in m or rad; links are 1 m long */
-  double residual; /* this and `works` are relative to the largest kinetic energy */
-  double works;    /* of violations and of projection */
+  double residual; /* this and `works` are divided by the largest kinetic energy */
+  double works;    /* works of violations and of projection */
 } motion;
 
 static motion follow(const baum_mechanism *m, baum_simulation_options options, const motion *exact)
@@ -221,9 +225,10 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   return out;
 }
 
-/* If almost no work is done, the residual is the change of T + V, without errors of summed works.
- * It must then be comparable with the error of the motion. So the residuals of BDF and IDA at tight
- * tolerances are due to the integrators, not to the account. */
+/* If almost no work is done, the residual is the change of T + V and contains no errors of summed
+ * works. It must then be comparable with the error of the motion. Both are caused by the
+ * integrator. This shows that the residuals of BDF and IDA at tight tolerances come from the
+ * integrators, and not from the account. */
 static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
 {
   (void)state;
@@ -250,7 +255,7 @@ static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* measured: 0.7 to 1.3 */
+    assert_true(got.residual <= 2.0 * got.error); /* values from 0.7 to 1.3 were measured */
   }
   baum_mechanism_destroy(m);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a known motion: the pendulum of pendulum_events.h passes its lowest point at odd
- * multiples of a quarter period and is at rest at even multiples. Tests every integrator with fixed
- * and with variable steps. */
+/* Tests events of a known motion. The pendulum of pendulum_events.h passes its lowest point at odd
+ * multiples of a quarter period. It is at rest at even multiples. The tests cover every integrator,
+ * with fixed and with variable steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -47,7 +47,7 @@ static int32_t add_angle(baum_simulation *run, const swing *s, double value, int
   return index;
 }
 
-/* An event function: the angular velocity, which is zero where the pendulum reverses. */
+/* An event function. It is the angular velocity, which is zero where the pendulum reverses. */
 static int rate(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -77,17 +77,18 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
   return record;
 }
 
-/* Returns the allowed error of an event time near t. Events are located on the computed motion, so
- * this is the error of the motion, expressed as a time. */
+/* Returns the largest allowed error of an event at about the time t. Events are located on the
+ * computed motion. The error is therefore the error of the motion, expressed as a time. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* Ten times rtol per radian at about 2.8 rad/s. The error grows with time, because the period
-     * has an error. */
+    /* This is ten times rtol per radian, at about 2.8 rad/s. The error grows with time, because the
+     * computed period is slightly wrong. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
-  /* Twice the errors that were measured over 12 s at h = 1e-3 s: explicit Euler 5.4e-2 s,
-   * semi-implicit Euler 5.3e-4 s, methods of order 2 below 1e-4 s, all others below 1e-6 s. */
+  /* The allowed errors are twice those that were measured over 12 s at h = 1e-3 s. These were
+   * 5.4e-2 s for explicit Euler, 5.3e-4 s for semi-implicit Euler, below 1e-4 s for methods of
+   * order 2, and below 1e-6 s for all others. */
   const char *name = baum_integrator_name(mode.integrator);
   int order = baum_integrator_order(mode.integrator);
   double h = STEP / 1e-3;
@@ -111,9 +112,9 @@ static void bounce(baum_simulation *run)
   assert_int_equal(baum_simulation_set_state(run, baum_simulation_time(run), q, v), BAUM_OK);
 }
 
-/* Bounces ten times at the lowest point, forward or backward in time. The event detects crossings
- * in both directions, so the test would notice if the motion away from the stop were reported as
- * another event. Returns the largest error of a time. */
+/* Bounces ten times at the lowest point, either forward or backward in time. The event detects
+ * crossings in both directions. The test would therefore notice if the motion away from the stop
+ * were reported as another event. Returns the largest error of a bounce's time. */
 static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
@@ -128,7 +129,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* Rounding of the time, 4 eps t, times 2.7 rad/s, and rounding of positions. */
+    /* This is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding error of
+     * positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -160,7 +162,8 @@ typedef struct expected {
   int32_t direction;
 } expected;
 
-/* Compares all records in their order. `quarters` are times in quarter periods. */
+/* Compares all records of a run with the expected ones, in their order. `quarters` are times, in
+ * quarter periods. */
 static void check_records(const baum_simulation *run, const swing *s, step_mode mode,
                           const expected *want, int count)
 {
@@ -178,7 +181,7 @@ static void directions_are_those_of_time(void **state)
   (void)state;
   static const expected forward[] = {{1, 0, -1}, {1, 2, -1}, {2, 3, 1}, {3, 0, 1}, {3, 1, 1},
                                      {5, 0, -1}, {5, 2, -1}, {6, 3, 1}, {7, 0, 1}, {7, 1, 1}};
-  /* Backward in time the motion is the mirror image of the motion forward in time. */
+  /* Backward in time, the motion is the mirror image of the motion forward in time. */
   static const expected backward[] = {{-1, 0, 1}, {-1, 1, 1}, {-2, 3, 1}, {-3, 0, -1}, {-3, 2, -1},
                                       {-5, 0, 1}, {-5, 1, 1}, {-6, 3, 1}, {-7, 0, -1}, {-7, 2, -1}};
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -198,7 +201,7 @@ static void directions_are_those_of_time(void **state)
   }
 }
 
-/* ---- several at one time, at an output, at the start ---- */
+/* ---- several events at one time, at an output, and at the start ---- */
 
 static void simultaneous_events_are_all_reported(void **state)
 {
@@ -211,20 +214,20 @@ static void simultaneous_events_are_all_reported(void **state)
     baum_simulation *run = open_run(&s, &o);
     (void)add_angle(run, &s, 0.0, 0, false);
     (void)add_angle(run, &s, 0.0, -1, true);
-    (void)add_angle(run, &s, 1e-15, 0, true); /* earlier by 1e-15 rad */
+    (void)add_angle(run, &s, 1e-15, 0, true); /* at an angle that is reached 1e-15 rad earlier */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
     check_records(run, &s, mode, want, 3);
     assert_true(record_of(run, 0).t == baum_simulation_time(run));
     assert_true(record_of(run, 1).t == record_of(run, 0).t);
     assert_true(record_of(run, 2).t == record_of(run, 0).t);
-    /* The run continues after the events without reporting them again. */
+    /* The run must continue after the events and must not report them again. */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_OK);
     assert_int_equal(baum_simulation_event_count(run), 3);
     close_all(run, &s);
   }
 }
 
-/* A pendulum and its mirror image, each on its own pin. */
+/* Makes a pendulum and its mirror image, each on its own pin. */
 static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 {
   baum_mechanism *m = NULL;
@@ -248,8 +251,8 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
   return m;
 }
 
-/* The two events differ in time by rounding, with IDA by up to 5e-13 s because of its iteration.
- * The tolerance of the events must make them simultaneous. */
+/* The times of the two events differ only by rounding. With IDA they differ by up to 5e-13 s,
+ * because of its iteration. The tolerance of events must treat them as simultaneous. */
 static void two_bodies_at_their_stops_are_one_stop(void **state)
 {
   (void)state;
@@ -310,24 +313,25 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
       assert_int_equal(status, terminal ? BAUM_STOP_EVENT : BAUM_OK);
       assert_int_equal(done, terminal ? 1 : 4);
       assert_int_equal(baum_simulation_event_count(run), 1);
-      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0); /* the search is accurate to 4 eps t */
+      /* The search for the time is accurate to 4 eps t. */
+      ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0);
       assert_true(baum_simulation_time(run) == (terminal ? record_of(run, 0).t : times[3]));
-      /* Samples the remaining outputs, including the one at the event. */
+      /* Makes the samples at the remaining times. One of them is the time of the event. */
       times[1] = baum_simulation_time(run);
       if (terminal) {
         status = baum_simulation_sample(run, times + 1, 3, &angle, 1, rows + 2, &done);
         assert_int_equal(status, BAUM_OK);
         assert_int_equal(done, 3);
       }
-      ASSERT_NEAR(rows[2], 0.0, 0.0, 1e-13); /* rounding, as in bounce_ten_times() */
+      ASSERT_NEAR(rows[2], 0.0, 0.0, 1e-13); /* rounding errors, as in bounce_ten_times() */
       assert_int_equal(baum_simulation_event_count(run), 1);
       close_all(run, &s);
     }
   }
 }
 
-/* Tells whether the target time was reached. Fixed-step methods of low order may warn that the step
- * is too long. */
+/* Tells whether the target time was reached. Fixed-step methods of low order may give a warning
+ * that the step is too long. */
 static bool is_there(baum_status status, step_mode mode)
 {
   return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
@@ -342,8 +346,8 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
     baum_simulation *run = open_run(&s, &o);
-    /* Starts at the lowest point, but 1e-16 rad before it. This is rounding, so no event may be
-     * reported at the start. */
+    /* The run starts 1e-16 rad before the lowest point. This is only a rounding error, so no event
+     * may be reported at the start. */
     double v = -2.0 * sqrt(9.81 / 1.25) * sin(0.6);
     double q0[3] = {1e-16, -1.0, 1e-16};
     double v0[3] = {v, 0.0, v};
@@ -356,7 +360,8 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
   }
 }
 
-/* A run that stops at an event and continues backward in time must not report the event again. */
+/* A run stops at an event, and then continues backward in time. It must not report the event
+ * again. */
 static void reversing_at_an_event_finds_it_once(void **state)
 {
   (void)state;
@@ -375,13 +380,13 @@ static void reversing_at_an_event_finds_it_once(void **state)
   }
 }
 
-/* ---- none lost, none doubled ---- */
+/* ---- no event is lost, and none is reported twice ---- */
 
 enum { CASES = 1000, FIXED_CASES = 100 };
 
 static const double RANDOM_RTOL = 1e-6;
 
-/* Makes one call of a random kind, which advances up to `end` at most. */
+/* Makes a call that is chosen at random. It advances the run, but not beyond `end`. */
 static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 {
   double t = baum_simulation_time(run);
@@ -402,14 +407,14 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* Runs a swing from a random angle with random calls. Events are at the lowest point, where they
- * are terminal or not, and at rest. Returns the number of wrong events. Raises *worst to the
- * largest relative error of an event time. */
+/* Makes a run of a swing from a random angle, by random calls. Events are at the lowest point and
+ * at the points of rest. Those at the lowest point may be terminal. Returns the number of wrong
+ * events. *worst is raised to the largest relative error of an event's time. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));
-  /* With Euler methods the amplitude grows. With this step the growth changes event times by much
-   * less than the time between events. */
+  /* With Euler methods, the amplitude of the swing grows. The step is so short that this growth
+   * changes the times of events much less than the time between two events. */
   double h = baum_integrator_order(mode.integrator) == 1 ? 1e-4 : STEP;
   baum_simulation_options o = step_mode_options(mode, h, RANDOM_RTOL);
   baum_simulation *run = open_run(&s, &o);
@@ -426,15 +431,15 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
     baum_event_record r = record_of(run, k);
     wrong += r.event != k % 2;
     *worst = fmax(*worst, fabs(r.t - (k + 1) * s.quarter) / fmax(r.t, 1.0));
-    /* Consecutive events are a quarter period apart. */
+    /* Events that follow each other are a quarter period apart. */
     wrong += !(fabs(r.t - (k + 1) * s.quarter) <= 0.1 * s.quarter);
   }
   close_all(run, &s);
   return wrong;
 }
 
-/* Returns the allowed error of a time, relative to the time. Variable steps: ten times rtol; up to
- * 8 was measured, for high swings. */
+/* Returns the largest allowed error of a time, divided by this time. For variable steps it is ten
+ * times rtol. For high swings, up to 8 times rtol was measured. */
 static double random_error(step_mode mode)
 {
   return mode.fixed ? 0.1 : 10.0 * RANDOM_RTOL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs IDA from many initial configurations, with all formulations and tolerances. No run may fail,
- * and the final configurations must agree with those of CVODE. */
+/* Runs IDA from many initial configurations, with all formulations and with many tolerances. No run
+ * may fail, and the final configurations must agree with those of CVODE. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,15 +18,16 @@ static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
   BAUM_FORMULATION_GGL,       BAUM_FORMULATION_INDEX2,
 };
 
-/* Limits of final error / rtol (lengths in m, angles in rad), in the order of FORMULATIONS. Driven
- * mechanisms have no degrees of freedom, so stabilization corrects errors. In free mechanisms
- * errors grow during two revolutions or a swing. At index 3 the error test omits velocities.
- * Measured: 0.7, 460, 0.1, 0.04, 13 (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits
- * are four to ten times as large, because results change with rounding. */
+/* The largest allowed values of the final error divided by rtol, for each of FORMULATIONS. Lengths
+ * are in m, and angles in rad. Driven mechanisms have no degrees of freedom, so stabilization
+ * corrects their errors. In free mechanisms, errors grow during two revolutions or a swing. At
+ * index 3 the error test omits velocities. The values measured were 0.7, 460, 0.1, 0.04, 13
+ * (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits are four to ten times as large,
+ * because the results change with rounding. */
 static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {5.0, 3e3, 1.0, 0.4, 1e2};
 static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e3, 5e3, 5e5, 2e4, 1e4};
-/* Errors are judged for rtol >= 10^-TIGHTEST_JUDGED. At tighter tolerances rounding and the error
- * of the reference matter. */
+/* Errors are only judged if rtol >= 10^-TIGHTEST_JUDGED. At tighter tolerances, the errors also
+ * contain rounding and the error of the reference. */
 static const int TIGHTEST_JUDGED = 10;
 
 typedef struct end {
@@ -69,8 +70,8 @@ static double largest_difference(const end *one, const end *other)
   return largest;
 }
 
-/* Sums over all initial configurations of a mechanism. There is one tally for each formulation and
- * each rtol = 10^-k. */
+/* Sums over all initial configurations of a mechanism. For each formulation and each rtol = 10^-k
+ * there is one struct of such sums. */
 typedef struct tally {
   int runs;
   int64_t steps;
@@ -133,7 +134,7 @@ static void judge(const table *found)
   }
 }
 
-/* ---- slider-cranks, two revolutions from start angles in the whole circle ---- */
+/* ---- slider-cranks: two revolutions, from start angles all around the circle ---- */
 
 static void turn(table *out, bool driven, int poses)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of 100000 links: time and memory for its setup, and Newton's and Euler's equations of
- * every link. In builds with instrumentation such as sanitizers the chain is shorter, and memory is
- * not tested. */
+/* Tests a chain of 100000 links: how much time and memory its setup takes, and whether every link
+ * satisfies Newton's and Euler's equations. Builds with instrumentation, such as sanitizers, use a
+ * shorter chain and do not test memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,8 +15,8 @@
 
 enum { LINKS = 100000 / BAUM_TEST_PATIENCE, PER_LINK = 3 };
 
-/* [s] If one part of the setup takes longer, its time does not grow linearly with the number of
- * links. */
+/* [s] If one part of the setup takes longer than this, its time does not grow linearly with the
+ * number of links. */
 static const double HANGING = 30.0 * BAUM_TEST_PATIENCE;
 static const double GRAVITY = 9.81;
 
@@ -29,7 +29,7 @@ static double now(void)
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Returns the peak memory of the process [MB]. */
+/* Returns the largest amount of memory that the process has used so far [MB]. */
 static double most_memory(void)
 {
   struct rusage usage;
@@ -37,7 +37,8 @@ static double most_memory(void)
   return (double)usage.ru_maxrss / 1e3;
 }
 
-/* Prints the time since `since` and the peak memory. Returns the present time. */
+/* Prints the time since `since`, and the largest amount of memory used so far. Returns the present
+ * time. */
 static double lap(const char *what, double since)
 {
   double seconds = now() - since;
@@ -97,8 +98,8 @@ static void freezing_and_starting_a_run_take_linear_time(void **state)
   baum_simulation_destroy(run);
 }
 
-/* In a straight horizontal chain the rounding of all joints adds up at the last links. Projection
- * must cope with this. */
+/* In a straight horizontal chain, the rounding errors of all joints add up at the last links.
+ * Projection must work in spite of this. */
 static void a_straight_chain_is_projected(void **state)
 {
   (void)state;
@@ -137,14 +138,14 @@ static void degrees_of_freedom_are_counted(void **state)
 
 /* ---- mechanics ---- */
 
-/* Each link must fulfil Newton's and Euler's equations. The pin at the start of link k carries this
- * and all following links: F_k = sum of m (a_j - g) over j >= k. Then J alpha_k = -p x F_k - p x
- * F_(k+1), where p points from the centre to the end of the link. The ends of adjacent links must
- * have the same acceleration. */
+/* Each link must satisfy Newton's and Euler's equations. The pin at the start of link k carries
+ * this link and all links after it. Its force is F_k = sum of m (a_j - g) over j >= k. Then J
+ * alpha_k = -p x F_k - p x F_(k+1), where p is the vector from the centre of the link to its end.
+ * The ends of adjacent links must have the same acceleration. */
 typedef struct worst {
   double force;
   double moment; /* [N m] largest residual */
-  double gap;    /* [m/s^2] largest difference between adjacent ends */
+  double gap;    /* [m/s^2] largest difference between the accelerations of adjacent ends */
 } worst;
 
 static worst compare_links(const double *a)
@@ -168,7 +169,7 @@ static worst compare_links(const double *a)
     next[0] = at[0] - turned[0];
     next[1] = at[1] - turned[1];
   }
-  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground is at rest */
+  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground does not move */
   return out;
 }
 
@@ -201,9 +202,10 @@ static void every_link_obeys_newton_and_euler(void **state)
   worst off = compare_links(a);
   printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
          off.moment, off.gap);
-  /* F_k is a sum of up to 1e5 terms, each with a rounding error of 1e-16. */
+  /* F_k is a sum of up to 1e5 terms. The rounding error of each term is 1e-16 of it. */
   assert_true(off.moment <= 1e-11 * off.force);
-  /* Refinement reduces the residuals of rows to the rounding of accelerations of about g. */
+  /* Refinement reduces the residuals of rows to rounding errors of accelerations, which are about
+   * g. */
   assert_true(off.gap <= 1e-12 * GRAVITY);
   free(a);
   model_destroy(&m);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The observed order of every fixed-step integrator if positions are on a manifold: errors for
- * repeatedly halved steps, of a slider-crank of turned bodies and of a heavy top. Gains are those
- * of the rule `auto`, which are the same for all these steps. */
+/* Tests the order of every fixed-step integrator if positions are on a manifold. The step is halved
+ * repeatedly, for a slider-crank of turned bodies and for a heavy top, and the errors are compared.
+ * The gains are chosen by the rule `auto`. They are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,14 +21,16 @@ enum { SIZE = MANIFOLD_SIZE, RUNGS = 3 };
 
 static const double END = 0.5;
 
-/* Limits of the slope relative to the order. They are wider than in test_order.c: in this short run
- * of half a second terms of the next order are larger. They may increase the slope. */
+/* Limits of the difference between the slope and the order. They are wider than those in
+ * test_order.c. The runs take only half a second, so that error terms of the next order are larger.
+ * Such terms may also increase the slope. */
 static const double TOO_FLAT = 0.25;
-static const double TOO_FLAT_HIGH = 0.6; /* orders 5 and 8; a wrong term gives slopes <= 2 */
+/* The limit for the orders 5 and 8. A wrong term would give slopes of at most 2. */
+static const double TOO_FLAT_HIGH = 0.6;
 static const double TOO_STEEP = 0.8;
 
-/* Number of steps of the coarsest run, by order. The errors of the finest run are far above the
- * error of the reference, 1e-11. */
+/* Number of steps of the coarsest run, for each order. With these numbers, the errors of the finest
+ * run are far above 1e-11, the error of the reference. */
 static const int COARSEST[9] = {0, 2000, 200, 100, 100, 32, 0, 0, 5};
 
 static double error_at(const manifold_scene *scene, const double *want,
@@ -72,7 +74,7 @@ static void observe(const manifold_scene *scene, const double *want,
   double slope = log2(error[0] / error[rungs - 1]) / (rungs - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  bool high = order >= 5; /* its small errors reach rounding */
+  bool high = order >= 5; /* the small errors of these orders reach rounding */
   double flat = high ? TOO_FLAT_HIGH : TOO_FLAT;
   if (!(slope >= order - flat && (high || slope <= order + TOO_STEEP))) {
     fail_msg("%s by %s, %s: order %.2f", scene->name, baum_integrator_name(integrator),

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c) with every
- * integrator of this build in every formulation that it offers. Compares the results with those of
- * the twin, the same mechanism of the library's planar bodies, or with a known motion about a fixed
- * point. */
+/* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c). Every integrator
+ * of this build is used with all formulations that it offers. The results are compared with those
+ * of the twin, which is the same mechanism made of the library's planar bodies. If there is no
+ * twin, they are compared with a known motion about a fixed point. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ enum { SIZE = MANIFOLD_SIZE };
 
 static const double END = 0.5;
 
-/* Rounding of Phi after a projection. Points have three coordinates of up to 2 m. */
+/* Rounding error of Phi after a projection. The points have three coordinates of up to 2 m each. */
 static const double ROUNDING = 3e-14;
 
 /* An integrator and its settings. */
@@ -34,7 +34,7 @@ typedef struct method {
 
 typedef void try_fn(const manifold_scene *scene, const method *with, const void *context);
 
-/* Tries every method of this build and returns their number. */
+/* Tries every method of this build, and returns how many there are. */
 static int for_each_method(const manifold_scene *scene, try_fn *try, const void *context)
 {
   int tried = 0;
@@ -103,13 +103,13 @@ static void expect(const char *what, double got, double most, const manifold_sce
 
 /* ---- every method ---- */
 
-/* Returns the limit of errors. It is three times that in test_all_joints.c, because the tops rotate
- * by 3 rad. */
+/* Returns the largest allowed error. It is three times the limit in test_all_joints.c, because the
+ * tops rotate by 3 rad. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 1e-2; /* IDA controls the error of y only, which is less accurate at index 3. */
+    return 1e-2; /* IDA controls only the error of y, which is less accurate at index 3. */
   }
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
@@ -174,9 +174,9 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
   return q;
 }
 
-/* For angles as (cos, sin), move() is exact. So methods that change q only by move() must take the
- * same steps as their twins. For quaternions the Euler methods add h q' instead, so only the first
- * two methods are tested. */
+/* If angles are represented by (cos, sin), move() is exact. A method that changes q only by move()
+ * must therefore take the same steps as with the twin. For quaternions, the Euler methods add h q'
+ * instead. In this case only the first two methods are tested. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
@@ -221,8 +221,8 @@ static double estimate_of(const baum_mechanism *mechanism)
   return counters.error_estimate;
 }
 
-/* Error estimates are displacements, here angles in rad, and not differences of q. So they must be
- * those of the twin. */
+/* Error estimates are displacements, which are angles in rad here. They are not differences of q.
+ * They must therefore be the same as the velocities of the twin. */
 static void errors_are_displacements(void **state)
 {
   (void)state;
@@ -282,7 +282,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   advance(other, scene, with, 0.2);
   expect("a restored run", apart(baum_simulation_q(run), baum_simulation_q(other), nq), 0.0, scene,
          with);
-  /* Setting the saved state restores it too. */
+  /* Setting the saved state must also restore it. */
   double q[SIZE];
   double v[SIZE];
   int32_t nv;
@@ -309,7 +309,7 @@ static void runs_are_saved_and_restored(void **state)
 
 /* ---- events ---- */
 
-/* An event function: q[0] - *user. */
+/* An event function, which is q[0] - *user. */
 static int first_position(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user)
 {
@@ -380,15 +380,15 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
   return fabs(account.residual);
 }
 
-/* The residual of the account is the error of the method. It must be comparable with that of the
- * twin, because other components of q change only the choice of steps. */
+/* The residual of the account is caused by the error of the method. It must be comparable with the
+ * residual of the twin, because the other representation of q only changes the choice of steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {
   (void)state;
   static const struct {
     const baum_integrator *(*integrator)(void);
     double step;
-    double most; /* [J] limit without a twin; energies of tops are 10 J */
+    double most; /* [J] limit if there is no twin; the energies of tops are 10 J */
   } WAYS[] = {{baum_rk4, 1e-3, 1e-7}, {baum_rk8, 5e-3, 1e-7}, {baum_dp5, (double)NAN, 1e-5}};
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
     for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {
@@ -430,7 +430,8 @@ static void kinematics_follows_the_driver(void **state)
     scene->solve(0.1 * k, want);
     assert_true(apart(baum_simulation_q(run), want, 12) <= 1e-13);
     assert_true(off_manifold(scene, baum_simulation_q(run)) <= 1e-15);
-    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12); /* by differences of Phi */
+    /* Computed by differences of Phi. */
+    assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12);
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
@@ -457,14 +458,14 @@ static crossed cross(const baum_mechanism *mechanism, const baum_simulation_opti
   return out;
 }
 
-/* The slider passes the main pin. This is a bifurcation: on the other branch the slider stays at
- * the pin. */
+/* The slider passes through the main pin. This configuration is a bifurcation. On the other branch,
+ * the slider would stay at the pin. */
 static void singular_configurations_are_crossed(void **state)
 {
   (void)state;
   static const struct {
     const baum_integrator *(*integrator)(void);
-    double step; /* NaN: rtol 1e-9 */
+    double step; /* NaN for variable steps with rtol 1e-9 */
     double most;
   } WAYS[] = {{baum_rk4, 1e-3, 1e-8}, {baum_rk8, 5e-3, 1e-8}, {baum_dp5, (double)NAN, 1e-6}};
   for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {

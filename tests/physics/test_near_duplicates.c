@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank with a nearly duplicate joint: a second pin, guide or rod whose position or
- * direction is off by 1e-14 to 1e-6. With every solver a run is either refused, with a message that
- * names a joint, or its accelerations agree with a solution in quadruple precision for the same M,
- * J, g and gamma, which treats rows less than 1e-10 apart as one. With initial velocities the
- * reference first projects these onto the rows. */
+/* A slider-crank has one joint too many. The additional pin, guide or rod is almost the same as
+ * another joint. Its position or direction differs by 1e-14 to 1e-6. With every solver, a run must
+ * either be refused, with a message that names a joint, or have the right accelerations. These are
+ * computed in quadruple precision for the same M, J, g and gamma. The reference treats rows as one
+ * if they are less than 1e-10 apart. If there are initial velocities, the reference first projects
+ * them onto the rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,12 +26,12 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE,  /* pin with both points moved along the rod: locks crank and rod */
-  PIN_APART,  /* pin with only one point moved: contradicts the crank pin */
-  FOOT_ASIDE, /* pin at the foot with both points moved: locks the crank */
+  PIN_ASIDE,  /* a pin whose two points are moved along the rod; it locks crank and rod */
+  PIN_APART,  /* a pin of which only one point is moved; it contradicts the crank pin */
+  FOOT_ASIDE, /* a pin at the foot whose two points are moved; it locks the crank */
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* massless rod along the rod, compatible only in this configuration */
+  ROD_ASIDE, /* a massless rod along the rod, which is only compatible in this configuration */
   ROD_LONGER,
   AGAIN_COUNT
 } again;
@@ -46,7 +47,7 @@ typedef struct pose {
   baum_body_id slider;
 } pose;
 
-/* v are the velocities of x, y and the angle. */
+/* v contains the velocities of x, of y and of the angle. */
 static baum_body_id add_body(baum_i_parts *parts, const double centre[2], double angle,
                              double inertia, const double v[3])
 {
@@ -98,7 +99,8 @@ static void turn_guide(baum_i_parts *parts, const pose *p, double off)
   }
 }
 
-/* Returns the point of the crank at the distance `off`, along the rod, from the crank pin. */
+/* Returns a point of the crank. It is on the line of the rod, at the distance `off` from the crank
+ * pin. */
 static baum_i_spot beside_pin(const pose *p, double off)
 {
   double between = p->turn - ANGLE;
@@ -162,7 +164,7 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations, relative to the largest acceleration with or without
+/* Returns the error of the accelerations, divided by the largest acceleration with or without
  * constraints. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
@@ -184,19 +186,19 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   assert_true(quad_rows_accelerate(w, nv, nc, 0.0, q, v, want, &rows));
   for (int i = 0; i < NV; i++) {
     double apart = fabs(a[i] - want[i]);
-    most = apart <= most ? most : apart; /* keeps NaN */
+    most = apart <= most ? most : apart; /* this keeps NaN */
   }
   baum_workspace_destroy(w);
   return most / rows.size;
 }
 
-/* Returns the allowed error. A moving mechanism may violate Phi' by up to OPEN of start.c without a
- * message. Accelerations depend on the square of velocities, so their error may be more than twice
- * as large. */
+/* Returns the largest allowed error. In a moving mechanism, Phi' may be violated without a message
+ * by up to OPEN of start.c. Accelerations depend on the square of velocities. The error of
+ * accelerations may therefore be more than twice this violation. */
 static double allowed(double rate)
 {
-  /* Rows that are 1e-10 apart may be treated as one; rotating a guide by this angle changes a by as
-   * much. */
+  /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by this angle, a changes
+   * by as much. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
@@ -264,7 +266,7 @@ static void nearly_duplicate_joints_in_motion_are_right_or_refused(void **state)
   judge_all(100.0);
 }
 
-/* ---- velocities against a lock ---- */
+/* ---- velocities that a locked mechanism cannot have ---- */
 
 static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m)
 {
@@ -294,7 +296,7 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
   baum_counters counters;
   baum_warning warning;
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  assert_int_equal(counters.warnings, 2); /* the second: one row is redundant */
+  assert_int_equal(counters.warnings, 2); /* the second warning says that one row is redundant */
   check(baum_simulation_warning(run, 0, &warning, sizeof warning));
   assert_int_equal(warning.code, BAUM_WARNING_LOOSE_VELOCITIES);
   assert_true(names_a_joint(warning.text));
@@ -311,8 +313,8 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
   baum_mechanism_destroy(m);
 }
 
-/* A rod with both ends pinned cannot move. Its initial velocities are rounding errors, as
- * projection leaves them, and must be accepted as rest, with gravity and without. */
+/* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors such
+ * as projection leaves. They must be accepted as rest, both with gravity and without. */
 static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
 {
   (void)state;

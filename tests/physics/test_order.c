@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The observed order of every fixed-step integrator with every formulation: errors for repeatedly
- * halved steps, compared with references, of a pendulum, a free slider-crank and a four-bar. Gains
- * are those of the rule `auto`, which are the same for all these steps. */
+/* Tests the order of every fixed-step integrator with every formulation. The step is halved
+ * repeatedly for a pendulum, a free slider-crank and a four-bar, and the errors relative to
+ * references are compared. The gains are chosen by the rule `auto`. They are the same for all these
+ * steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,12 +20,12 @@
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
-/* Limit of the difference between slope and order. From the first to the last of the 4 runs the
- * step changes by a factor of 8. If a term of the next order is 1/4 of the error at the largest
- * step, it changes the mean slope by less than 0.11. */
+/* The slope may differ from the order by at most this. There are 4 runs, and the step changes by a
+ * factor of 8 from the first to the last. If an error term of the next order is 1/4 of the error at
+ * the largest step, it changes the mean slope by less than 0.11. */
 static const double TOLERANCE = 0.2;
 
-/* `samples` ends the runs after 2 rad of the crank, or 3 rad of the pendulum. */
+/* `samples` is chosen so that runs end after 2 rad of the crank, or after 3 rad of the pendulum. */
 static const reference REFERENCES[] = {
   [PENDULUM] = {.samples = 3,
                 .width = A01_PENDULUM_WIDTH,
@@ -40,22 +41,22 @@ static const reference REFERENCES[] = {
     {.samples = 5, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Number of steps of the coarsest run, by order. At order 4 with gains the error term of order 5
- * would dominate with fewer than 128 steps. Errors of the finest run are between 1e-3 (order 1) and
- * 1e-12, and rounding is below 1e-13. Adams methods have larger terms of the next order, so their
- * coarsest run has 4 times as many steps. */
+/* Number of steps of the coarsest run, for each order. At order 4 with gains, fewer than 128 steps
+ * would let the error term of order 5 dominate. The errors of the finest run are between 1e-12 and
+ * 1e-3, the latter for order 1. Rounding errors are below 1e-13. The error terms of the next order
+ * are larger for Adams methods. Their coarsest run therefore has 4 times as many steps. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
-/* Series of runs of orders 5 and 8. Their errors reach rounding before terms of the next order are
- * small, in particular with gains. So these series have fewer runs, and the slope may be too
- * large. */
+/* Series of runs for orders 5 and 8. Their errors reach rounding before error terms of the next
+ * order become small, particularly with gains. These series therefore have fewer runs, and their
+ * slope may be larger than the order. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;
   int samples;
   int coarsest;
   int rungs;
-  double too_steep; /* limit of slope - order */
+  double too_steep; /* the largest allowed slope minus order */
 } high_ladder;
 
 static const high_ladder HIGH[] = {

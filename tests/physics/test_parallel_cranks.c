@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks with feet that are not in line rotate freely, like the wheels of a
- * locomotive. One row is redundant in every configuration. But whichever row is omitted, the
- * remaining rows are singular in some configurations, so the choice must change. With every
- * integrator and formulation the cranks must move like a pendulum of the same inertia, and no
- * singular configuration may be reported. */
+/* Three parallel cranks rotate freely, like the wheels of a locomotive. Their feet are not in line.
+ * In every configuration, one row is redundant. Whichever row is omitted, the other rows are
+ * singular in some configurations. The choice of the omitted row must therefore change during the
+ * motion. With every integrator and formulation, the cranks must move like a pendulum of the same
+ * inertia. No singular configuration may be reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@
 enum { NV = 12 };
 
 static const double ANGLE = 0.3;
-static const double RATE = 8.0; /* [rad/s] enough for full revolutions */
+static const double RATE = 8.0; /* [rad/s] fast enough for full revolutions */
 static const double END = 4.0;  /* [s] about five revolutions */
 static const double STEP = 1e-3;
 static const double RTOL = 1e-8;
@@ -36,8 +36,8 @@ static model make(bool framed)
 
 /* ---- the pendulum ---- */
 
-/* Computes the derivatives of the common angle x[0] and the common angular velocity x[1] of the
- * cranks. The centre of the coupler moves on a circle of 1 m. */
+/* Computes derivatives for the cranks. x[0] is their common angle, and x[1] is their common angular
+ * velocity. The centre of the coupler moves on a circle of 1 m. */
 static void fall(const double x[2], double dx[2])
 {
   double inertia = 3.0 / 3.0 + 2.0;
@@ -46,8 +46,8 @@ static void fall(const double x[2], double dx[2])
   dx[1] = -weight * cos(x[0]) / inertia;
 }
 
-/* Returns the angle after `span`, by the classical Runge-Kutta method with steps of 1e-4 s. The
- * result is accurate to 1e-13. */
+/* Returns the angle after the time `span`. It is computed by the classical Runge-Kutta method with
+ * steps of 1e-4 s. The result is accurate to 1e-13. */
 static double swing(double span)
 {
   double x[2] = {ANGLE, RATE};
@@ -81,10 +81,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
   return run;
 }
 
-/* Returns the allowed error. Methods of order 1 are too inaccurate at this step to be judged. Other
- * fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and rounding.
- * Variable steps: BDF and IDA restart with every change of rows and have errors of 1e4 rtol; other
- * methods have 10 rtol. */
+/* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
+ * judged. Other fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and
+ * rounding errors. With variable steps, BDF and IDA restart whenever the rows change, and have
+ * errors of 1e4 rtol. Other methods have errors of 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -106,14 +106,14 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
          counters.max_phi);
   assert_true(error <= allowed(mode));
-  assert_true(counters.max_phi <= 1e-2); /* unstabilized drift would be 1 m */
+  assert_true(counters.max_phi <= 1e-2); /* without stabilization it would drift to 1 m */
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
 
-/* UNSTABILIZED is tested too, although its violation grows with every change of rows
- * (docs/limits.md). */
+/* The formulation UNSTABILIZED is tested as well, although its violation grows whenever the rows
+ * change (docs/limits.md). */
 static void every_stabilized_method_goes_round(void **state)
 {
   (void)state;
@@ -155,7 +155,7 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* One crank is on a body that is welded to ground. The rows that fix this body must all be kept. */
+/* One crank is on a body that is welded to ground. All rows that fix this body must be kept. */
 static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;
@@ -164,8 +164,8 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
   model_destroy(&m);
 }
 
-/* Sets states of another run at times up to 0.8 s and continues from each for 0.2 s. In these
- * states the rows that were chosen at the start of the run may be nearly dependent. */
+/* Takes states of another run at times up to 0.8 s, sets them in this run, and continues from each
+ * for 0.2 s. In these states, the rows that this run chose at its start may be nearly dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {
   (void)state;
@@ -180,7 +180,8 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
     check(baum_simulation_set_state(to, t, baum_simulation_q(from), baum_simulation_v(from)));
     check(baum_simulation_advance_to(to, t + 0.2));
     check(baum_simulation_counters(to, &counters, sizeof counters));
-    assert_true(fabs(baum_simulation_q(to)[2] - swing(t + 0.2)) <= 1e-6); /* 100 rtol */
+    /* The limit is 100 rtol. */
+    assert_true(fabs(baum_simulation_q(to)[2] - swing(t + 0.2)) <= 1e-6);
     assert_int_equal(counters.near_singular_intervals, 0);
   }
   baum_simulation_destroy(from);
@@ -189,7 +190,7 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
   model_destroy(&here);
 }
 
-/* When rows change, the run must not project a violation that the user has given. */
+/* When rows change, the run must not remove a violation that the user has given. */
 static void a_violation_that_was_given_stays(void **state)
 {
   (void)state;
@@ -225,8 +226,8 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return run;
 }
 
-/* Restores a run with other omitted rows than those of the saved run. It must take over the saved
- * choice. */
+/* A run is restored in which other rows are omitted than in the saved run. It must then omit the
+ * same rows as the saved run. */
 static void a_restored_run_leaves_out_the_same_rows(void **state)
 {
   (void)state;
@@ -262,8 +263,8 @@ static void the_energy_account_closes(void **state)
   model_destroy(&m);
 }
 
-/* At all angles the cranks have the angular acceleration -weight cos(angle) / inertia. If two
- * cranks are in line with the coupler, the rows without the third crank are singular. */
+/* At every angle, the angular acceleration of the cranks is -weight cos(angle) / inertia. If two
+ * cranks are in line with the coupler, the rows of these two cranks alone are singular. */
 static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
 {
   (void)state;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With PROJECTION every row is fulfilled to rounding at every step and at every output time:
+/* With the formulation PROJECTION, every row is satisfied to rounding, at every step and at every
+ * output time:
  *
  *   |Phi_i|  <= 1e-13 L_i + rounding,   L_i = max_j |J_ij| scale_j
  *   |Phi'_i| <= 1e-13 (|J_i| |v| + |nu_i|) + rounding
  *
- * Tested with every integrator that offers it, with fixed and variable steps, on mechanisms away
- * from singular configurations. Rounding refers to the terms of a row. For velocities it refers to
- * the fastest velocity of the mechanism, because all velocities are solved together.
+ * The test covers every integrator that offers this formulation, with fixed and variable steps. The
+ * mechanisms stay away from singular configurations. Rounding errors are relative to the terms of a
+ * row. For velocities, they are relative to the fastest velocity of the mechanism, because all
+ * velocities are solved together.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,7 +37,7 @@ typedef struct looked_on {
   int32_t nv;
   int32_t nc;
   double scale[WIDEST];
-  double worst_phi; /* largest ratio to the bound */
+  double worst_phi; /* largest ratio of a violation to its bound */
   double worst_rate;
 } looked_on;
 
@@ -73,7 +75,7 @@ static void look_at(looked_on *at, double t, const double *q, const double *v)
 
 typedef struct scene {
   const char *name;
-  const char *kinds; /* (nv) 'm' for a length, 'r' for an angle */
+  const char *kinds; /* (nv) a letter for each velocity: 'm' for a length, 'r' for an angle */
   double span;       /* [s] */
 } scene;
 
@@ -99,7 +101,7 @@ static void step_through(looked_on *at, baum_simulation *run)
   }
 }
 
-/* Samples at times where no step ends. */
+/* Makes samples at times at which no step ends. */
 static void sample_through(looked_on *at, baum_simulation *run, double span)
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_V)};

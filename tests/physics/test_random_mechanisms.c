@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random mechanisms: compares accelerations and projections by the block solver with those by the
- * solver of the whole system, and accelerations with quadruple precision. */
+/* Tests random mechanisms. Accelerations and projections by the block solver are compared with
+ * those by the solver of the whole system. Accelerations are also compared with quadruple
+ * precision. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,16 +15,17 @@
 #include "quad_saddle.h"
 #include "random_judge.h"
 
-/* An error, relative to the largest element, may be at most ERROR or AS_OTHERS times that of the
- * other solver. The latter applies to a few configurations in a thousand, which are ill-conditioned
- * and lose several digits. */
+/* Errors are relative to the largest element. An error may be at most ERROR, or at most AS_OTHERS
+ * times the error of the other solver. The second limit applies to a few configurations in a
+ * thousand. They are ill-conditioned, and lose several digits. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
-/* Rounding of Phi, Phi' and gamma, which are sums of about twelve terms of size 10. */
+/* Rounding errors of Phi, Phi' and gamma. These are sums of about twelve terms, which are about
+ * 10. */
 static const double ROUNDING = 1e-11;
 
-/* Kinds of mechanisms with every structure. The last two have a hub, a body with most joints: the
- * block solver can handle the smaller hub but not the larger. */
+/* These kinds of mechanisms include every structure. The last two have a hub, which is a body that
+ * has most of the joints. The block solver can handle the smaller hub, but not the larger one. */
 static const random_kind kinds[] = {
   {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
   {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},
@@ -52,7 +54,7 @@ static const random_kind kinds[] = {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds, SEEDS = 25, LARGE_SEEDS = 6, SIZE = 512 };
 
-/* The workspaces of both solvers for one mechanism, and results. */
+/* The workspaces of both solvers for one mechanism, and their results. */
 typedef struct pair {
   random_mechanism *random;
   baum_workspace *blocks;
@@ -63,7 +65,7 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* number of configurations; so are the next two */
+  int solved; /* number of configurations, as for the next two members */
   int singular;
   int projected;
   int by_blocks; /* number of mechanisms */
@@ -154,7 +156,7 @@ static void check_acceleration(pair *p, double t)
   p->solved++;
 }
 
-/* Returns the largest violation, at (q, v), of the rows that are not omitted. */
+/* Returns the largest violation at (q, v). Omitted rows are not included. */
 static double violation(pair *p, const double *q, const double *v)
 {
   baum_workspace *w = p->whole;
@@ -179,7 +181,7 @@ static void check_projection(pair *p)
   if (status != BAUM_OK) {
     return;
   }
-  /* Both solvers must give the same change, also near a singular configuration. */
+  /* Even near a singular configuration, both solvers must give the same change. */
   for (int i = 0; i < p->nv; i++) {
     assert_true(fabs(p->q[i] - q[i]) <= 1e-8 * (1.0 + fabs(q[i])));
     assert_true(fabs(p->v[i] - v[i]) <= 1e-8 * (3.0 + fabs(v[i])));
@@ -205,7 +207,7 @@ static void blocks_agree_with_the_whole_system(void **state)
       finish(p);
     }
   }
-  /* Projection is impossible for many random structures, because they cannot move. */
+  /* For many random structures projection is impossible, because they cannot move. */
   print_message("%d poses, %d singular, %d projections, %d mechanisms by blocks\n", p->solved,
                 p->singular, p->projected, p->by_blocks);
   assert_true(p->solved > 2 * p->singular);
@@ -215,7 +217,7 @@ static void blocks_agree_with_the_whole_system(void **state)
 
 /* ---- after a failure ---- */
 
-/* Makes call number `call` of the first user constraint set NaN. */
+/* Makes one call of the first user constraint set NaN. This is the call whose number is `call`. */
 static void spoil(pair *p, int call)
 {
   random_rows *rows = &p->random->rows[0];
@@ -225,14 +227,14 @@ static void spoil(pair *p, int call)
   assert_int_equal(rows->fail_at, 0);
 }
 
-/* After a failed evaluation the next one must give the same result as without the failure, to the
- * last digit. */
+/* After a failed evaluation, the next evaluation must give the same result as without the failure.
+ * It must be the same to the last digit. */
 static void failed_evaluations_leave_no_trace(void **state)
 {
   pair *p = *state;
   const random_kind rows_only = {
     .bodies = 3, .joints = 1, .coordinates = 100, .span = 3.0, .constant = true};
-  enum { CALLS = 4 /* Phi, J, nu, gamma */ };
+  enum { CALLS = 4 /* of Phi, J, nu and gamma */ };
   int seen = 0;
   for (uint64_t seed = 0; seed < SEEDS; seed++) {
     double want[2][SIZE];
@@ -260,7 +262,7 @@ static void failed_evaluations_leave_no_trace(void **state)
 
 /* ---- a light body with a load on it ---- */
 
-/* A light body that is welded to a pendulum of 1 kg. */
+/* Makes a light body that is welded to a pendulum of 1 kg. */
 static baum_mechanism *make_light(double mass)
 {
   baum_mechanism *m = NULL;
@@ -299,8 +301,8 @@ static baum_mechanism *make_light(double mass)
   return m;
 }
 
-/* Without the weld, the light body would have the acceleration 5 N / mass. The weld cancels nearly
- * all of it, which must not cost digits. */
+/* Without the weld, the acceleration of the light body would be 5 N / mass. The weld cancels almost
+ * all of this acceleration. No digits may be lost by this. */
 static void loaded_light_bodies_keep_all_digits(void **state)
 {
   (void)state;
@@ -313,8 +315,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
     assert_non_null(w->path);
     assert_true(quad_acceleration(w, 0.0, m->design_q, v, NULL, a, lambda));
     assert_int_equal(baum_i_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0), BAUM_OK);
-    /* The solver notices lost digits only at mass ratios above 1e3; below, three digits may be
-     * lost. */
+    /* The solver notices lost digits only if the masses differ by more than a factor of 1e3. Below
+     * this, three digits may be lost. */
     assert_true(quad_error(6, w->a, a) <= (mass > 0.5e-3 ? 1e-11 : 1e-14));
     assert_true(quad_error(5, w->lambda, lambda) <= 1e-14);
     baum_workspace_destroy(w);
@@ -324,7 +326,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* ---- random kinds ---- */
 
-/* Also compares with random_judge(). bench_random tests more mechanisms. */
+/* Also compares configurations by random_judge(). bench_random tests more mechanisms in the same
+ * way. */
 static void accelerations_are_met_or_rightly_refused(void **state)
 {
   pair *p = *state;
@@ -333,19 +336,21 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   for (uint64_t seed = 0; seed < MECHANISMS; seed++) {
     random_judge(p->random, seed, &tally);
   }
-  /* here the earlier ones of several dependent rows are nearly dependent among themselves */
+  /* In this mechanism, several rows are dependent, and the first ones among them are nearly
+   * dependent on each other. */
   random_judge(p->random, 3070, &tally);
   assert_int_equal(tally.counts[RANDOM_WRONG], 0);
   assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
   assert_int_equal(tally.counts[RANDOM_CONFLICT], 0);
-  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* of up to three configurations each */
+  /* Up to three configurations of each mechanism. */
+  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS);
   assert_true(tally.counts[RANDOM_REFUSED] > 0);
   assert_true(tally.dependent > MECHANISMS / 10);
 }
 
-/* Seeds of difficult cases. 39374: a poor choice of rows would keep nearly dependent ones. 10325,
- * 15203, 23760 and 33361: no acceleration fulfils the omitted rows. 32478 and 36235: a
- * contradiction is divided by a pivot that is only rounding. */
+/* The numbers are seeds of difficult cases. In 39374, a poor choice of rows would keep rows that
+ * are nearly dependent. In 10325, 15203, 23760 and 33361, no acceleration satisfies the omitted
+ * rows. In 32478 and 36235, a contradiction is divided by a pivot that is only a rounding error. */
 static void nearly_dependent_and_contradicting_rows_are_not_silent(void **state)
 {
   static const uint64_t seeds[] = {39374, 10325, 15203, 23760, 33361, 32478, 36235};

@@ -19,12 +19,13 @@ static void accelerations_and_reactions_are_met(void **state)
     spatial_judge(&room, seed, &tally);
   }
   assert_int_equal(spatial_bad(&tally), 0);
-  assert_true(tally.counts[SPATIAL_MET] > MECHANISMS); /* of up to two configurations each */
+  /* Up to two configurations of each mechanism. */
+  assert_true(tally.counts[SPATIAL_MET] > MECHANISMS);
   assert_true(tally.dependent > MECHANISMS / 10);
   assert_true(tally.reactions > MECHANISMS);
 }
 
-/* Checks that the design configuration of every seed is refused, and rightly so. */
+/* Checks that the design configuration of every seed is refused, and that this refusal is right. */
 static void check_refused(const uint64_t *seeds, int count)
 {
   static random_spatial room;
@@ -36,9 +37,9 @@ static void check_refused(const uint64_t *seeds, int count)
   assert_int_equal(tally.counts[SPATIAL_REFUSED], count);
 }
 
-/* In these design configurations dependent rows contradict each other, but rounding leaves a pivot
- * of 2e-15 instead of zero. LU factorization alone would give accelerations of 1e14 m/s^2 with a
- * small residual. */
+/* In these design configurations, dependent rows contradict each other. Because of rounding,
+ * however, a pivot is 2e-15 instead of zero. LU factorization alone would give accelerations of
+ * 1e14 m/s^2, and the residual would be small. */
 static void contradictions_that_rounding_hides_are_refused(void **state)
 {
   static const uint64_t seeds[] = {1993, 2454, 2990, 3741, 5094};
@@ -46,7 +47,8 @@ static void contradictions_that_rounding_hides_are_refused(void **state)
   check_refused(seeds, 5);
 }
 
-/* In these design configurations no acceleration fulfils both the kept and the omitted rows. */
+/* In these design configurations, no acceleration satisfies all rows. Those that satisfy the kept
+ * rows contradict the omitted rows. */
 static void contradictions_of_omitted_rows_are_refused(void **state)
 {
   static const uint64_t seeds[] = {2161, 7114, 7849, 8244};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE for rigid bodies in space: its order, its symmetry, what it conserves, and its solvers. */
+/* Tests RATTLE for rigid bodies in space: its order, its symmetry, the quantities that it
+ * conserves, and its solvers. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,14 +20,15 @@
 
 /* ---- mechanisms ---- */
 
-/* Angular velocity of the precession of the gyroscope below, whose axis is horizontal: m g a / (I
- * w) [rad/s]. */
+/* [rad/s] Angular velocity of the precession of the gyroscope below. The axis of this gyroscope is
+ * horizontal, so that the precession is m g a / (I w). */
 static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 
 /* A heavy top on a spherical joint at the origin. */
 static const double MASS = 1.2;
 static const double INERTIA[6] = {0.3, 0.5, 0.4, 0.05, -0.03, 0.02};
-static const double ARM[3] = {0.1, -0.2, -0.6}; /* from centre of mass to joint, body axes */
+/* From the centre of mass to the joint, in body axes. */
+static const double ARM[3] = {0.1, -0.2, -0.6};
 static const double START_P[4] = {0.6, 0.0, 0.8, 0.0};
 static const double START_W[3] = {2.0, -1.0, 6.0};
 
@@ -112,7 +114,8 @@ static double error_at(build_fn *build, int nq, const double *want, double step)
   check(baum_simulation_advance_to(run, 0.5));
   double error = apart(baum_simulation_q(run), want, nq);
   baum_counters c = counters_of(run);
-  /* Rounding of coordinates below 1 m and of velocities below 20 rad/s. */
+  /* The tolerances are rounding errors of coordinates below 1 m, and of velocities below 20
+   * rad/s. */
   assert_true(c.max_phi <= 4e-15);
   assert_true(c.max_phi_rate <= 2e-13);
 
@@ -144,8 +147,8 @@ static void the_order_is_two_and_constraints_hold_to_rounding(void **state)
 
 /* ---- symmetry ---- */
 
-/* RATTLE is symmetric: after the velocities are reversed, the same number of steps leads back to
- * the start, except for rounding. */
+/* RATTLE is symmetric. After the velocities are reversed, the same number of steps must lead back
+ * to the start, except for rounding. */
 static void check_reversal(build_fn *build, int nq, int nv)
 {
   double q[2][SPATIAL_RSSR_NQ];
@@ -175,14 +178,14 @@ static void reversed_velocities_lead_back_to_the_start(void **state)
 
 /* ---- the symplectic form ---- */
 
-/* A variation of the state: a displacement eta of the orientation, and a change m of the angular
- * momentum about the joint, both in body axes. */
+/* A variation of the state. It consists of a displacement eta of the orientation, and of a change m
+ * of the angular momentum about the joint. Both are in body axes. */
 typedef struct variation {
   double eta[3];
   double m[3];
 } variation;
 
-/* Returns the symplectic form of two variations, eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x
+/* Returns the symplectic form of two variations: eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x
  * eta_2). */
 static double form_of(const double m[3], const variation *a, const variation *b)
 {
@@ -195,14 +198,14 @@ static double form_of(const double m[3], const variation *a, const variation *b)
   return sum;
 }
 
-/* Computes the angular momentum about the joint, in body axes. */
+/* Computes the angular momentum about the joint. It is in body axes. */
 static void momentum_of(const double w[3], double out[3])
 {
   static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
   double swing[3];
   double arm[3];
   cross(ARM, w, swing);
-  cross(swing, ARM, arm); /* w (s . s) - s (s . w) with s = ARM */
+  cross(swing, ARM, arm); /* this is w (s . s) - s (s . w) with s = ARM */
   for (int i = 0; i < 3; i++) {
     out[i] = MASS * arm[i];
     for (int j = 0; j < 3; j++) {
@@ -211,7 +214,7 @@ static void momentum_of(const double w[3], double out[3])
   }
 }
 
-/* Computes the coordinates and the angular momentum of the top after 40 steps, 2 s. */
+/* Computes the coordinates and the angular momentum of the top after 40 steps, which are 2 s. */
 static void map_top(baum_simulation *run, const double p[4], const double w[3], double q[TOP_NQ],
                     double m[3])
 {
@@ -223,8 +226,8 @@ static void map_top(baum_simulation *run, const double p[4], const double w[3], 
   momentum_of(baum_simulation_v(run) + 3, m);
 }
 
-/* Differentiates map_top() with respect to the k-th of three rotations and three angular
- * velocities. */
+/* Differentiates map_top(). For k = 0 to 2, the variable is one of three rotations, and for k = 3
+ * to 5, one of three angular velocities. */
 static variation vary_top(baum_simulation *run, int k, double d)
 {
   double q[2][TOP_NQ];
@@ -254,8 +257,8 @@ static variation vary_top(baum_simulation *run, int k, double d)
   return out;
 }
 
-/* Returns the largest change of the symplectic form by map_top(), over all pairs of directions. A
- * symplectic method keeps the form. */
+/* Returns by how much map_top() changes the symplectic form. This is the largest change over all
+ * pairs of directions. A symplectic method keeps the form. */
 static double form_error(const baum_integrator *integrator)
 {
   const double d = 1e-4; /* the truncation error is d^2 times third derivatives */
@@ -339,7 +342,8 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
 
 /* ---- other mechanisms ---- */
 
-/* Returns the definition of an additional body, which is welded to ground or moves freely. */
+/* Returns the definition of an additional body. The body is welded to ground, or it moves
+ * freely. */
 static baum_spatial_body_def other_body(void)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();
@@ -381,7 +385,7 @@ static void expect_same_end(build_fn *build, baum_solver solver, const double *w
   assert_true(apart(got, want, SPATIAL_RSSR_NQ) <= 1e-11);
 }
 
-/* The results must differ by rounding only. The four-bar with parallel axes has three redundant
+/* All results may differ only by rounding. The four-bar with parallel axes has three redundant
  * rows. */
 static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
@@ -396,7 +400,8 @@ static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   expect_same_end(spatial_build_four_bar, BAUM_SOLVER_KLU, want);
 }
 
-/* The top and a free ball, which has no gyroscopic moment. They must not affect each other. */
+/* Makes the top and a free ball, which has no gyroscopic moment. Neither of them may affect the
+ * other. */
 static void build_top_and_ball(baum_mechanism *m)
 {
   baum_spatial_body_def ball = other_body();
@@ -426,8 +431,8 @@ static void bodies_without_gyroscopic_moments_move_as_before(void **state)
   baum_simulation_destroy(alone);
 }
 
-/* A disc with a horizontal axis, which rotates about it by 17 degrees per step and precesses at
- * 0.33 rad/s. */
+/* Makes a disc with a horizontal axis. It rotates about this axis by 17 degrees per step, and
+ * precesses at 0.33 rad/s. */
 static void build_gyroscope(baum_mechanism *m)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();

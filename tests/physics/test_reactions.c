@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With redundant rows and very different masses, reactions must balance the forces, and warnings
- * must name the joints that share forces. */
+/* Tests mechanisms with redundant rows and very different masses. Reactions must balance the
+ * forces, and warnings must name the joints that share forces. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
-/* Seeds of mechanisms in which making multipliers of least norm could leave the rounding of large
- * forces on light bodies. */
+/* In these mechanisms, multipliers of least norm are difficult. Rounding errors of large forces
+ * could remain on light bodies. */
 static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 
 static baum_simulation *run_bracket(const baum_mechanism *m)
@@ -29,8 +29,8 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* Expects the weight of the heavy body, 9.81 N, and its moment about the joint, which is 0.4 m
- * beside its centre. */
+/* Checks that the reaction is the weight of the heavy body, 9.81 N, and its moment about the joint.
+ * The joint is 0.4 m beside the centre of this body. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);
@@ -76,7 +76,8 @@ static void only_joints_that_share_forces_are_named(void **state)
     assert_int_equal(warning.code, BAUM_WARNING_REDUNDANT_ROWS);
     assert_non_null(strstr(warning.text, "among \"joint1\", \"joint2\":"));
     check(baum_simulation_unique_multipliers(run, unique));
-    for (int i = 0; i < 8; i++) { /* unique: the moment of the weld, the third joint */
+    /* Only the moment of the weld, which is the third joint, is unique. */
+    for (int i = 0; i < 8; i++) {
       assert_true(unique[i] == (i >= 4));
     }
     baum_simulation_destroy(run);
@@ -84,8 +85,8 @@ static void only_joints_that_share_forces_are_named(void **state)
   }
 }
 
-/* The multipliers have the least norm in rows that are scaled by M. So two joints on the same body
- * each take half of the force, whatever its mass. */
+/* The multipliers have the least norm in rows that are scaled by M. Two joints on the same body
+ * therefore each take half of the force, whatever the mass of the body. */
 static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
 {
   (void)state;
@@ -116,16 +117,16 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
     redundant_judge(HARD_SEEDS[k], &tally);
   }
   printf("largest imbalance %.2g\n", tally.worst);
-  for (int k = 0; k < REDUNDANT_STATES; k++) { /* all are right, none refused */
+  for (int k = 0; k < REDUNDANT_STATES; k++) { /* all are right, and none was refused */
     assert_int_equal(tally.workspace[k][REDUNDANT_MET], MECHANISMS + HARD);
     assert_int_equal(tally.run[k][REDUNDANT_MET], MECHANISMS + HARD);
   }
   assert_int_equal(tally.wrong_unique, 0);
 }
 
-/* A spatial body of 2 kg is welded to a planar body, which stays in its plane. The reaction of the
- * weld must contain the weight normal to the plane, although the planar body has no velocity in
- * that direction. */
+/* A spatial body of 2 kg is welded to a planar body. The planar body stays in its plane. The planar
+ * body has no velocity normal to its plane. The reaction of the weld must nevertheless contain the
+ * weight in this direction. */
 static void planar_bodies_bear_forces_across_their_plane(void **state)
 {
   (void)state;

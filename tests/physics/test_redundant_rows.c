@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows change nothing. Compares mechanisms with a third parallel crank, or a second guide
- * on the same line, with the same bodies without these rows. */
+/* Redundant rows must not change anything. Two mechanisms are compared with the same bodies without
+ * redundant rows. One has a third parallel crank, and the other a second guide on the same line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,20 +13,21 @@
 
 enum { POSES = 8 };
 
-/* Limit of the difference of two results, which both have the accuracy of ordinary configurations.
- * These fulfil redundant rows only up to rounding. */
+/* The limit of the difference between two results. Both have the accuracy of ordinary
+ * configurations. In these configurations, redundant rows are satisfied only up to rounding. */
 static const double LIMIT = 1e-10;
 
-/* ---- the pairs ---- */
+/* ---- the pairs of mechanisms ---- */
 
-/* Returns a mechanism in its k-th configuration, with or without redundant rows. */
+/* Returns a mechanism in configuration k, with or without redundant rows. */
 typedef posed pair_fn(int k, bool redundant);
 
 static posed cranks(int k, bool redundant)
 {
   model m;
   model_parallelogram which = redundant ? MODEL_THREE_CRANKS : MODEL_THIRD_BY_A_ROD;
-  /* Crank angles from 0.3 to 2.4 rad avoid the flat configurations, which are singular. */
+  /* Crank angles are from 0.3 to 2.4 rad. They avoid the flat configurations, which are
+   * singular. */
   baum_status status = model_parallelogram_build(which, 0.3 + 0.3 * k, &m);
   return pose_model(status, m);
 }
@@ -55,7 +56,7 @@ static const struct {
   pair_fn *pose;
   int more_rows;
   int redundant_rows;
-  double step; /* [s] step of runs */
+  double step; /* [s] the step of runs */
 } PAIRS[] = {
   {"three parallel cranks", cranks, 1, 1, 1e-3},
   {"slider-crank, two guides", free_slider, 2, 2, 1e-5},
@@ -96,7 +97,7 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* Compares with an oracle that omits the same rows as the workspace. */
+/* The accelerations are compared with an oracle, which omits the same rows as the workspace. */
 static void accelerations_are_those_of_quadruple_precision(void **state)
 {
   (void)state;
@@ -107,7 +108,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
                                   p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
-    assert_true(error <= 1e-12); /* as in test_acceleration_accuracy.c */
+    assert_true(error <= 1e-12); /* the same limit as in test_acceleration_accuracy.c */
     unpose(&p);
   }
 }
@@ -148,7 +149,7 @@ static void motions_are_those_without_redundant_rows(void **state)
     double apart = compare_runs(k / 2, &options);
     printf("%-34s %-20s 200 steps: %.1e\n", PAIRS[k / 2].name,
            baum_integrator_name(options.integrator), apart);
-    assert_true(apart <= LIMIT); /* rounding in 200 steps, in m and rad */
+    assert_true(apart <= LIMIT); /* rounding errors of 200 steps, in m and rad */
   }
 }
 
@@ -176,8 +177,8 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
   model_destroy(&m);
 }
 
-/* A duplicated pin and the original must each carry half of the force. All other multipliers must
- * be unchanged and unique. */
+/* If a pin is duplicated, it and the original must each carry half of the force. All other
+ * multipliers must be the same as without the duplicate, and they must be unique. */
 static void multipliers_that_are_not_unique_are_marked(void **state)
 {
   (void)state;
@@ -202,9 +203,10 @@ static void multipliers_that_are_not_unique_are_marked(void **state)
 
 /* ---- redundant everywhere, or singular in one configuration ---- */
 
-/* Mechanisms with redundant rows, with rows that are dependent only in a flat configuration, or
- * with both. The two rows of a duplicated pin are redundant, even if it is off by 1e-10 m. Rows
- * that become dependent in a flat configuration are not redundant, even 1e-8 rad from it. */
+/* These mechanisms have redundant rows, or rows that are dependent only in a flat configuration, or
+ * both. If a pin is duplicated, two rows are redundant, even if the duplicate is off by 1e-10 m.
+ * Rows that become dependent in a flat configuration are not redundant, even at a distance of 1e-8
+ * rad from it. */
 static const struct {
   const char *name;
   model_parallelogram_data data;
@@ -264,8 +266,8 @@ static void permanent_and_momentary_redundancy_are_distinguished_in_any_unit(voi
   }
 }
 
-/* The runs start with redundant rows, near a singular configuration, or with both. The cranks must
- * rotate together, with th'' = -k cos th. */
+/* The runs start with redundant rows, or near a singular configuration, or both. The cranks must
+ * rotate together with th'' = -k cos th. */
 static void a_run_may_start_next_to_a_singular_configuration(void **state)
 {
   (void)state;
@@ -285,12 +287,12 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* th'^2 / 2 + k sin th is constant. In a flat configuration the first accelerations are not
-     * unique, which changes this by 3e-6 */
+    /* For this motion, th'^2 / 2 + k sin th is constant. In a flat configuration the first
+     * accelerations are not unique. This changes the constant by 3e-6. */
     double energy = v[2] * v[2] / 2.0 + pull * (sin(q[2]) - sin(data->angle));
     printf("%-34s angle %.9f, energy off by %.1e\n", TELL_APART[k].name, q[2], energy - 2.0);
     assert_true(fabs(energy - 2.0) <= 1e-5);
-    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* the cranks are on the same branch */
+    assert_true(fabs(q[5] - q[2]) <= 1e-9); /* the cranks must stay on the same branch */
     assert_int_equal(counters.branch_warnings, 0);
     assert_true((counters.warnings > 0) ==
                 (TELL_APART[k].redundant > 0 || TELL_APART[k].near_singular));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a parallelogram with three cranks and a duplicated pin, which has three redundant rows, with
- * every integrator, formulation and solver. The motion must be that of the mechanism without these
- * rows, and a warning must name the joints whose multipliers are not unique. */
+/* Runs a parallelogram that has three cranks and a duplicated pin, and therefore three redundant
+ * rows. Every integrator, formulation and solver is used. The motion must be the same as without
+ * these rows. A warning must name the joints whose multipliers are not unique. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ enum { NV = 12 };
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-7;
-static const double END = 0.3; /* [s] before the mechanism is flat */
+static const double END = 0.3; /* [s] ends before the mechanism becomes flat */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
                                       BAUM_SOLVER_QR};
@@ -92,9 +92,9 @@ static model make(bool redundant)
 typedef struct comparison {
   model with;
   model without;
-  double exact[NV]; /* q at END */
-  double alone[NV]; /* q without redundant rows, with the first solver */
-  double own;       /* error of `alone` */
+  double exact[NV]; /* the exact q at END */
+  double alone[NV]; /* q at END without redundant rows, by the first solver */
+  double own;       /* the error of `alone` */
   int count;
 } comparison;
 
@@ -117,9 +117,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Returns the allowed difference. With another choice of rows the drift, or the result of IDA's
- * iteration, differs by a fraction of the method's error. With a variable step this error is about
- * the tolerance. */
+/* Returns the largest allowed difference. If other rows are chosen, the drift, or the result of
+ * IDA's iteration, differs by a fraction of the method's error. With a variable step, this error is
+ * about as large as the tolerance. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -167,8 +167,8 @@ static void redundant_rows_change_no_motion(void **state)
 
 /* ---- omitted rows are monitored ---- */
 
-/* A link with two drivers on its pin to ground, which prescribe the angular velocities 2 and 2 +
- * acceleration t, and a second link that hangs on the first. */
+/* Makes a link whose pin to ground has two drivers. They prescribe the angular velocities 2 and
+ * 2 + acceleration t. A second link hangs on the first one. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -198,10 +198,10 @@ static baum_mechanism *driven_twice(double acceleration)
   return m;
 }
 
-static const double ANGLE = 1.0; /* [rad] by which the motors differ at END */
+static const double ANGLE = 1.0; /* [rad] by how much the two motors differ at END */
 
-/* The counters and a warning must report the violation if, and only if, the motors contradict each
- * other. */
+/* If the motors contradict each other, the counters and a warning must report the violation.
+ * Otherwise they must not. */
 static void part(const method *with, void *context)
 {
   const baum_mechanism *const *mechanisms = context;
@@ -215,8 +215,8 @@ static void part(const method *with, void *context)
     bool warned =
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "motors that part are told of", k);
-    /* methods of order 1 have violations of up to 1e-2 themselves; a variable step may end beyond
-     * END */
+    /* Methods of order 1 themselves have violations of up to 1e-2. A variable step may end beyond
+     * END. */
     expect(k == 1 ? counters.max_phi >= ANGLE - 2e-2 : counters.max_phi <= 2e-2, with,
            "largest violation", counters.max_phi);
     baum_simulation_destroy(run);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scheduled inputs. A torque that is an input and jumps at three times acts on a body on a pin,
- * without gravity. Between the jumps the exact motion is a polynomial of degree 2. Methods of order
- * 2 and higher, except generalized-alpha, reproduce it to rounding if no step crosses a jump. */
+/* Tests schedules of inputs. A torque acts on a body on a pin, without gravity. The torque is an
+ * input that jumps at three times. Between the jumps the exact motion is a polynomial of degree 2.
+ * If no step crosses a jump, methods of order 2 and higher reproduce this motion to rounding.
+ * Generalized-alpha is an exception. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,19 +18,20 @@
 
 enum { JUMPS = 3 };
 
-/* The first time is a multiple of STEP, the others are not. The last two are less than a step
- * apart. */
+/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
+ * step apart. */
 static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
-static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0}; /* [N m]; the inertia is 1 kg m^2 */
+/* [N m]; the moment of inertia is 1 kg m^2. */
+static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
 typedef struct disc {
   baum_mechanism *mechanism;
   baum_joint_id pin;
-  baum_joint_id motor; /* none if the disc is free */
+  baum_joint_id motor; /* there is none if the disc is free */
   baum_input_id torque;
-  baum_input_id other; /* a torque in the opposite direction, initially 0 */
+  baum_input_id other; /* a torque in the opposite direction; its initial value is 0 */
 } disc;
 
 static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double direction,
@@ -102,8 +104,8 @@ static double torque_at(double t)
   return TORQUE[k];
 }
 
-/* Computes the exact angle, angular velocity and work of the torque, from rest at t = 0. For t < 0
- * the torque has its first value. */
+/* Computes the exact angle, angular velocity and work of the torque. The motion starts at rest at
+ * t = 0. For t < 0 the torque has its first value. */
 static void exact(double t, double *angle, double *rate, double *work)
 {
   double from = 0.0;
@@ -129,10 +131,11 @@ static double error_now(const baum_simulation *run)
   return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
 }
 
-/* Returns the allowed error. Variable steps: ten times rtol, for angular velocities of up to 6
- * rad/s. Euler methods: (h/2) |torque| t in the angle. Generalized-alpha: h^2 times 50 N m, times
- * 20, because its acceleration in the first step after a jump has a lower order. Other methods:
- * rounding in about 200 steps. */
+/* Returns the largest allowed error. For variable steps, it is ten times rtol, for angular
+ * velocities of up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
+ * generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the first step
+ * after a jump has a lower order. For all other methods, it is the rounding error of about 200
+ * steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -166,7 +169,7 @@ static void motions_are_those_between_the_jumps(void **state)
     baum_counters counters = counters_of(run);
     assert_true(error_now(run) <= allowed(mode));
     assert_int_equal(counters.restarts - before >= JUMPS, step_mode_remembers(mode));
-    if (!mode.fixed) { /* there is no other cause of restarts */
+    if (!mode.fixed) { /* nothing else causes restarts */
       assert_int_equal(counters.restarts - before, JUMPS);
     }
     assert_true(baum_simulation_input(run, d.torque) == TORQUE[JUMPS]);
@@ -174,8 +177,8 @@ static void motions_are_those_between_the_jumps(void **state)
   }
 }
 
-/* Runs forward and backward through all jumps, with an output at each of them. At the time of a
- * jump the input has its value after the jump. */
+/* Runs forward and backward through all jumps, and makes an output at each of them. At the time of
+ * a jump the input has its value after the jump. */
 static void jumps_are_met_forward_and_backward(void **state)
 {
   (void)state;
@@ -188,7 +191,8 @@ static void jumps_are_met_forward_and_backward(void **state)
     schedule(run, &d);
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* rounding of t */
+      /* Rounding error of t. */
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP);
       assert_true(error_now(run) <= 2.0 * allowed(mode));
       double t = baum_simulation_time(run);
       assert_true(baum_simulation_input(run, d.torque) == torque_at(t));
@@ -197,7 +201,7 @@ static void jumps_are_met_forward_and_backward(void **state)
   }
 }
 
-/* Takes single steps. Each must end at the next jump or before it. */
+/* Takes single steps. Each step must end at the next jump or before it. */
 static void steps_stop_at_jumps(void **state)
 {
   (void)state;
@@ -213,7 +217,7 @@ static void steps_stop_at_jumps(void **state)
       double to = baum_simulation_time(run);
       if (next < JUMPS && to > TIMES[next] - 1e-12) {
         assert_true(from < TIMES[next]);
-        ASSERT_NEAR(to, TIMES[next], 0.0, 1e-13); /* 16 times the rounding of t */
+        ASSERT_NEAR(to, TIMES[next], 0.0, 1e-13); /* 16 times the rounding error of t */
         next++;
       }
     }
@@ -223,8 +227,8 @@ static void steps_stop_at_jumps(void **state)
   }
 }
 
-/* Two inputs jump so close to each other that the jumps count as one. If the run goes back before
- * this time, both inputs must have their earlier values. */
+/* Two inputs jump at almost the same time, so that both jumps are treated as one. If the run goes
+ * back to an earlier time, both inputs must have their earlier values again. */
 static void inputs_that_jump_together_are_all_reset_before_the_jump(void **state)
 {
   (void)state;
@@ -249,8 +253,8 @@ static void inputs_that_jump_together_are_all_reset_before_the_jump(void **state
   }
 }
 
-/* A schedule is given, changed or ended during a run. At this time a variable-step run has already
- * integrated beyond the time that it reports. */
+/* A schedule is given, changed or ended during a run. A run with variable steps has already
+ * integrated beyond the time that it reports when this happens. */
 static void a_schedule_may_be_given_late(void **state)
 {
   (void)state;
@@ -268,8 +272,8 @@ static void a_schedule_may_be_given_late(void **state)
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, later, none, 1), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 1.6), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate + 0.2 * TORQUE[JUMPS], 0.0, allowed(mode));
-    /* The new schedule replaces the old one. Before its first jump, the input has the value that it
-     * had when the schedule was set. */
+    /* The new schedule must replace the old one. Before its first jump, the input has the value
+     * that it had when the schedule was set. */
     assert_int_equal(step_mode_advance(mode, run, 1.0), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate - 0.3 * TORQUE[JUMPS], 0.0, 2.0 * allowed(mode));
     close_all(run, &d);
@@ -294,7 +298,8 @@ static void the_account_closes_over_jumps(void **state)
     exact(2.0, &angle, &rate, &work);
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
-    /* The errors of angle and angular velocity are multiplied by up to 50 N m and 6 rad/s. */
+    /* In the work and the energy, errors of angle and angular velocity are multiplied by up to 50 N
+     * m and 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
     ASSERT_NEAR(account.loads, work, 0.0, most);
@@ -304,8 +309,8 @@ static void the_account_closes_over_jumps(void **state)
 
 /* ---- the driven disc ---- */
 
-/* A motor drives the disc, so the torque does not change the motion, but the effort of the motor
- * must balance it. */
+/* A motor drives the disc. The torque therefore does not change the motion, but the effort of the
+ * motor must balance it. */
 static void kinematics_give_the_effort_for_the_input_at_that_time(void **state)
 {
   (void)state;
@@ -368,7 +373,8 @@ static void another_method_takes_the_schedule_over(void **state)
   }
 }
 
-/* After saving, the run gets another schedule. Restoring must bring the first one back. */
+/* After it was saved, the run gets another schedule. Restoring the run must bring the first
+ * schedule back. */
 static void restoring_brings_the_schedule_back(void **state)
 {
   (void)state;
@@ -409,7 +415,7 @@ static void setting_an_input_ends_its_schedule(void **state)
   assert_int_equal(baum_simulation_schedule_input(run, d.other, TIMES, TORQUE, 1), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
   int64_t restarts = counters_of(run).restarts;
-  /* Setting an input ends its schedule, even if its value does not change. This causes no
+  /* Setting an input ends its schedule, even if its value does not change. This must not cause a
    * restart. */
   assert_int_equal(baum_simulation_set_input(run, d.torque, TORQUE[0]), BAUM_OK);
   assert_int_equal(baum_simulation_schedule_input(run, d.other, NULL, NULL, 0), BAUM_OK);
@@ -421,7 +427,7 @@ static void setting_an_input_ends_its_schedule(void **state)
   close_all(run, &d);
 }
 
-/* A scheduled value that equals the one before is no jump and causes no restart. */
+/* If a scheduled value equals the one before it, there is no jump and no restart. */
 static void equal_successive_values_are_no_jump(void **state)
 {
   (void)state;

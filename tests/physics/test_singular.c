@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs through singular configurations must report what happened, and other runs must report
- * nothing. This is a small version of bench_singular, with two initial configurations of each
- * mechanism. */
+/* Runs that pass through singular configurations must report what happened there. All other runs
+ * must report nothing. This test is a small version of bench_singular. It has two initial
+ * configurations of each mechanism. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +13,8 @@
 
 #include "singular_scenes.h"
 
-/* [rad] A run whose error is larger is on another branch, which differs by radians. Errors on the
- * right branch are smaller, even at the loosest tolerance here. */
+/* [rad] If the error of a run is larger, the run is on another branch. Branches differ by radians.
+ * Even at the loosest tolerance used here, errors on the right branch are smaller. */
 static const double WRONG = 0.1;
 
 static const struct {
@@ -64,12 +64,12 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
     singular_close(&scene);
   }
   printf("%d right, %d of them with a branch warning; %d wrong\n", right, alarmed, wrong);
-  assert_true(right > 0 && wrong > 0); /* else nothing was tested */
+  assert_true(right > 0 && wrong > 0); /* otherwise nothing was tested */
   assert_true(20 * alarmed <= right);
 }
 
-/* Tests the setting that docs/theory/singular.md recommends. It documents errors of at most 1e-7;
- * at most 1e-8 was measured. */
+/* Tests the setting that docs/theory/singular.md recommends. That page promises errors of at most
+ * 1e-7. The largest error measured was 1e-8. */
 static void recommended_setting_is_accurate(void **state)
 {
   (void)state;
@@ -86,9 +86,10 @@ static void recommended_setting_is_accurate(void **state)
   }
 }
 
-/* Two cases in which a step ends next to a flat configuration. In the first it ends 5e-7 rad from
- * it, where the acceleration by the equations has no correct digit. In the second an ordinary
- * projection does not converge there. Runs without such a coincidence have errors of 4e-6. */
+/* In these two cases, a step ends close to a flat configuration. In the first case it ends 5e-7 rad
+ * from it. The acceleration that the equations give there has no correct digit. In the second case,
+ * an ordinary projection does not converge there. Without such a coincidence, runs have errors of
+ * 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
@@ -112,7 +113,7 @@ static void fixed_steps_may_end_in_a_singular_configuration(void **state)
   }
 }
 
-/* Checks the time, the joint and the branch that are reported at the first flat configuration of a
+/* Checks which time, joint and branch are reported at the first flat configuration of a
  * four-bar. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
@@ -135,10 +136,10 @@ static void intervals_have_times_joints_and_branches(void **state)
   assert_int_equal(baum_simulation_near_singular(run, 0, &entry, sizeof entry), BAUM_OK);
   assert_int_equal(entry.struct_size, sizeof entry);
   assert_true(entry.begin < entry.t && entry.t < entry.end);
-  /* The mechanism is flat after 90 degrees of the crank. The reference time was computed from the
-   * equation of motion in the angle (mpmath, 25 digits). The search is accurate to a millionth of
-   * two steps, 1e-8 s, and the method has an error of 3e-9 s. The pivot grows as the square of the
-   * distance, so the smallest pivot found is about 1e-12. */
+  /* The mechanism becomes flat after 90 degrees of the crank. The reference time was computed from
+   * the equation of motion in the angle, with mpmath and 25 digits. The search is accurate to a
+   * millionth of two steps, which is 1e-8 s. The method has an error of 3e-9 s. The pivot is
+   * proportional to the square of the distance, so that the smallest pivot found is about 1e-12. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -153,8 +154,8 @@ static void intervals_have_times_joints_and_branches(void **state)
 
 /* ---- away from singular configurations ---- */
 
-/* Sets the angle at 10 s. Returns false if the run has stopped or has given a warning that its
- * motion is doubtful. */
+/* Makes a run, and sets *angle to its angle at 10 s. Returns false if the run has stopped, or if it
+ * has warned that its motion is doubtful. */
 static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
                    double rtol, double *angle)
 {
@@ -173,12 +174,14 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
   return status >= BAUM_OK && c.doubts == 0;
 }
 
-/* A small error at a singular configuration causes a violation. Because of it the mechanism cannot
- * reach the next singular configuration, but reverses and continues on the other branch. */
+/* A small error in a singular configuration causes a violation. Because of this violation, the
+ * mechanism cannot reach the next singular configuration. It reverses before it, and continues on
+ * the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
-  static const double ANGLE = -30.343944970943127; /* [rad] closed-form solution of A Coruna A02 */
+  /* [rad] angle of the closed-form solution of A Coruna A02. */
+  static const double ANGLE = -30.343944970943127;
   model_n_four_bar data = model_n_four_bar_a02(1);
   model m;
   int trusted = 0;
@@ -195,7 +198,7 @@ static void drifting_runs_that_leave_their_branch_warn(void **state)
       }
     }
   }
-  assert_true(trusted >= 26); /* all runs with projection */
+  assert_true(trusted >= 26); /* at least all runs with projection */
   model_destroy(&m);
 }
 
@@ -214,7 +217,7 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
     options.rtol = 1e-6;
   }
   assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
-  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* or a warning */
+  assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* the run may give a warning */
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   assert_int_equal(c.near_singular_intervals, 0);
   assert_int_equal(c.branch_warnings, 0);
@@ -223,7 +226,8 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
   model_destroy(m);
 }
 
-/* A body of 1 kg with nearly no moment of inertia, pinned 1 m from its centre. */
+/* Makes a body of 1 kg, which is pinned 1 m from its centre. Its moment of inertia is almost
+ * zero. */
 static baum_status build_light_rotation(model *out)
 {
   *out = (model){0};
@@ -243,8 +247,8 @@ static baum_status build_light_rotation(model *out)
   return status == BAUM_OK ? baum_mechanism_freeze(out->mechanism) : status;
 }
 
-/* A light rod that joins a bob of 1 kg to a pin in a slot at the origin. When the rod becomes
- * perpendicular to the slot, it suddenly stops the bob. */
+/* Makes a light rod. It joins a bob of 1 kg to a pin in a slot at the origin. When the rod becomes
+ * perpendicular to the slot, it stops the bob suddenly. */
 static baum_mechanism *build_taut_rod(double mass, double direction)
 {
   baum_mechanism *m = NULL;
@@ -294,9 +298,9 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
   return c;
 }
 
-/* When the rod is perpendicular to the slot, the slot holds the bob only through the light rod.
- * Pivots become as small as the ratio of the masses, but J keeps its rank. A step must not pass
- * over this configuration as over a singular one. */
+/* While the rod is perpendicular to the slot, the slot holds the bob only through the light rod.
+ * Pivots then become as small as the ratio of the masses, although J keeps its rank. The run must
+ * not treat this configuration as singular and step over it. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;
@@ -311,7 +315,7 @@ static void a_light_rod_that_comes_taut_is_not_singular(void **state)
   }
 }
 
-/* The same rod without stabilization. The violation grows during the run, which must not be
+/* This is the same rod without stabilization. The violation grows during the run. This must not be
  * mistaken for a singular configuration either. */
 static void a_light_rod_that_drifts_is_not_singular(void **state)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs that start in a singular configuration or very close to one. Variable-step methods must
- * continue with a warning or end with a message, in either case after few steps. */
+/* Tests runs that start in a singular configuration or very close to one. Runs with variable steps
+ * must either continue with a warning, or end with a message. Both must happen after few steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,12 +12,13 @@
 
 #include "models.h"
 
-/* Limit of the number of accepted and rejected steps. A run leaves the configuration in a few
- * steps, or ends after 10 unsuccessful attempts. The largest measured number is 34, which depends
- * on rounding. A run that makes no progress would need more than a hundred thousand. */
+/* The largest allowed number of accepted and rejected steps together. A run leaves the
+ * configuration in a few steps, or it ends after 10 attempts without success. The largest number
+ * that was measured is 34. It depends on rounding. A run that did not make progress would need more
+ * than a hundred thousand steps. */
 enum { MOST_TRIES = 1000 };
 
-static const double END = 0.3; /* [s] nearly 1 rad at 3 rad/s */
+static const double END = 0.3; /* [s] almost 1 rad at 3 rad/s */
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
@@ -31,7 +32,8 @@ static baum_simulation *create(const model *m, const baum_integrator *integrator
   return run;
 }
 
-/* Advances to `end`. Checks that the run ends there, or with a message, after few steps. */
+/* Advances to `end`. Checks that the run reaches `end`, or stops with a message, after few
+ * steps. */
 static baum_status run_to(baum_simulation *run, double end)
 {
   baum_counters c;
@@ -46,8 +48,8 @@ static baum_status run_to(baum_simulation *run, double end)
 
 /* ---- four-bars ---- */
 
-/* `want` is the angle of the cranks at END [rad], or NaN if a run that ends with a message is
- * accepted too. */
+/* `want` is the angle of the cranks at END [rad]. If it is NaN, a run that ends with a message is
+ * also accepted. */
 static void run_all(int loops, double angle, double rate, double want)
 {
   model m;
@@ -60,8 +62,8 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* On another branch the angles differ by radians. dp5 at the loosest tolerance has an error
-       * of 2e-5. */
+      /* On another branch, the angles would differ by radians. At the loosest tolerance, dp5 has an
+       * error of 2e-5. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
     baum_simulation_destroy(run);
@@ -69,8 +71,9 @@ static void run_all(int loops, double angle, double rate, double want)
   model_destroy(&m);
 }
 
-/* Solutions of [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th, where N is `loops`, from th =
- * 0 and 3 rad/s. Computed by the classical Runge-Kutta method with steps of 1e-5 s. */
+/* These are solutions of [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th, which start at
+ * th = 0 with 3 rad/s. N is `loops`. They were computed by the classical Runge-Kutta method with
+ * steps of 1e-5 s. */
 static const struct {
   int loops;
   double want; /* [rad] angle at END */
@@ -94,9 +97,9 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* ---- slider-crank of equal links ---- */
 
-/* Sets the state with the crank angle pi/2 + off, the crank rotating at 150 rad/s and the rod in
- * the opposite direction. The angle of the rod is set directly: assembly would compute it from the
- * sine of the crank angle, which loses half of the digits here. */
+/* Sets a state in which the crank angle is pi/2 + off. The crank rotates at 150 rad/s, and the rod
+ * rotates in the opposite direction. The angle of the rod is set directly. Assembly would compute
+ * it from the sine of the crank angle, and half of the digits would be lost here. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;
@@ -123,7 +126,8 @@ static void leave_fold(const model *m, const baum_integrator *integrator, double
   fold(run, off);
   baum_status status = run_to(run, 0.01);
   if (status >= BAUM_OK) {
-    /* On the other branch the rod would rotate with the crank, a difference of 3 rad. */
+    /* On the other branch, the rod would rotate together with the crank. This would make a
+     * difference of 3 rad. */
     assert_true(fabs(baum_simulation_q(run)[2] + baum_simulation_q(run)[5]) <= 1e-3);
   }
   baum_simulation_destroy(run);

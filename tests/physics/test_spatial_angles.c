@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The angle of a spatial joint counts revolutions, also in a restored run, and a driver can
- * prescribe it over many revolutions. */
+/* The angle of a spatial joint must count revolutions, even in a restored run. A driver must be
+ * able to prescribe it over many revolutions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 static const double RATE = 40.0;
 
-/* Makes a rotor with an oblique axis, with or without a driver. */
+/* Makes a rotor with an oblique axis. It may have a driver. */
 static baum_mechanism *make(bool driven, baum_joint_id *bearing)
 {
   baum_mechanism *m = NULL;
@@ -61,7 +61,7 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
   return run;
 }
 
-/* Stiffness of a torsion spring, which the rotor winds up by up to 20 rad [N m/rad]. */
+/* [N m/rad] Stiffness of a torsion spring. The rotor winds it up by up to 20 rad. */
 static const double STIFFNESS = 4.0;
 
 static baum_mechanism *make_wound(double damping, baum_joint_id *bearing)
@@ -145,7 +145,7 @@ static void a_driver_prescribes_many_revolutions(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Returns the exact angle at t. The moment of inertia of the rotor is 1 kg m^2. */
+/* Returns the exact angle at time t. The moment of inertia of the rotor is 1 kg m^2. */
 static double wound_angle(double t, double damping)
 {
   double decay = 0.5 * damping;
@@ -183,8 +183,8 @@ static void springs_wind_up_over_revolutions(void **state)
   }
 }
 
-/* The potential energy of the spring and the work of the damper must include the revolutions of the
- * angle, also in the companion run and in the energy account. */
+/* The angle includes revolutions. The potential energy of the spring and the work of the damper
+ * must use this angle, also in the companion run and in the energy account. */
 static void energies_are_those_of_the_wound_spring(void **state)
 {
   (void)state;
@@ -209,15 +209,16 @@ static void energies_are_those_of_the_wound_spring(void **state)
   check(baum_simulation_advance_to(run, 5.0));
   check(baum_simulation_energy_account(run, &account, sizeof account));
   assert_true(account.dampers < -0.9 * 0.5 * RATE * RATE);
-  assert_true(fabs(account.residual) < 1e-5 * 0.5 * RATE * RATE); /* error of rk4 */
+  assert_true(fabs(account.residual) < 1e-5 * 0.5 * RATE * RATE); /* the error of rk4 */
   check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(counters.error_estimate < 1e-3);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
 
-/* A state determines angles only up to revolutions. After a state is set, the angle has the number
- * of revolutions that brings it closest to its last value. A refused state changes nothing. */
+/* A state determines angles only up to whole revolutions. When a state is set, an angle gets the
+ * number of revolutions that brings it closest to its last value. A state that is refused must
+ * change nothing. */
 static void a_state_that_is_set_stays_wound(void **state)
 {
   (void)state;
@@ -245,8 +246,8 @@ static void a_state_that_is_set_stays_wound(void **state)
 
 enum { SAMPLES = 40 };
 
-/* Returns the error of the angle in a study whose given reference has `samples` samples over 5
- * s. */
+/* Returns the error of the angle in a study. The reference is given to the study, with `samples`
+ * samples over 5 s. */
 static double error_of_angle(int samples)
 {
   baum_joint_id bearing;
@@ -280,7 +281,7 @@ static double error_of_angle(int samples)
 }
 
 /* The study counts the revolutions of a given reference from sample to sample. With only 3 samples
- * their number is uncertain, so the error must be NaN. */
+ * this number is uncertain, so that the error must be NaN. */
 static void revolutions_of_a_given_reference_are_counted(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares predicted and simulated stability of a pendulum, and tests the Taylor gains. */
+/* Compares the predicted stability with the stability of runs, for a pendulum. Also tests the
+ * Taylor gains. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,8 +15,8 @@ EVERY_INTEGRATOR(DEFINE)
 
 enum { TAYLOR_STEPS = 400 };
 
-/* The Taylor gains give z^2 = -1, so the violations must repeat with Phi(n + 2) = -Phi(n). Phi' = 0
- * at the start gives Phi(1) = Phi(0). */
+/* For the Taylor gains z^2 = -1. Violations must therefore repeat with Phi(n + 2) = -Phi(n).
+ * Because Phi' = 0 at the start, Phi(1) = Phi(0). */
 static void watch_circle(physics_mechanism which)
 {
   model m = build_mechanism(which);
@@ -39,8 +40,8 @@ static void watch_circle(physics_mechanism which)
   }
   printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", watched.nc,
          TAYLOR_STEPS, worst);
-  /* Relative to the scale, initial violations are at least 1e-7, and the motion adds h^2 |gamma|
-   * per step, about 1e-10. */
+  /* Relative to the scale, the initial violations are at least 1e-7. In each step, the motion adds
+   * h^2 |gamma|, which is about 1e-10. */
   assert_true(worst < 1e-2);
   unwatch(&watched);
   unwatch(&consistent);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares predicted and simulated stability of the free slider-crank. */
+/* Compares the predicted stability with the stability of runs, for the free slider-crank. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares predicted and simulated stability of the four-bar. */
+/* Compares the predicted stability with the stability of runs, for the four-bar. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

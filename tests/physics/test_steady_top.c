@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A heavy top in steady precession over a thousand revolutions, compared with its closed form.
- * Let W be the precession, n the tilt of the axle, A the moment of inertia about an axis across the
- * axle through the joint, and C the one about the axle. The precession is steady if the angular
- * velocity about the axle is
+/* A heavy top precesses steadily for a thousand revolutions. Its motion is compared with the closed
+ * form. Let W be the angular velocity of the precession and n the tilt of the axle. Let C be the
+ * moment of inertia about the axle, and A the moment of inertia about an axis through the joint
+ * across the axle. The precession is steady if the angular velocity about the axle is
  *
  *   w = (m g l + A W^2 cos(n)) / (C W)
  *
- * Its orientation is then a rotation by W t about the vertical, by n, and by (w - W cos(n)) t about
- * the axle (Goldstein, Classical Mechanics, 1980, section 5-7).
+ * The orientation then consists of three rotations: by W t about the vertical, by n, and by (w - W
+ * cos(n)) t about the axle (Goldstein, Classical Mechanics, 1980, section 5-7).
  */
 #include <math.h>
 #include <setjmp.h>
@@ -22,16 +22,19 @@
 #include "check.h"
 #include "rotation.h"
 
-static const double MASS = 1.0;               /* [kg] */
-static const double GRAVITY = 9.81;           /* [m/s^2] */
-static const double ARM = 0.1;                /* [m] from the joint to the centre of mass */
-static const double ACROSS = 0.3;             /* [kg m^2] transverse, at the centre of mass */
+static const double MASS = 1.0;     /* [kg] */
+static const double GRAVITY = 9.81; /* [m/s^2] */
+/* [m] distance from the joint to the centre of mass. */
+static const double ARM = 0.1;
+/* [kg m^2] moment about an axis across the axle, at the centre of mass. */
+static const double ACROSS = 0.3;
 static const double PRECESSION = 0.5;         /* [rad/s] */
 static const double TILT = 0.9;               /* [rad] */
 static const double SPIN = 6.283185307179586; /* [rad/s] about the axle */
 enum { REVOLUTIONS = 1000 };
 
-/* Computes the orientation p: rotations about z by a, about y by TILT and about z by b. */
+/* Computes the orientation p. It consists of rotations about z by a, about y by TILT, and about z
+ * by b. */
 static void orientation_of(double a, double b, double p[4])
 {
   const double about_z[4] = {cos(0.5 * a), 0.0, 0.0, sin(0.5 * a)};
@@ -70,8 +73,8 @@ static baum_mechanism *make_top(void)
   return m;
 }
 
-/* Returns the angle [rad] between the orientation at the end of a run and that of the closed
- * form. */
+/* Returns the angle [rad] between the orientation at the end of a run and the orientation of the
+ * closed form. */
 static double error_of(const baum_integrator *integrator, double rtol)
 {
   baum_mechanism *m = make_top();

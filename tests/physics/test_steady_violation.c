@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steady violations of the Euler methods with Baumgarte's gains. After the initial violation has
- * decayed, every row must fulfil, with gamma at the present state (docs/theory/stabilization.md):
+/* Tests the steady violations of the Euler methods with Baumgarte's gains. After the initial
+ * violation has decayed, every row must satisfy these equations, in which gamma is that at the
+ * present state (docs/theory/stabilization.md):
  *
  *   |Phi'_i| = (h / 2) |gamma_i|,   |Phi_i| = (alpha / beta^2) h |gamma_i|
  */
@@ -16,14 +17,20 @@
 
 enum { SAMPLES = 40, STRIDE = 200, PAIRS = 6 };
 
-static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
-                                       {0.5, 0.8}, {0.8, 0.4}, {0.8, 0.8}}; /* (alpha h, beta h) */
+static const double GAINS[PAIRS][2] = {{0.3, 0.3},
+                                       {0.3, 0.7},
+                                       {0.5, 0.5},
+                                       /* Pairs of (alpha h, beta h). */
+                                       {0.5, 0.8},
+                                       {0.8, 0.4},
+                                       {0.8, 0.8}};
 
-/* Allowed difference of a row from the formula, relative to its own prediction. */
+/* How much a row may differ from the formula, as a fraction of the value that the formula gives. */
 static const double TOLERANCE = 0.02;
-/* An additional difference of LAG h omega times the largest prediction is allowed. Phi follows
- * gamma with a delay of 2 alpha / beta^2 + 1 / alpha, which is at most 10 h. During this time gamma
- * changes by 10 h omega of its largest value, which matters for a row whose gamma is near zero. */
+/* An additional difference is allowed, which is LAG h omega times the largest value that the
+ * formula gives. Phi follows gamma with a delay of 2 alpha / beta^2 + 1 / alpha. This delay is at
+ * most 10 h. During this time, gamma changes by 10 h omega of its largest value. This matters for
+ * rows whose gamma is near zero. */
 static const double LAG = 10.0;
 
 typedef struct motion {
@@ -32,9 +39,9 @@ typedef struct motion {
   double rate; /* [rad/s] largest angular velocity */
 } motion;
 
-/* The pendulum starts horizontally with 3 m/s downwards and reaches 5.4 rad/s, so the gamma of its
- * only row is never near zero. The crank rotates at up to 150 rad/s. Both rotate by more than 1
- * rad. */
+/* The pendulum starts horizontally with 3 m/s downwards, and reaches 5.4 rad/s. Gamma of its only
+ * row is therefore never near zero. The crank rotates at up to 150 rad/s. Both rotate by more than
+ * 1 rad. */
 static const model_pendulum THROWN = {.gravity = 9.81, .x = 1.0, .v = -3.0};
 static const motion MOTIONS[2] = {{PENDULUM, 1e-4, 5.4}, {FREE_CRANK, 1e-6, 150.0}};
 
@@ -49,7 +56,8 @@ static model build_motion(const motion *with)
 }
 
 typedef struct deviation {
-  double phi; /* largest relative difference of rows with |gamma| above a tenth of the largest */
+  /* Largest relative difference, over rows whose |gamma| is above a tenth of the largest. */
+  double phi;
   double phi_rate;
 } deviation;
 
@@ -93,11 +101,11 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
   return watch(m->mechanism, &options);
 }
 
-/* Compares the largest violation of the run with the largest prediction, which the counters
- * contain. They agree if gamma is largest late in the run, as for the pendulum. For the free crank
- * gamma is largest at the start. There Phi rises from zero and overshoots like a step response, by
- * at most 100 %; 90 % was measured with explicit Euler and (0.3, 0.7), whose roots have the modulus
- * 0.94. */
+/* Compares the largest violation of the run with the largest violation that is predicted. Both are
+ * in the counters. They agree if gamma is largest late in the run, as it is for the pendulum. For
+ * the free crank, gamma is largest at the start. There Phi rises from zero and overshoots like a
+ * step response, by at most 100 %. With explicit Euler and (0.3, 0.7), whose roots have the modulus
+ * 0.94, an overshoot of 90 % was measured. */
 static void compare_counters(const watched_run *watched, physics_mechanism which)
 {
   baum_counters c = read_counters(watched);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A double pendulum of two rods of 1 m and 1 kg, which a bushing joins: in each of two directions a
- * spring of 1e6 N/m and a damper of 1e3 N s/m. Motion in the bushing decays at 1e3 to 1e4 1/s,
- * within milliseconds, while the rods swing at 3 to 7 rad/s. This is stiff: Adams needs short
- * steps, but BDF at the same tolerance must not. */
+/* A double pendulum has two rods of 1 m and 1 kg. They are joined by a bushing, which has a spring
+ * of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. Motion in the bushing decays with
+ * 1e3 to 1e4 1/s, that is, within milliseconds. The rods swing at 3 to 7 rad/s. This problem is
+ * stiff. Adams methods need short steps for it, but BDF must not need them at the same
+ * tolerance. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +19,7 @@ enum { COORDINATES = 6 };
 static const double STIFFNESS = 1e6; /* [N/m] */
 static const double DAMPING = 1e3;   /* [N s/m] */
 static const double ARM = 0.1;       /* [m] length of the springs */
-static const double ANGLE = -1.0;    /* [rad] angle of both rods from the x axis */
+static const double ANGLE = -1.0;    /* [rad] of both rods, from the x axis */
 static const double END = 5.0;       /* [s] */
 
 static baum_body_id add_rod(baum_mechanism *mechanism, double from)
@@ -90,7 +91,7 @@ static stiff_run run_to_the_end(const baum_mechanism *mechanism, const baum_inte
   return out;
 }
 
-/* Returns the largest difference of positions, in m and rad. */
+/* Returns the largest difference of positions, in m or rad. */
 static double error_of(const stiff_run *run, const stiff_run *want)
 {
   double error = 0.0;
@@ -115,8 +116,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
   (void)state;
   need_sundials();
   baum_mechanism *mechanism = make_rods();
-  /* The reference is a run of an explicit method. The bushing limits its steps, so its error is far
-   * below all others. */
+  /* The reference is a run of an explicit method. The bushing forces this method to short steps, so
+   * that its error is far below all others. */
   stiff_run want = run_to_the_end(mechanism, baum_rk8(), BAUM_FORMULATION_PROJECTION, 1e-9);
   printf("\n%-12s %-13s %8s %8s %12s %10s\n", "bushing", "", "rtol", "steps", "evaluations",
          "error");
@@ -127,8 +128,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
     stiff_run bdf = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-4, &want);
     assert_true(20 * bdf.counters.steps <= adams.counters.steps);
     stiff_run finer = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-7, &want);
-    /* The tolerance is three decades tighter, which should reduce the error by about 250 at order 4
-     * to 5. A wrong Jacobian would show in the number of steps, not here. */
+    /* The tolerance is three decades tighter. At order 4 to 5, this should reduce the error by a
+     * factor of about 250. A wrong Jacobian would not show here, but in the number of steps. */
     assert_true(error_of(&finer, &want) <= error_of(&bdf, &want) / 10.0);
   }
   baum_mechanism_destroy(mechanism);

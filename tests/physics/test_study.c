@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks what a study reports: its reference, its errors and its recommendations. */
+/* Checks what a study reports: its reference, its errors, and its recommendations. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@ enum { WIDEST = 300, SAMPLES = 20, MOST = 512 };
 
 /* ---- references ---- */
 
-/* Samples of the study's reference at times for which the catalogue has a reference too. n is
+/* Samples of a study's own reference, at times for which the catalogue also has a reference. n is
  * initially 0. */
 typedef struct samples {
   int n;
@@ -40,8 +40,8 @@ static void take_common(const baum_study *study, const baum_catalog_choice *choi
   assert_true(out->n > 0);
 }
 
-/* Runs a study of a catalogue entry that computes its own reference. A study needs at least one
- * entry; its results are not used. */
+/* Runs a study of a catalogue entry. The study computes its own reference. Every study needs at
+ * least one entry, but the results of this entry are not used. */
 static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_entry *entry)
 {
   baum_study *study = NULL;
@@ -59,8 +59,8 @@ static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_
   return study;
 }
 
-/* Compares the study's own reference with that of the catalogue, and its estimated error with the
- * actual difference. */
+/* Compares the reference that the study computes with the reference of the catalogue. Also compares
+ * the estimated error of this reference with the actual difference. */
 static void check_entry(const baum_catalog_entry *entry)
 {
   const baum_catalog_choice choice = {.name = entry->name};
@@ -83,8 +83,8 @@ static void check_entry(const baum_catalog_entry *entry)
                 -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
                 r.trusted ? "" : ", untrusted");
   if (r.trusted) {
-    /* The estimated error is the largest of three differences. The true error may be larger by a
-     * small factor. */
+    /* The estimated error is the largest of three differences. The true error may be larger than
+     * this by a small factor. */
     assert_true(error.q <= 4.0 * fmax(r.uncertainty, error.q_floor));
   }
   if (entry->smooth && entry->digits_q >= 10.5) {
@@ -106,7 +106,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
   }
 }
 
-/* The motion passes through a flat configuration, which is a bifurcation. */
+/* This motion passes through a flat configuration, which is a bifurcation. */
 static void a_motion_past_a_singular_configuration_has_no_trusted_reference(void **state)
 {
   (void)state;
@@ -166,7 +166,8 @@ static int circle_solution(double t, double *q, double *v, double *lambda, void 
   return 0;
 }
 
-/* The solution is a particle on a circle without gravity, which moves at a constant 1 rad/s. */
+/* The given solution is the motion of a particle on a circle without gravity. It moves at a
+ * constant 1 rad/s. */
 static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
 {
   (void)state;
@@ -190,11 +191,14 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_int_equal(baum_study_run(study), BAUM_OK);
   baum_study_method method;
   assert_int_equal(baum_study_method_at(study, 0, &method, sizeof method), BAUM_OK);
-  assert_true(fabs(method.slope - 4.0) < 0.3); /* the order, except for large steps */
+  /* This is the order of rk4, if the largest steps are disregarded. */
+  assert_true(fabs(method.slope - 4.0) < 0.3);
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
   baum_study_entry entry = study_entry(study, 5);
-  assert_true(entry.at_floor && entry.error == 1e-12); /* the accuracy given for the solution */
-  assert_true(isnan(entry.error_lambda));              /* the solution gives no multipliers */
+  /* The accuracy that was stated for the solution. */
+  assert_true(entry.at_floor && entry.error == 1e-12);
+  /* The error of the multipliers is unknown, because the solution gives no multipliers. */
+  assert_true(isnan(entry.error_lambda));
   baum_study_destroy(study);
   model_destroy(&m);
 }
@@ -218,8 +222,8 @@ static void two_threads_give_the_entries_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* An entry must be on the front unless another entry on the front is at least as good in both cost
- * and error. The front must be ordered from cheap to accurate. */
+/* An entry must be on the front, unless another entry on the front is at least as good in cost and
+ * in error. The front must be ordered from cheap to accurate. */
 static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
   for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
@@ -313,10 +317,10 @@ static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(v
                    BAUM_OK);
   assert_true(fabs(cost - sqrt(entries[0].work * entries[1].work)) < 1e-9 * cost);
   double ratio = 0.0;
-  int32_t exact = baum_study_method_count(study) - 1; /* rk8 */
+  int32_t exact = baum_study_method_count(study) - 1; /* the last method is rk8 */
   assert_int_equal(
     baum_study_compare(study, exact, method, entries[1].error, BAUM_STUDY_WORK, &ratio), BAUM_OK);
-  assert_true(ratio > 0.0 && ratio < 1.0); /* here order 8 is cheaper than order 4 */
+  assert_true(ratio > 0.0 && ratio < 1.0); /* in this case order 8 is cheaper than order 4 */
   assert_int_equal(baum_study_cost_at(study, method, 1e-30, BAUM_STUDY_WORK, &cost),
                    BAUM_ERR_ARGUMENT);
   assert_non_null(strstr(baum_message(), "has been measured with errors from"));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs the stress grid as a study. Every entry must meet its tolerance, or have a warning or a
- * message. */
+/* Runs the grid of stress settings as a study. Every entry must either meet its tolerance, or have
+ * a warning or a message. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,8 +28,8 @@ static baum_study *stress_of(const baum_mechanism *mechanism, const baum_integra
   return study;
 }
 
-/* Returns the largest allowed error of an entry without a warning: 0.1 with a fixed step, otherwise
- * 10 rtol per step, and rounding. */
+/* Returns the largest error that an entry without a warning may have. With a fixed step it is 0.1.
+ * Otherwise it is 10 rtol for each step, plus rounding. */
 static double promise(const baum_study_entry *entry)
 {
   const double rounding = 1e-12;
@@ -68,7 +68,7 @@ static void no_entry_is_silently_wrong(void **state)
     baum_study_destroy(study);
   }
   assert_true(seen[BAUM_STUDY_DONE] > 0);
-  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* rk4 with unstable gains */
+  assert_true(seen[BAUM_STUDY_REFUSED] > 0); /* for example rk4 with unstable gains */
   assert_true(seen[BAUM_STUDY_TIMED_OUT] > 0);
 }
 

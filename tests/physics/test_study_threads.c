@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs studies with many threads on one mechanism, and several such studies at once. Their entries
- * must equal those of one thread to the last bit. This test also runs under the thread sanitizer.
+/* Runs studies that use many threads on one mechanism, and several such studies at once. Their
+ * entries must be equal to those of one thread, to the last bit. This test also runs under the
+ * thread sanitizer.
  *
- * Only the main thread may use cmocka's checks; the other threads return their results.
+ * Only the main thread may use the checks of cmocka. The other threads return their results to
+ * it.
  */
 #include <math.h>
 #include <pthread.h>
@@ -22,12 +24,12 @@
 
 enum { THREADS = 8, STUDIES = 3 };
 
-/* Counts the calls of a progress function. Calls must not overlap. */
+/* Counts the calls of a progress function. No call may begin while another one is running. */
 typedef struct seen {
   atomic_int inside;
-  atomic_int together; /* number of calls during another call */
+  atomic_int together; /* number of calls that began while another one was running */
   int calls;
-  int cancel_at; /* 0: never */
+  int cancel_at; /* number of the call that cancels the study; 0 if none does */
 } seen;
 
 static int look(const baum_study *study, int32_t done, int32_t total, void *user)
@@ -42,7 +44,7 @@ static int look(const baum_study *study, int32_t done, int32_t total, void *user
   return s->calls == s->cancel_at;
 }
 
-/* A study with two entries for every integrator and kind of step. */
+/* Makes a study that has two entries for every integrator and kind of step. */
 static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 {
   baum_study *study = NULL;
@@ -129,7 +131,8 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
 
 /* ---- cancelling ---- */
 
-/* Another thread cancels the study repeatedly while it runs. Afterwards the study is completed. */
+/* Another thread cancels the study several times while it runs. Afterwards, the study is run to its
+ * end. */
 static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 {
   (void)state;
@@ -147,7 +150,7 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
   }
   assert_int_equal(pthread_join(thread, NULL), 0);
   check(j.status);
-  for (int k = 1; k <= 3; k++) { /* the progress function cancels after an entry */
+  for (int k = 1; k <= 3; k++) { /* the progress function cancels after one entry */
     j.seen.calls = 0;
     j.seen.cancel_at = 3 * k;
     check(baum_study_run(j.study));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Builds planar mechanisms of the catalogue from spatial elements in a tilted plane (twins), and
- * compares them with their planar references. */
+/* Builds planar mechanisms of the catalogue from spatial elements, in a tilted plane. These are
+ * called twins, and they are compared with the planar references. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@
 
 enum { MOST_BODIES = 7 };
 
-/* An entry of the catalogue, and the number of closed loops of its spatial twin. */
+/* An entry of the catalogue, and how many closed loops its spatial twin has. */
 typedef struct tilted {
   const char *entry;
   int loops;
@@ -50,8 +50,8 @@ static void loops_have_three_redundant_rows(void **state)
   }
 }
 
-/* Returns the largest error of all bodies: of positions relative to `length`, of angles in rad
- * modulo 2 pi. */
+/* Returns the largest error of all bodies. Errors of positions are relative to `length`. Errors of
+ * angles are in rad, modulo 2 pi. */
 static double error_at(const baum_catalog_choice *choice, const baum_simulation *run, int bodies,
                        double t, double length)
 {
@@ -99,8 +99,8 @@ static void tilted_mechanisms_move_as_planar_ones(void **state)
   }
 }
 
-/* The rows that hold the bodies in the plane contain only rounding errors, so their multipliers are
- * amplified rounding errors. QR must accept this. */
+/* The rows that hold the bodies in the plane contain only rounding errors. Their multipliers are
+ * therefore amplified rounding errors. QR must accept this. */
 static void qr_solves_rows_that_contain_only_rounding(void **state)
 {
   (void)state;
@@ -112,7 +112,8 @@ static void qr_solves_rows_that_contain_only_rounding(void **state)
   o.solver = BAUM_SOLVER_QR;
   o.step = 1e-3;
   check(baum_simulation_create(m, &o, &run));
-  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED); /* of redundant rows */
+  /* The warning is about redundant rows. */
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED);
   assert_true(baum_simulation_time(run) == 2.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -141,9 +142,9 @@ static baum_counters counters_of(const baum_catalog_choice *choice,
   return counters;
 }
 
-/* The rod is longer than the crank by 1e-12, so the folded configuration is nearly singular. One
- * step of rk8 passes over it. Near it other rows are omitted than elsewhere; the crossing must be
- * reported nevertheless. */
+/* The rod is longer than the crank by 1e-12. The folded configuration is therefore nearly singular.
+ * One step of rk8 passes over it. Near this configuration, other rows are omitted than elsewhere.
+ * The crossing must be reported nevertheless. */
 static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 {
   (void)state;
@@ -163,9 +164,9 @@ static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 }
 
 #if BAUM_HAVE_SUNDIALS
-/* Five cranks fall through the horizontal, where they are singular, twice. The second time the run
- * continues on a branch whose configurations are all singular, so the second near-singular interval
- * does not end. */
+/* Five cranks fall through the horizontal twice. In this configuration they are singular. The
+ * second time, the run continues on a branch on which all configurations are singular. The second
+ * near-singular interval therefore does not end. */
 static void branches_of_singular_configurations_are_told(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tighter tolerance must give a smaller error. Compares variable-step integrators for the index-1
- * equations with references, with rtol from 1e-4 to 1e-10. */
+/* A tighter tolerance must give a smaller error. Integrators with variable steps are tested with
+ * the index-1 equations. They are compared with references, with rtol from 1e-4 to 1e-10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,18 +18,21 @@
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
 
-/* Least factor by which the error must fall per decade of rtol, as the geometric mean over all
- * mechanisms. An error proportional to rtol falls tenfold. */
+/* When rtol decreases by a factor of 10, the error must fall by at least this factor, in the
+ * geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
+ * 10. */
 static const double LEAST_FALL = 7.0;
-/* The same for BDF. At order p the error is proportional to rtol^(p / (p + 1)), so at the highest
- * order 5 it falls by 6.8, at order 3 by 5.6. Measured: 7.0 (CVODE) and 7.2 to 7.3 (IDA). The means
- * over 40 initial configurations or end times of each mechanism are 6.5 and 6.4. */
+/* The same factor for BDF. At order p, the error is proportional to rtol^(p / (p + 1)). It falls by
+ * a factor of 6.8 at the highest order, 5, and by 5.6 at order 3. The factors measured were 7.0 for
+ * CVODE and 7.2 to 7.3 for IDA. Over 40 initial configurations or end times of each mechanism, the
+ * means are 6.5 and 6.4. */
 static const double LEAST_FALL_OF_BDF = 6.0;
-/* The same for a single mechanism, where an error that is small by chance has more influence. */
+/* The same factor for a single mechanism. Here an error that is small by chance has more
+ * influence. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
-/* Uses nine samples: 1 to 2 revolutions of the crank, or 2 swings of the pendulum. In longer runs
- * the errors at rtol 1e-4 would reach 1 rad and stop growing. */
+/* The runs have nine samples. This is 1 to 2 revolutions of the crank, or 2 swings of the pendulum.
+ * In longer runs, the errors at rtol 1e-4 would reach 1 rad and stop growing. */
 static const reference REFERENCES[REFERENCE_COUNT] = {
   [PENDULUM] = {.samples = 9,
                 .width = A01_PENDULUM_WIDTH,
@@ -50,9 +53,9 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
     {.samples = 9, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Returns the factor by which the error falls per decade, from a line fitted to the logarithms.
- * Single small errors influence it less than the factor between the first and the last
- * tolerance. */
+/* Returns by which factor the error falls when rtol decreases by a factor of 10. It is found from a
+ * line through the logarithms. Single small errors influence this line less than they would
+ * influence the ratio of the first to the last error. */
 static double fit_fall(const double error[TOLERANCES])
 {
   double sum = 0.0;
@@ -106,7 +109,8 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
   int fits = 0;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
-    /* Without degrees of freedom, projection leaves only rounding at any tolerance. */
+    /* If there are no degrees of freedom, projection leaves only rounding errors, whatever the
+     * tolerance. */
     if (which == DRIVEN_CRANK && formulation == BAUM_FORMULATION_PROJECTION) {
       continue;
     }

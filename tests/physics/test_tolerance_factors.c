@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The options tolerance_q and tolerance_v, for every variable-step method: if one is loose, the
- * other alone controls the error. Both together act like another rtol. */
+/* Tests the options tolerance_q and tolerance_v with every method that has variable steps. If one
+ * of them is loose, the other one alone must control the error. If both have the same value, the
+ * result must be the same as with another rtol. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +14,7 @@
 #include "physics_run.h"
 #include "reference.h"
 
-/* The first two seconds of the motion, about one swing. */
+/* The first two seconds of the motion, which are about one swing. */
 static const reference SWING = {.name = "pendulum",
                                 .samples = 4,
                                 .width = A01_PENDULUM_WIDTH,
@@ -23,9 +24,10 @@ static const reference SWING = {.name = "pendulum",
 static const double RTOL = 1e-5;
 static const double SMALL = 1e-3;
 static const double OUT_OF_THE_WAY = 1e6;
-/* Least factor by which the error must fall if a tolerance is multiplied by SMALL = 1e-3. At order
- * p the error falls by (1e3)^(p/(p+1)), which is 100 to 500 at orders 2 to 8. 22 to 7e3 was
- * measured, because the error of a single swing may be small by chance. */
+/* If a tolerance is multiplied by SMALL = 1e-3, the error must fall by at least this factor. At
+ * order p, the error falls by a factor of (1e3)^(p/(p+1)). For orders 2 to 8 this is 100 to 500.
+ * Factors from 22 to 7e3 were measured, because the error of a single swing may be small by
+ * chance. */
 static const double LEAST_FALL = 10.0;
 
 typedef struct factors {
@@ -90,8 +92,8 @@ static void try_factors(const baum_integrator *integrator, baum_formulation form
     compare("tolerance_v", integrator, formulation, (factors){OUT_OF_THE_WAY, 1.0},
             (factors){OUT_OF_THE_WAY, SMALL});
   }
-  /* Both runs have the same tolerances. Only the first step differs with some methods, because it
-   * depends on rtol only. */
+  /* Both runs have the same tolerances. With some methods only the first step differs, because it
+   * depends only on rtol. */
   reference_run both = run_with(integrator, formulation, RTOL, (factors){SMALL, SMALL});
   reference_run rtol = run_with(integrator, formulation, RTOL * SMALL, (factors){1.0, 1.0});
   printf("%-14s %-14s %-12s error %.1e and %.1e, steps %5lld and %5lld\n", "both, or rtol",

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A torque-free body over a thousand revolutions, compared with a Taylor series solution of Euler's
- * equations in long double:
+/* A body rotates without torques for a thousand revolutions. Its motion is compared with a Taylor
+ * series solution of Euler's equations in long double:
  *
  *   I w' = (I w) x w,   p' = p o (0, w) / 2
  *
- * Also tests that its energy and angular momentum are constant.
+ * The energy and the angular momentum of the body must be constant.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -19,8 +19,8 @@
 #include "check.h"
 #include "rotation.h"
 
-/* The body rotates about nearly the middle principal axis, so it tumbles from time to time. It
- * makes about one revolution per second. */
+/* The body rotates almost about its middle principal axis. It therefore tumbles from time to time.
+ * It makes about one revolution per second. */
 static const double MOMENTS[3] = {1.0, 2.0, 2.7};
 static const double P[4] = {0.5, 0.5, -0.5, 0.5};
 static const double W[3] = {0.6, 6.2, 0.5};
@@ -28,7 +28,8 @@ enum { REVOLUTIONS = 1000 };
 
 /* ---- reference ---- */
 
-/* With these, the last Taylor term of a step is 0.5^40 of a revolution, far below rounding. */
+/* With these numbers, the last Taylor term of a step is 0.5^40 of a revolution, which is far below
+ * rounding. */
 enum { TERMS = 40, STEPS_A_SECOND = 16 };
 
 typedef struct series {
@@ -36,7 +37,7 @@ typedef struct series {
   long double p[TERMS + 1][4];
 } series;
 
-/* Return the Taylor coefficient n of the products p_i w_j and w_i w_j. */
+/* These functions return Taylor coefficient n of the products p_i w_j and w_i w_j. */
 static long double of_p_w(const series *s, int i, int j, int n)
 {
   long double sum = 0.0L;
@@ -132,11 +133,11 @@ static void momentum_of(const double p[4], const double w[3], double out[3])
   rotate(p, own, out);
 }
 
-/* Errors of a run after all revolutions. */
+/* The errors of a run after all revolutions. */
 typedef struct errors {
   double angle; /* [rad] */
   double energy;
-  double momentum; /* this and energy: relative errors */
+  double momentum; /* this and `energy` are relative errors */
 } errors;
 
 static errors run(const baum_integrator *integrator, double step, double rtol,
@@ -164,7 +165,8 @@ static errors run(const baum_integrator *integrator, double step, double rtol,
   for (int i = 0; i < 3; i++) {
     double size = sqrt(before[0] * before[0] + before[1] * before[1] + before[2] * before[2]);
     e.momentum = fmax(e.momentum, fabs(after[i] - before[i]) / size);
-    assert_true(fabs(q[i] - v[i] * REVOLUTIONS) <= 1e-9); /* the centre moves in a straight line */
+    /* The centre must move in a straight line. */
+    assert_true(fabs(q[i] - v[i] * REVOLUTIONS) <= 1e-9);
   }
   baum_simulation_destroy(s);
   baum_mechanism_destroy(m);
@@ -216,8 +218,9 @@ static void cvode_bdf_keeps_the_orientation_for_a_thousand_revolutions(void **st
 #endif
 }
 
-/* RATTLE has order 2, so the error of the orientation is large after 100 000 steps of 4 degrees.
- * The momentum is kept to rounding nevertheless, and the error of the energy is bounded. */
+/* RATTLE has order 2. After 100 000 steps of 4 degrees, the error of the orientation is therefore
+ * large. Nevertheless, the momentum must be kept to rounding, and the error of the energy must be
+ * bounded. */
 static void rattle_keeps_the_angular_momentum_to_rounding(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accuracy after 10000 revolutions. The angle of a body is one number that is never reduced by
- * revolutions, so its rounding limits the accuracy: 7e-12 rad at 6e4 rad. */
+/* Tests the accuracy after 10000 revolutions. The angle of a body is one number, from which whole
+ * revolutions are never subtracted. Its rounding error therefore limits the accuracy. At 6e4 rad it
+ * is 7e-12 rad. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,11 +13,12 @@
 #include "posed.h"
 
 static const double TURNS = 1e4;
-/* 2 pi is TURN + TURN_REST, so that TURNS revolutions can be subtracted without rounding. */
+/* The sum TURN + TURN_REST is 2 pi. With both parts, TURNS revolutions can be subtracted without
+ * rounding. */
 static const double TURN = 6.283185307179586;
 static const double TURN_REST = 2.4492935982947064e-16;
 
-/* Limit for ordinary configurations, as in test_acceleration_accuracy.c. */
+/* The limit for ordinary configurations, as in test_acceleration_accuracy.c. */
 static const double ORDINARY = 1e-12;
 
 enum { CASES = 5, STEPS = 200, LINKS = 10 };
@@ -34,8 +36,8 @@ static baum_status build_chain(double shift, model *m)
   return model_chain_build(&data, m);
 }
 
-/* Poses a mechanism whose angles are shifted. In slider-cranks only the angle of the crank is
- * shifted. */
+/* Makes a mechanism in which all angles are shifted by `shift`. In slider-cranks, only the angle of
+ * the crank is shifted. */
 static posed pose_case(int which, double shift)
 {
   model m;
@@ -52,7 +54,7 @@ static posed pose_case(int which, double shift)
   return pose_model(status, m);
 }
 
-/* Subtracts the revolutions from all shifted angles. */
+/* Subtracts the TURNS revolutions from all angles that were shifted. */
 static void turn_back(int count, double *q)
 {
   for (int i = 2; i < count; i += 3) {
@@ -93,15 +95,15 @@ static baum_simulation *start_run(const posed *p, const baum_simulation_options 
   return run;
 }
 
-/* Returns the largest difference at `end` between runs with and without the revolutions. Lengths
- * are relative to the characteristic length. */
+/* Returns the largest difference at `end` between two runs, of which one has the additional
+ * revolutions. Differences of lengths are relative to the characteristic length. */
 static double compare_runs(int which, const baum_simulation_options *options, double end)
 {
   posed p = pose_case(which, TURNS * TURN);
   double scale = (double)NAN;
   check(baum_mechanism_get_characteristic_length(p.m.mechanism, &scale));
   baum_simulation *turned = start_run(&p, options);
-  /* Makes a new mechanism, because drivers start from the design configuration. */
+  /* The second run needs a new mechanism, because drivers start from the design configuration. */
   posed other = pose_case(which, 0.0);
   turn_back(p.nv, p.q);
   (void)memcpy(other.q, p.q, (size_t)p.nv * sizeof *p.q);
@@ -125,8 +127,8 @@ static double compare_runs(int which, const baum_simulation_options *options, do
 static void fixed_steps_differ_by_the_rounding_of_angles(void **state)
 {
   (void)state;
-  /* Each of the 200 steps rounds an angle by at most 3.6e-12 rad, in total by 7.3e-10 rad. The
-   * motion, of at most 1 s, amplifies this at most tenfold. */
+  /* Each of the 200 steps rounds an angle by at most 3.6e-12 rad. Together this is 7.3e-10 rad. The
+   * motion takes at most 1 s. It amplifies this error at most tenfold. */
   const double limit = 7.3e-9;
   int failures = 0;
   printf("\n%-24s %10s\n", "200 steps of RK4", "apart");
@@ -145,7 +147,7 @@ static void variable_steps_differ_by_their_tolerance(void **state)
 {
   (void)state;
   enum { METHODS = 4 };
-  /* Builds without SUNDIALS have only the first two. */
+  /* A build without SUNDIALS has only the first two methods. */
   const int methods_here = BAUM_HAVE_SUNDIALS ? METHODS : 2;
   int failures = 0;
   const baum_integrator *methods[METHODS] = {baum_dp5(), baum_rk8(), baum_cvode_adams(),
@@ -158,8 +160,8 @@ static void variable_steps_differ_by_their_tolerance(void **state)
     options.rtol = 1e-8;
     double worst = compare_runs(which, &options, which < 2 ? 2e-3 : 0.2);
     printf("%-24s %-12s %10.1e\n", NAMES[which], baum_integrator_name(options.integrator), worst);
-    /* Rounding changes the choice of steps, so results differ by the error of the method, which is
-     * larger for IDA. */
+    /* Rounding changes the choice of steps. The results therefore differ by the error of the
+     * method, which is larger for IDA. */
     failures += worst <= (options.integrator == baum_ida() ? 100.0 : 10.0) * options.rtol ? 0 : 1;
   }
   assert_int_equal(failures, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism in millimetres, grams and milliseconds must have the same motion, with the same
- * steps, as in metres, kilograms and seconds. */
+/* A mechanism described in millimetres, grams and milliseconds must have the same motion, with the
+ * same steps, as in metres, kilograms and seconds. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,8 +14,9 @@ enum { CASES = 6, LINKS = 10 };
 
 static const char *const NAMES[CASES] = {"slider-crank", "slider-crank, driven", "four-bar",
                                          "Andrews",      "four-bar N = 10",      "chain N = 10"};
-/* [s] Some revolutions of the slider-cranks and of Andrews' mechanism, and swings of the others.
- * The times are so short that the motion amplifies rounding little. */
+/* [s] The slider-cranks and Andrews' mechanism make some revolutions in these times, and the other
+ * mechanisms make some swings. The times are short enough for the motion to amplify rounding errors
+ * only a little. */
 static const double END[CASES] = {0.02, 0.02, 0.5, 0.005, 0.5, 0.5};
 
 static baum_status build_chain(const model_units *units, model *m)
@@ -44,11 +45,12 @@ static baum_status build_case(int which, const model_units *units, model *m)
 }
 
 typedef struct pair {
-  double apart; /* largest difference of positions; lengths relative to the characteristic length */
+  /* Largest difference of positions; lengths are divided by the characteristic length. */
+  double apart;
   int64_t steps[2];
 } pair;
 
-/* Runs until `end` [s]. `end` and `options` are in SI units; they are converted to `units`. */
+/* Runs until `end` [s]. `end` and `options` are in SI units, and are converted to `units`. */
 static baum_simulation *run_in(const model *m, const model_units *units,
                                const baum_simulation_options *options, double end, int64_t *steps)
 {
@@ -99,7 +101,7 @@ static void print_pair(int which, const baum_simulation_options *options, const 
 static void fixed_steps_lead_to_the_same_place(void **state)
 {
   (void)state;
-  /* Rounding in several hundred steps. */
+  /* The limit is the rounding error of several hundred steps. */
   const double limit = 1e-10;
   enum { METHODS = 4 };
   const baum_integrator *methods[METHODS] = {baum_semi_implicit_euler(), baum_rk4(), baum_dp5(),
@@ -125,7 +127,7 @@ static void variable_steps_are_the_same_within_two_percent(void **state)
 {
   (void)state;
   enum { METHODS = 9 };
-  /* Builds without SUNDIALS have only the first four. */
+  /* A build without SUNDIALS has only the first four methods. */
   const int methods_here = BAUM_HAVE_SUNDIALS ? METHODS : 4;
   const baum_integrator *methods[METHODS] = {baum_dp5(), baum_dp5(),         baum_rk8(),
                                              baum_rk8(), baum_cvode_adams(), baum_cvode_bdf(),
@@ -143,7 +145,7 @@ static void variable_steps_are_the_same_within_two_percent(void **state)
     options.rtol = 1e-6;
     pair found = compare_units(k / methods_here, &options);
     print_pair(k / methods_here, &options, &found);
-    /* Rounding may change the choice of single steps. */
+    /* Rounding may change which steps are chosen. */
     double more = fabs((double)(found.steps[1] - found.steps[0]));
     bool same = more <= 0.02 * (double)found.steps[0];
     failures += same && found.apart <= 10.0 * options.rtol ? 0 : 1;

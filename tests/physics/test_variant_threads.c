@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several threads at once make a thousand variants of one mechanism, by copy, set and freeze. This
- * test also runs under the thread sanitizer.
+/* Several threads at once make a thousand variants of one mechanism. Each is copied, changed and
+ * frozen. This test also runs under the thread sanitizer.
  *
- * The variants have different slider masses m. The crank is driven, so accelerations do not depend
- * on m, and multipliers are lambda_0 + m lambda_1.
+ * The variants have different slider masses m. The crank is driven, so that accelerations do not
+ * depend on m. The multipliers are lambda_0 + m lambda_1.
  *
- * Only the main thread may use cmocka's checks; the other threads return their results.
+ * Only the main thread may use the checks of cmocka. The other threads return their results to
+ * it.
  */
 #include <math.h>
 #include <pthread.h>
@@ -28,13 +29,14 @@ static double mass_of(int k)
   return 0.05 + 1e-3 * k;
 }
 
-/* The share of one thread: the variants first, first + threads, first + 2 threads, and so on. */
+/* The part of one thread. It makes the variants first, first + threads, first + 2 threads, and so
+ * on. */
 typedef struct share {
   const variant_plan *plan;
   int first;
   int threads;
   variant_result *results; /* (VARIANTS) */
-  baum_status status;      /* first failure of the thread */
+  baum_status status;      /* the first failure in this thread */
 } share;
 
 static void *make_share(void *argument)
@@ -66,7 +68,7 @@ static double make_in_threads(const variant_plan *plan, int threads, variant_res
   return (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
 }
 
-/* A plan, and its variants as one thread makes them. */
+/* A plan, and the variants that one thread makes of it. */
 typedef struct fixture {
   variant_plan plan;
   variant_result *serial;
@@ -102,7 +104,8 @@ static double largest(const double *x, int count)
   return out;
 }
 
-/* Tolerances of 1e-12 allow for rounding of two solutions in an ordinary configuration. */
+/* The tolerances of 1e-12 allow for the rounding errors of two solutions in an ordinary
+ * configuration. */
 static void each_variant_has_its_own_mass(void **state)
 {
   const fixture *f = *state;
@@ -111,7 +114,7 @@ static void each_variant_has_its_own_mass(void **state)
   double a_size = largest(first->a, COLUMNS);
   double lambda_size = largest(last->lambda, ROWS);
   assert_true(a_size > 0.0);
-  /* The largest mass is 20 times the smallest, so the multipliers differ clearly. */
+  /* The largest mass is 20 times the smallest. The multipliers therefore differ clearly. */
   assert_true(lambda_size > 2.0 * largest(first->lambda, ROWS));
   for (int k = 0; k < VARIANTS; k++) {
     double part = (mass_of(k) - mass_of(0)) / (mass_of(VARIANTS - 1) - mass_of(0));

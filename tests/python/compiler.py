@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A C compiler for tests that need one, and the folder of the project."""
+"""Finds a C compiler for tests that need one. Also gives the folder of the project."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ CC = next(
 
 
 class Folder(tempfile.TemporaryDirectory):
-    """A folder in which a test can compile C; it exists as long as the test runs."""
+    """A folder in which a test can compile C. It is removed at the end of the test."""
 
     def _compile(self, source, name, *flags):
         path, output = Path(self.name) / "source.c", Path(self.name) / name
@@ -31,9 +31,9 @@ class Folder(tempfile.TemporaryDirectory):
         return str(output)
 
     def program(self, source):
-        """Path of a program."""
+        """Compile a program and return its path."""
         return self._compile(source, "program")
 
     def shared_object(self, source, name="libtest.so"):
-        """Path of a shared library."""
+        """Compile a shared library and return its path."""
         return self._compile(source, name, "-shared", "-fPIC")

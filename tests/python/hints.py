@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Uses of the interface that mypy and pyright check in stage types. This file is never run.
+"""Uses of the interface. Stage types checks them with mypy and pyright. This file is never run.
 
-Each "ignore" comment marks an error that the type checkers must find, because --strict refuses
-needless comments.
+Each "ignore" comment marks an error that the type checkers must find. If they did not find it,
+--strict would refuse the comment as unnecessary.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python copy of the C interface agrees with the headers, and with a C compiler's view of
-them."""
+"""Tests that the Python copy of the C interface agrees with the headers, and with what a C compiler
+makes of them."""
 
 import ctypes
 import importlib.util

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Break times, and the messages of a run about singular configurations; the rest is tested in C."""
+"""Tests break times, and a run's messages about singular configurations. Everything else about them
+is tested in C."""
 
 import math
 import unittest
@@ -23,7 +24,7 @@ class Breaks(unittest.TestCase):
         m.force("push", [ball], lambda t, q, v: (1.0 if t >= 0.7 else 0.0, 0.0))
         m.add_break_times([0.7])
         run = m.freeze().simulate([2], "rk8", rtol=1e-10)
-        # After the break the force is constant, so the method is exact except for rounding.
+        # After the break the force is constant. The method is therefore exact, except for rounding.
         self.assertAlmostEqual(run.q[-1, 0], 1.3**2 / 2, 12)
         self.assertEqual(run.counters.restarts, 1)
 

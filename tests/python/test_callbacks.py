@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions of the user: values, shapes, exceptions, compiled ones."""
+"""Tests user functions: their values, shapes and exceptions, and compiled functions."""
 
 import ctypes
 import sys
@@ -15,7 +15,7 @@ SUNDIALS = baum.has("sundials")
 
 
 def evaluate(phi, rows=1):
-    """Phi of a particle at (3, 4) with the given function."""
+    """Return Phi of a particle at (3, 4), computed by the given function."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", position=(3, 4))
     m.constraint("c", [bob], rows=rows, phi=phi)
@@ -95,7 +95,7 @@ class Values(unittest.TestCase):
 
     @staticmethod
     def swing(**changed):
-        """A pendulum whose angle is (cos, sin)."""
+        """A pendulum whose angle is represented by (cos, sin)."""
 
         def move(h, v, q):
             c, s = np.cos(h * v[0]), np.sin(h * v[0])
@@ -197,7 +197,7 @@ class Values(unittest.TestCase):
 
 class Costs(unittest.TestCase):
     def calls(self, **functions):
-        """Calls in a step of rk4 of a pendulum with these functions."""
+        """Return the calls in a step of rk4, for a pendulum with these functions."""
         calls = []
 
         def counted(function):
@@ -211,7 +211,7 @@ class Costs(unittest.TestCase):
         return len(calls) / 10
 
     def test_derivatives_spare_most_calls(self):
-        """The figures of the documentation, which tests/bench/bench_python.py prints."""
+        """The documentation contains these numbers. tests/bench/bench_python.py prints them."""
         plain = self.calls(phi=circle)
         given = self.calls(
             phi=circle, jacobian=lambda t, q: 2 * q, gamma=lambda t, q, v: -2 * (v @ v)
@@ -222,8 +222,8 @@ class Costs(unittest.TestCase):
 
 class Exceptions(unittest.TestCase):
     def failing(self, error, after):
-        """A pendulum whose function raises an exception at times later than this, once it is
-        armed."""
+        """A pendulum whose function raises an exception. This happens at times later than a limit,
+        once the function is armed."""
         calls, armed = [], []
 
         def phi(t, q):
@@ -264,14 +264,15 @@ class Exceptions(unittest.TestCase):
     def test_every_integrator_stops_at_an_exception(self):
         for name, method in baum.integrators().items():
             if name == "kinematics" or not SUNDIALS and not method.fixed_step:
-                continue  # not here: there is freedom
+                continue  # skipped, because the pendulum has a degree of freedom
             with self.subTest(name):
                 options = dict(step=1e-2) if method.fixed_step else dict(rtol=1e-6)
                 self.run_until_it_fails(ZeroDivisionError(), name, **options)
 
     def test_the_run_keeps_its_last_good_step(self):
         s, _ = self.run_until_it_fails(KeyError("mine"), step=1e-2)
-        # Finite differences in time evaluate a little later, so the run may fail one step earlier.
+        # Finite differences in time evaluate the function a little later. The run may therefore
+        # fail one step earlier.
         self.assertTrue(0.085 < s.time < 0.105, s.time)
         self.assertAlmostEqual(np.hypot(*s.q), 1, 6)
 

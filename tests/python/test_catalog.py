@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The catalogue of known mechanisms: what the binding adds to the C interface, which C tests
-cover."""
+"""Tests the catalogue of known mechanisms. The tests cover what the binding adds to the C
+interface, and C tests cover the interface itself."""
 
 import math
 import unittest
@@ -53,7 +53,7 @@ class Catalog(unittest.TestCase):
         known = catalog.reference("four_bar")
         self.assertEqual(known.q.shape, (len(known.t), 9))
         error = catalog.compare(m.simulate(known.t, "rk8", rtol=1e-8), "four_bar")
-        # Errors of some 1e-8 per step add up over about a hundred steps.
+        # Errors of about 1e-8 per step add up over about a hundred steps.
         self.assertLess(error.q, 1e-5)
         self.assertGreater(error.q, error.q_floor)
         self.assertEqual(catalog.compare(known, "four_bar").q, 0.0)
@@ -63,9 +63,10 @@ class Catalog(unittest.TestCase):
         known = catalog.reference("heavy_top")
         self.assertEqual((known.q.shape, known.v.shape), ((21, 7), (21, 6)))
         other = known.q.copy()
-        other[:, 3:] *= -1  # the same orientations
+        other[:, 3:] *= -1  # -p is the same orientation as p
         self.assertLess(catalog.compare((known.t, other, known.v), "heavy_top").q, 1e-15)
-        turn = np.array([math.cos(5e-4), math.sin(5e-4)])  # about z of the body by 1e-3 rad
+        # a rotation by 1e-3 rad about the z axis of the body
+        turn = np.array([math.cos(5e-4), math.sin(5e-4)])
         w, x, y, z = known.q[:, 3:].T
         other[:, 3:] = np.array(
             [
@@ -81,7 +82,8 @@ class Catalog(unittest.TestCase):
     def test_a_formula_holds_for_all_parameters_and_times(self):
         known = catalog.reference("pendulum", [0.3, 0.1], length=2.0, angle=0.01)
         rate = math.sqrt(9.81 / 2)
-        # The relative increase of the period is angle^2 / 16 = 6e-6; the phase at the end is 0.66 rad.
+        # The period is longer by the fraction angle^2 / 16 = 6e-6. The phase at the end is 0.66
+        # rad.
         np.testing.assert_allclose(
             np.arcsin(known.q[:, 0] / 2), 0.01 * np.cos(rate * known.t), rtol=0, atol=5e-8
         )

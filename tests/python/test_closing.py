@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs, workspaces and studies are closed at the end of their `with` block; results remain
-valid."""
+"""Tests that runs, workspaces and studies are closed at the end of their `with` block. Their
+results must remain valid."""
 
 import tempfile
 import threading

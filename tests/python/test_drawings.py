@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drawings of mechanisms and pages of runs: what Python hands over. tests/unit/test_draw.c tests what
-is drawn, tests/browser how pages work."""
+"""Tests what Python passes on for drawings of mechanisms and pages of runs. tests/unit/test_draw.c
+tests what is drawn, and tests/browser tests how pages work."""
 
 import json
 import os
@@ -17,7 +17,7 @@ from mechanisms import slider_crank
 
 
 def data_of(page):
-    """The data of a page."""
+    """Return the data that a page contains."""
     text = str(page).split('<script type="application/json" id="data">')[1].split("</script>")[0]
     return json.loads(text)
 

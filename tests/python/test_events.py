@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Events, schedules of inputs, and saved states in Python; the rest is tested in C."""
+"""Tests events, schedules of inputs and saved states in Python. Everything else about them is
+tested in C."""
 
 import math
 import unittest
@@ -11,7 +12,7 @@ from mechanisms import pendulum
 
 
 def wheel(inertia=1.0):
-    """A body on a pin without gravity; the input "torque" drives it."""
+    """A body on a pin without gravity. The input "torque" accelerates it."""
     m = baum.Mechanism(gravity=(0, 0))
     body = m.planar_body("wheel", mass=1, inertia=inertia, position=(0, 0))
     m.revolute("pin", m.ground, body, point=(0, 0))
@@ -20,7 +21,7 @@ def wheel(inertia=1.0):
 
 
 def turning(rate=2.0):
-    """The wheel rotates at a constant angular velocity."""
+    """A wheel that rotates at a constant angular velocity."""
     return wheel().copy(wheel=dict(angular_velocity=rate))
 
 
@@ -30,7 +31,8 @@ class Events(unittest.TestCase):
             s = turning().simulation("rk8", **method)
             self.assertEqual(s.event("pin", 1.0, name="one"), 0)
             self.assertEqual(s.advance_to(2), baum.Status.STOP_EVENT)
-            self.assertAlmostEqual(s.time, 0.5, 13)  # a straight line, to rounding
+            # the motion is a straight line, so only rounding errors remain
+            self.assertAlmostEqual(s.time, 0.5, 13)
             self.assertIn('event 0 "one", rising', s.message)
             self.assertEqual(s.advance_to(2), baum.Status.OK)
             (event,) = s.events
@@ -45,8 +47,8 @@ class Events(unittest.TestCase):
             self.assertEqual(s.advance_to(9), baum.Status.STOP_EVENT)
             times.append(s.time)
             s.set_state(s.time, s.q, -s.v)
-        # From the horizontal to the bottom takes a quarter of the period, K(1/sqrt 2) sqrt(l/g); back to
-        # the bottom takes half of the period.
+        # From the horizontal to the bottom takes a quarter of the period, which is K(1/sqrt 2)
+        # sqrt(l/g). Until it is at the bottom again takes half of the period.
         quarter = 1.8540746773013719 / math.sqrt(9.81)
         np.testing.assert_allclose(times, [quarter, 3 * quarter, 5 * quarter], rtol=1e-7)
         self.assertEqual([event.direction for event in s.events], [-1, -1, -1])
@@ -137,8 +139,8 @@ class Schedules(unittest.TestCase):
 
 class GoingBack(unittest.TestCase):
     def test_a_controller_tries_and_goes_back(self):
-        """The torque that brings the wheel nearest to an angular velocity after ten steps of 0.1
-        s."""
+        """Find the torque with which the angular velocity of the wheel is nearest to a given one
+        after ten steps of 0.1 s."""
         s = wheel(inertia=0.5).simulation("rk4", step=0.1)
         found = {}
         saved = s.save()

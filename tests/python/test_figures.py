@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures and movies of runs: what is shown, positions between samples, and the formats that Matplotlib
-writes."""
+"""Tests figures and movies of runs: what they show, positions between samples, and the formats that
+Matplotlib writes."""
 
 import io
 import os
@@ -29,7 +29,7 @@ except ImportError:
 
 
 def saved(drawing, name, **options):
-    """The bytes of a saved drawing."""
+    """Save a drawing, and return the bytes of the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, name)
         drawing.save(path, **options)
@@ -38,7 +38,8 @@ def saved(drawing, name, **options):
 
 
 def paths_of(pdf):
-    """Numbers of lines and of filled or stroked paths in a PDF file, and the patterns of dashes."""
+    """Return how many lines and how many filled or stroked paths a PDF file has, and its patterns
+    of dashes."""
     pages = [zlib.decompress(part) for part in re.findall(rb"stream\r?\n(.*?)endstream", pdf, re.DOTALL)
              if part[:1] == b"x"]
     page = max(pages, key=lambda text: len(re.findall(rb"^[BSf]$", text, re.MULTILINE)))
@@ -82,7 +83,8 @@ class Figures(unittest.TestCase):
         motion = _motion.of_run(self.run_, [], [], None)
         whole, samples = _motion.refined(motion, self.run_, times)
         wanted = fine.q[(1000 * times).round().astype(int)]
-        np.testing.assert_allclose(whole.rows[samples], wanted, atol=2e-5)  # 8e-4 if linear
+        # linear interpolation would give 8e-4
+        np.testing.assert_allclose(whole.rows[samples], wanted, atol=2e-5)
         np.testing.assert_array_equal(whole.rows[samples[0]], self.run_.q[0])
         back = self.m.simulate(np.linspace(0, -1, 11), "kinematics")
         whole, samples = _motion.refined(_motion.of_run(back, [], [], None), back, np.array([-0.55]))
@@ -117,7 +119,7 @@ class Figures(unittest.TestCase):
         lines, paths, _ = paths_of(pdf)
         self.assertEqual(lines, sum(d.count("L") for d in re.findall(r' d="([^"]*)"', text)))
         self.assertEqual(paths, len(re.findall("<path|<circle", text)))
-        self.assertIn(b"/Subtype /Type0", pdf)  # the scale is text
+        self.assertIn(b"/Subtype /Type0", pdf)  # the label of the scale is text
 
     @unittest.skipUnless(matplotlib, "Matplotlib is missing")
     def test_dashes_stay_dashes(self):
@@ -145,7 +147,7 @@ class Figures(unittest.TestCase):
             self.assertEqual(image.size, (150, 100))
             colours = {colour for _, colour in image.convert("RGB").getcolors(10000)}
         self.assertIn((255, 255, 255), colours)
-        self.assertIn((0xA9, 0xC9, 0xEC), colours)  # of the crank
+        self.assertIn((0xA9, 0xC9, 0xEC), colours)  # the colour of the crank
 
     def test_a_missing_matplotlib_is_named(self):
         with mock.patch.dict(sys.modules, {"matplotlib": None, "matplotlib.figure": None}):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gains and stability: conversion and names; the mathematics is tested in C."""
+"""Tests conversions and names of gains and stability. The mathematics is tested in C."""
 
 import math
 import unittest

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Red lines in drawings: they show where a joint is open, and only there."""
+"""Tests red lines in drawings. They must show where a joint is open, and must not appear anywhere
+else."""
 
 import math
 import sys
@@ -20,8 +21,8 @@ def gaps(m, q=None):
 
 
 def plane(add):
-    """A body with its centre at (1, 0) whose joint with the ground is "joint"; a pin 2 m away from
-    it sets the size of the picture."""
+    """Make a body with its centre at (1, 0). The joint between it and the ground is called "joint".
+    A pin at a distance of 2 m determines the size of the picture."""
     m = baum.Mechanism()
     body = m.planar_body("body", position=(1, 0))
     add(m, body)
@@ -42,7 +43,8 @@ def circle(xy):
 
 
 ALONG = {"point": (1, 0, 0), "axis": (1, 0, 0)}
-# Each kind, and displacements of the body (x, y, angle): the first ones keep the joint closed.
+# For each kind of joint, two lists of displacements of the body (x, y, angle). Those in the first
+# list keep the joint closed.
 PLANE = {
     "revolute": (lambda m, b: m.revolute("joint", m.ground, b, point=(1, 0)), [(0, 0, 1)], [(0.1, 0, 0)]),
     "translational": (lambda m, b: m.translational("joint", m.ground, b, point=(0, 0)),
@@ -55,7 +57,7 @@ PLANE = {
     "curve": (lambda m, b: m.curve("joint", m.ground, b, circle, point_a=(0.5, 0), point_b=(0, 0)),
               [(-0.5, 0.5, 0), (-0.5, -0.5, 1)], [(0.1, 0, 0), (-0.2, 0.5, 0)]),
 }
-# Displacements (x, y, z), or a rotation of 0.3 rad about an axis.
+# A displacement is along x, y or z, or a rotation of 0.3 rad about an axis.
 SPACE = {
     "spherical": (lambda m, b: m.spherical("joint", m.ground, b, point=(1, 0, 0)), ["x", "y", "z"], [(0.1, 0, 0)]),
     "revolute": (lambda m, b: m.spatial_revolute("joint", m.ground, b, point=(1, 0, 0), axis=(1, 0, 0)),
@@ -121,19 +123,20 @@ class Kinds(unittest.TestCase):
 
 
 class Mistakes(unittest.TestCase):
-    """Three typical mistakes. The drawing of the design configuration shows the wrong joint only; the
-    drawing of the last configuration of assembly shows all joints that contradict each other."""
+    """Tests three typical mistakes. The drawing of the design configuration must show only the
+    wrong joint. The drawing of assembly's last configuration must show all joints that contradict
+    each other."""
 
     def check(self, make, wrong, contradicting):
         m = make()
-        self.assertEqual(gaps(m), [wrong])  # before freezing
+        self.assertEqual(gaps(m), [wrong])  # before the mechanism is frozen
         self.assertEqual(gaps(m, "assembled"), contradicting)
         with self.assertRaises(baum.Error) as caught:
             m.freeze().simulate([0.1], "rk4", step=1e-2)
         self.assertEqual(caught.exception.status, baum.Status.ERR_INCONSISTENT)
         self.assertIn(f'"{wrong}"', str(caught.exception))
         self.assertIn("see draw()", str(caught.exception))
-        self.assertEqual(gaps(m), [wrong])  # after the failure
+        self.assertEqual(gaps(m), [wrong])  # after assembly has failed
         self.assertEqual(gaps(m, "assembled"), contradicting)
         figure = (FIGURES / f"{make.__name__}.svg").read_text(encoding="utf-8")
         self.assertEqual(open_joints(figure), [wrong])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Actions on a run from outside: inputs, and drivers whose law is set during the run."""
+"""Tests how a program can act on a run: by inputs, and by setting the law of a driver."""
 
 import ctypes
 import gc
@@ -15,7 +15,7 @@ from mechanisms import slider_crank
 
 
 def disk(initial=0.0, **load):
-    """A free disk of 0.5 kg m^2 without gravity; an input is its torque."""
+    """A free disk of 0.5 kg m^2 without gravity. An input is its torque."""
     m = baum.Mechanism(gravity=(0, 0))
     body = m.planar_body("disk", mass=2, inertia=0.5, velocity=(0, 0), angular_velocity=0)
     torque = m.input("torque", initial)
@@ -24,7 +24,7 @@ def disk(initial=0.0, **load):
 
 
 def force(w):
-    """Force vector of a workspace where every coordinate is 0."""
+    """Return the force vector of a workspace in which every coordinate is 0."""
     zeros = np.zeros(w.mechanism.sizes.nq)
     return w.force(0, zeros, zeros)
 
@@ -129,7 +129,8 @@ class Runs(unittest.TestCase):
 
 
 def several(**functions):
-    """Two coordinates and three inputs; the functions take the third and the first input."""
+    """A mechanism with two coordinates and three inputs. Its functions receive the third and the
+    first input."""
     m = baum.Mechanism()
     for k, name in enumerate("abc"):
         m.input(name, 10.0**k)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joints other than pin, slider, rod and weld: every argument reaches the library."""
+"""Tests joints other than pin, slider, rod and weld. Every argument must reach the library."""
 
 import math
 import unittest
@@ -10,7 +10,7 @@ import baum
 
 
 def phi(m, q, t=0.0):
-    """Constraint residuals of a mechanism at positions q."""
+    """Return Phi of a mechanism at positions q."""
     return baum.Workspace(m.freeze()).phi(t, q)
 
 
@@ -66,7 +66,7 @@ class Rows(unittest.TestCase):
 
 class Couplings(unittest.TestCase):
     def mechanism(self, **fields):
-        """A crank and a weight on the ground, coupled."""
+        """A crank and a weight on the ground, and a coupling of both."""
         m = baum.Mechanism()
         crank = m.planar_body("crank", angle=0.5)
         weight = m.planar_body("weight", position=(1, 0.2))

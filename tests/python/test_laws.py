@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Springs with and without a user law, and drivers along splines."""
+"""Tests springs with and without a user's law, and drivers along splines."""
 
 import ctypes
 import math
@@ -10,7 +10,7 @@ import numpy as np
 import baum
 from compiler import CC, Folder
 
-PAIR = (0, 0, 0, 3, 4, 2)  # two bodies: 5 m and 2 rad apart
+PAIR = (0, 0, 0, 3, 4, 2)  # two bodies, which are 5 m and 2 rad apart
 
 
 def pair():
@@ -22,7 +22,7 @@ def pair():
 
 
 def force(m, v=np.zeros(6)):
-    """Force vector of two bodies 5 m and 2 rad apart."""
+    """Return the force vector of two bodies that are 5 m and 2 rad apart."""
     return baum.Workspace(m.freeze()).force(0, PAIR, v)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finding the library, and refusing a library of another version."""
+"""Tests how the library is found, and that a library of another version is refused."""
 
 import ctypes
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts of the library have a decimal point even if the locale uses a comma."""
+"""Tests that texts of the library have a decimal point even if the locale uses a comma."""
 
 import os
 import shutil
@@ -15,7 +15,7 @@ grouping -1
 END LC_NUMERIC
 """
 
-# localedef's own character maps come with the package locales.
+# The character maps of localedef are in the package locales, which may be missing.
 ASCII = "\n".join(["<code_set_name> ANSI_X3.4-1968", "<mb_cur_min> 1", "<mb_cur_max> 1", "CHARMAP"]
                   + [f"<U{c:04X}> \\x{c:02x} <c{c}>" for c in range(128)] + ["END CHARMAP", ""])
 
@@ -32,7 +32,8 @@ def make():
     return made.add("rk4", formulation="baumgarte", gains=baum.fixed(1.5, 2.5), step=0.0125).run()
 
 study = make()
-assert [entry.cpu for entry in make().entries] == [entry.cpu for entry in study.entries]  # read from the file
+# the values come from the file
+assert [entry.cpu for entry in make().entries] == [entry.cpu for entry in study.entries]
 texts = [entry.name for entry in study.entries] + [study.error_text, study.reference.text]
 texts += [study.recommend(1e-3).why, study.report("csv"), study.report("json"), study.report("text")]
 try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mechanisms: conversion of arguments, names, copies, ownership, messages."""
+"""Tests mechanisms: the conversion of arguments, names, copies, ownership, and messages."""
 
 import ctypes
 import gc
@@ -123,16 +123,16 @@ class Building(unittest.TestCase):
 
 
 class Recorder(Adding, AddingInSpace):
-    """Records the arguments that the methods that add elements pass on."""
+    """Records which arguments are passed on by the methods that add elements."""
 
     def _add(self, made, kind, given):
         return kind, {FIELDS.get(name, name) for name in given.keys() - {"self"}}
 
 
 class Arguments(unittest.TestCase):
-    """Every field of every definition has an argument."""
+    """Tests that every field of every definition has an argument."""
 
-    # These elements need two different points, so they have no argument for a common one.
+    # These elements need two different points. They therefore have no argument for a common point.
     EXCEPTED = {
         "planar_distance": {"point"},
         "planar_spring": {"point"},
@@ -141,7 +141,7 @@ class Arguments(unittest.TestCase):
     }
 
     def added(self):
-        """Names of the fields that a user can set, by kind."""
+        """Yield the names of the fields that a user can set, for each kind."""
         for name, method in [*vars(Adding).items(), *vars(AddingInSpace).items()]:
             if name.startswith("_") or name == "input":
                 continue
@@ -320,7 +320,7 @@ class Drafts(unittest.TestCase):
 
 
 class MovedCopies(unittest.TestCase):
-    """A copy with another position or angle of a body is the same mechanism in another
+    """A copy with another position or angle of a body must be the same mechanism in another
     configuration."""
 
     def everything(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outlines of bodies: the forms that Python accepts, SVG paths, and files of meshes, also hostile ones.
-tests/api/test_body_outlines.c tests the library's part."""
+"""Tests outlines of bodies: the forms that Python accepts, SVG paths, and files of meshes,
+including hostile files. tests/api/test_body_outlines.c tests the library's part."""
 
 import os
 import re
@@ -50,14 +50,14 @@ class Forms(unittest.TestCase):
                     points += re.findall(r'cx="(.*?)" cy="(.*?)"', svg)
                     low, high = np.min(np.float64(points), 0), np.max(np.float64(points), 0)
                     self.assertTrue((low >= 11).all() and (high <= [width - 11, height - 11]).all())
-                    if name in ("area", "mesh"):  # and fill it, but for the margin
+                    if name in ("area", "mesh"):  # these fill their box, except for a margin
                         np.testing.assert_allclose([low, high], [[12, 12], [width - 12, height - 12]], atol=1)
 
     def test_a_cylinder_is_drawn_as_its_silhouette_and_its_near_end(self):
         svg = str(body_of(baum.Cylinder(0.5, (3, 0, 4), (0, 0, 0))).mechanism.draw())
         paths = [np.float64(re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", p)) for p in re.findall(r' d="(.*?)"', svg)]
         silhouette, end = (abs(area(points)) for points in paths)
-        ellipse = 12 * np.sin(np.pi / 12) * 0.5 * 0.4  # of 24 corners
+        ellipse = 12 * np.sin(np.pi / 12) * 0.5 * 0.4  # area of an ellipse drawn with 24 corners
         self.assertAlmostEqual(silhouette / end, (3 * 1 + ellipse) / ellipse, places=2)
 
     def test_pages_contain_them(self):
@@ -179,7 +179,8 @@ class Paths(unittest.TestCase):
             ("M0 0 C0 4 8 4 8 0", (4, 3)),
             ("m0 0c0 4 8 4 8 0", (4, 3)),
             ("M0 0 Q4 4 8 0", (4, 2)),
-            ("M0 0 S8 4 8 0", (4, 1.5)),  # without a curve before, the first control point is the start
+            # there is no curve before, so the first control point is the start
+            ("M0 0 S8 4 8 0", (4, 1.5)),
         ):
             points = self.one(text + "l0 -1z")
             np.testing.assert_allclose(points[n // 2], middle)
@@ -190,7 +191,8 @@ class Paths(unittest.TestCase):
         np.testing.assert_allclose(smooth, self.one("M0 0 Q4 4 8 0 Q12 -4 16 0 Q20 4 24 0z"))
 
     def test_arcs_lie_on_their_circles(self):
-        # from (1, 0) to (0, 1): flags, centre and angle, counter-clockwise positive
+        # Arcs from (1, 0) to (0, 1): their flags, centre and angle. The angle is positive if
+        # counter-clockwise.
         for flags, centre, angle in (("0 1", 0, 90), ("0 0", 1, -90), ("1 1", 1, 270), ("1 0", 0, -270)):
             points = self.one(f"M1 0 A1 1 0 {flags} 0 1 z")
             np.testing.assert_allclose(np.hypot(*(points - centre).T), 1, rtol=1e-14)
@@ -207,14 +209,17 @@ class Paths(unittest.TestCase):
     def test_ellipses_are_rotated_and_enlarged(self):
         points = self.one("M0 0 A 3 1 30 1 1 1 1 z")
         along, across = points @ (np.sqrt(0.75), 0.5), points @ (-0.5, np.sqrt(0.75))
-        rows = np.stack([along**2 / 9 + across**2, along, across], axis=1)  # (x - a)^2 / 9 + (y - b)^2 = 1
+        # the equation is (x - a)^2 / 9 + (y - b)^2 = 1
+        rows = np.stack([along**2 / 9 + across**2, along, across], axis=1)
         fit, residue, *_ = np.linalg.lstsq(rows[1:, 1:], rows[1:, 0], rcond=None)
         self.assertLess(residue[0], 1e-20)
         a, b = fit[0] * 9 / 2, fit[1] / 2
         self.assertAlmostEqual(a * a / 9 + b * b, 1)
-        half = self.one("M0 0 A .1 .1 0 0 1 2 0 z")  # too small: a half circle between the points
+        # the radii are too small, so this becomes a half circle between the points
+        half = self.one("M0 0 A .1 .1 0 0 1 2 0 z")
         np.testing.assert_allclose(np.hypot(*(half - (1, 0)).T), 1)
-        self.assertAlmostEqual(half[:, 1].min(), -1, delta=2e-3)  # counter-clockwise, y upward
+        # it is counter-clockwise if y points upward
+        self.assertAlmostEqual(half[:, 1].min(), -1, delta=2e-3)
         flat = self.one("M0 0 A 0 1 0 0 1 2 0 L 2 2 z")
         self.assertEqual(len(flat), 3)
 
@@ -284,7 +289,8 @@ class Files(unittest.TestCase):
         faces = "".join("f {} {}/1 {}//2\n".format(*(face + 1)) for face in FACES)
         negative = "".join("f {} {} {}\n".format(*(face - 4)) for face in FACES)
         self.assert_tetrahedron(self.load("a.obj", f"# part\nmtllib x.mtl\n{points}vn 0 0 1\no x\n{faces}"))
-        self.assert_tetrahedron(self.load("b.obj", points + "v 9 9 9\n" + faces))  # an unused vertex
+        # contains a vertex that is not used
+        self.assert_tetrahedron(self.load("b.obj", points + "v 9 9 9\n" + faces))
         self.assert_tetrahedron(self.load("c.obj", points + negative))
         mesh = self.load("d.obj", "v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n 3 4\n")
         np.testing.assert_array_equal(mesh.triangles, [(0, 1, 2), (0, 2, 3)])

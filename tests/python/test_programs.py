@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Programs as users write them: those of the documentation, word for word, and the examples."""
+"""Tests programs as users write them. They are the programs in the documentation, word for word,
+and the examples."""
 
 import importlib.util
 import json
@@ -21,7 +22,7 @@ from mechanisms import pendulum, slider_crank
 
 
 def programs(text):
-    """The Python programs in a page, those that import baum."""
+    """Return the Python programs in a page. These are the code blocks that import baum."""
     return [
         code
         for code in re.findall(r"```python\n(.*?)```", text, flags=re.S)
@@ -79,7 +80,7 @@ class Examples(unittest.TestCase):
 
 
 class Styles(unittest.TestCase):
-    """The typical uses that the interface was designed for."""
+    """Tests typical uses, for which the interface was designed."""
 
     def test_several_gains_on_one_mechanism(self):
         m = slider_crank(omega=150)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a study shows while it runs, where it shows this, and which grid runs by default."""
+"""Tests what a study shows while it runs, where it shows this, and which grid is run by default."""
 
 import io
 import sys
@@ -23,7 +23,7 @@ def short_study(**options):
 
 class Grids(unittest.TestCase):
     def settings(self, **options):
-        """Number of settings of a study that is stopped after its first entry."""
+        """Return the number of settings of a study. The study is stopped after its first entry."""
         study = short_study(progress=lambda done, total: True, **options)
         with self.assertWarnsRegex(baum.Warning, "cancelled"):
             study.run()
@@ -109,7 +109,8 @@ class Shown(unittest.TestCase):
     def test_the_time_left_follows_from_costs_that_double(self):
         out, now = io.StringIO(), [0.0]
         with mock.patch.object(progress.time, "monotonic", lambda: now[0]):
-            line = progress.StudyLine(out, [0, 0, 0, 1, 1, 1])  # 1 1 2 2 4 4, then 1 2 4 1 2 4
+            # the costs are 1 1 2 2 4 4, and then 1 2 4 1 2 4
+            line = progress.StudyLine(out, [0, 0, 0, 1, 1, 1])
             for done, t in (1, 1.0), (2, 2.0), (6, 14.0), (12, 28.0):
                 now[0] = t
                 line(done, 12)

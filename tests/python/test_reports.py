@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of a study, read back: they contain its entries, whatever names users give."""
+"""Tests reports of a study by reading them back. They must contain the entries of the study,
+whatever names users give."""
 
 import csv
 import html.parser
@@ -21,8 +22,8 @@ VOID = {"meta", "input", "br", "img", "link"}
 
 
 def make_study():
-    """A study with entries that are done, one of them with a warning that names a joint, and one
-    refused entry."""
+    """A study with entries that are done and one that is refused. One of the first has a
+    warning that names a joint."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint(JOINT, [bob], rows=1, phi=lambda t, q: q @ q - 1)
@@ -35,7 +36,8 @@ def make_study():
 
 
 class Page(html.parser.HTMLParser):
-    """Collects elements, checks that they are nested correctly, and collects the texts of cells."""
+    """Parses a page. Counts its elements, checks that they are nested correctly, and collects the
+    texts of cells."""
 
     def __init__(self):
         super().__init__()
@@ -74,7 +76,7 @@ class Reports(unittest.TestCase):
         self.assertIn(JOINT, self.study.entries[2].message)
 
     def check_entry(self, entry, cells, number):
-        """Every number that both contain is the same to the last bit."""
+        """Check that every number that both contain is the same to the last bit."""
         compared = 0
         for name in entry._fields:
             value = getattr(entry, name)
@@ -91,7 +93,7 @@ class Reports(unittest.TestCase):
         lines = list(csv.DictReader(io.StringIO(self.study.report("csv"))))
         self.assertEqual(len(lines), len(self.study))
         for entry, cells in zip(self.study.entries, lines):
-            self.assertNotIn(None, cells)  # as many cells as titles
+            self.assertNotIn(None, cells)  # there are as many cells as titles
             self.assertEqual(cells["name"], entry.name)
             self.assertEqual(cells["message"], entry.message)
             self.check_entry(entry, cells, float)
@@ -135,7 +137,7 @@ class Reports(unittest.TestCase):
         page.close()
         self.assertEqual(page.wrong, [])
         self.assertEqual(page.handlers, [])
-        self.assertEqual(page.count["script"], 2)  # its data and its program
+        self.assertEqual(page.count["script"], 2)  # one for the data and one for the program
         self.assertNotIn("img", page.count)
         self.assertNotIn("link", page.count)
 
@@ -172,7 +174,7 @@ class Reports(unittest.TestCase):
     def test_the_reference_is_the_motion(self):
         times, q, v, lambda_ = self.study.reference_samples()
         run = pendulum().simulate(times, "rk8", rtol=1e-10)
-        # Errors over 1 s are at most about a hundred times rtol.
+        # Over 1 s, errors are at most about a hundred times rtol.
         self.assertLess(abs(run.q - q).max(), 1e-8)
         self.assertLess(abs(run.v - v).max(), 1e-7)
         self.assertEqual(lambda_.shape, (len(times), 1))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of a run: pickled for other processes, and as tables."""
+"""Tests the results of a run: that they can be pickled for other processes, and that they can be
+used as tables."""
 
 import copy
 import pickle
@@ -15,7 +16,7 @@ from mechanisms import slider_crank
 
 
 def near_singular():
-    """A slider-crank with equal links, through its singular configuration."""
+    """Run a slider-crank whose links are equal through its singular configuration."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return slider_crank(l=0.153, e=0.0).simulate(
@@ -66,10 +67,10 @@ class Pickled(unittest.TestCase):
 
 
 class Units(unittest.TestCase):
-    """The unit of each column."""
+    """Tests that each column has the right unit."""
 
     def units(self, m, *channels, **options):
-        """Units of channels, as lists."""
+        """Return the units of channels, as lists."""
         options = options or {"step": 1e-3}
         run = m.simulate([0, 1e-3], "rk4", record=channels, **options)
         columns = run.columns
@@ -149,7 +150,7 @@ class Tables(unittest.TestCase):
     def test_a_run_is_not_taken_for_one_array(self):
         run = slider_crank().simulate([0], "rk4", step=1e-2)
         with self.assertRaisesRegex(TypeError, r"pandas.DataFrame\(run.to_dict\(\)\)"):
-            np.asarray(run)  # what pandas.DataFrame(run) does
+            np.asarray(run)  # pandas.DataFrame(run) makes this call
 
 
 class Plots(unittest.TestCase):
@@ -159,7 +160,8 @@ class Plots(unittest.TestCase):
         )
 
     def axes(self, *channels, **options):
-        """The axes that plot() draws, as (label of the y axis, names of the curves)."""
+        """Return the axes that plot() draws, as pairs of the y axis' label and the names of the
+        curves."""
         try:
             import matplotlib
         except ImportError:
@@ -206,7 +208,7 @@ class Plots(unittest.TestCase):
 
 
 class Notebooks(unittest.TestCase):
-    """The displays that notebooks request from objects."""
+    """Tests the representations that notebooks request from objects."""
 
     def test_tables_are_small_and_escaped(self):
         m = baum.Mechanism()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Signatures show the defaults of the library, types list its words, and everything public has a
-docstring."""
+"""Tests that signatures show the library's defaults, that types list its words, and that everything
+public has a docstring."""
 
 import ast
 import ctypes
@@ -27,7 +27,7 @@ PACKAGE = Path(baum.__file__).parent
 
 
 def shown(function):
-    """The defaults that a signature shows, by name."""
+    """Return the defaults that a signature shows, by name."""
     return {
         parameter.name: parameter.default
         for parameter in inspect.signature(function).parameters.values()
@@ -36,7 +36,7 @@ def shown(function):
 
 
 def methods():
-    """The methods that add an element, by kind."""
+    """Yield the methods that add an element, for each kind."""
     for name, method in [*vars(Adding).items(), *vars(AddingInSpace).items()]:
         if not name.startswith("_") and name != "input":
             names = name, f"planar_{name}", f"spatial_{name}", f"user_{name}"
@@ -46,8 +46,8 @@ def methods():
 
 class Defaults(unittest.TestCase):
     def compare(self, function, struct, words=()):
-        """Every default in a signature is that of the library, and every plain default is in a
-        signature."""
+        """Tests that every default in a signature is the library's default, and that every plain
+        default is in a signature."""
         of_library = _lib.default(struct)
         defaults = shown(function)
         for name, kind in struct._fields_:
@@ -144,7 +144,7 @@ class Types(unittest.TestCase):
 
 
 class Described(unittest.TestCase):
-    """Everything that a user can call has a docstring and complete types."""
+    """Tests that everything which a user can call has a docstring and complete types."""
 
     def public(self):
         from baum import catalog

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs: options, samples, channels, counters, warnings, step by step."""
+"""Tests runs: options, samples, channels, counters, warnings, and single steps."""
 
 import os
 import subprocess
@@ -91,11 +91,13 @@ class Samples(unittest.TestCase):
     def test_accelerations_and_efforts_belong_to_the_other_channels(self):
         r = self.run_
         np.testing.assert_allclose(r["slider.acceleration"], r["a"][:, 6:9])
-        # One point belongs to both bodies. Its acceleration reaches 5e3 m/s^2 with a rounding of 1e-12 of that.
+        # The same point belongs to both bodies. Its acceleration reaches 5e3 m/s^2. The rounding
+        # error is 1e-12 of this.
         np.testing.assert_allclose(
             r["rod.acceleration(0.153, 0.0)"][:, :2], r["slider.acceleration"][:, :2], atol=1e-8
         )
-        # The row of a driver is its coordinate minus the value of its law, so its torque is -lambda.
+        # The row of a driver is its coordinate minus the value of its law. The torque of the driver
+        # is therefore -lambda.
         np.testing.assert_allclose(r["motor.effort"], -r["motor.multipliers"])
 
     def test_what_was_not_recorded_is_named(self):
@@ -343,7 +345,8 @@ class StepByStep(unittest.TestCase):
         other = mechanism.simulation("rk8", rtol=1e-8)
         other.continue_from(run)
         self.assertEqual(other.time, run.time)
-        np.testing.assert_allclose(other.q, run.q, atol=1e-2)  # Euler's violation is projected
+        # projection removes the violation that Euler's method has caused
+        np.testing.assert_allclose(other.q, run.q, atol=1e-2)
 
     def test_bytes_of_something_else_are_refused(self):
         run = slider_crank(omega=20).simulation("rk4", step=1e-3)

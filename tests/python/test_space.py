@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies, joints and forces in space."""
+"""Tests bodies, joints and forces in space."""
 
 import copy
 import math
@@ -18,7 +18,7 @@ TILTED /= np.linalg.norm(TILTED)
 
 
 class Rotation:
-    """A rotation like that of SciPy, with w last."""
+    """A rotation with the interface of SciPy, whose quaternions have w last."""
 
     def __init__(self, p):
         self.p = p
@@ -28,8 +28,8 @@ class Rotation:
 
 
 def add_every_joint(m, a, b, p):
-    """One joint of each kind between two bodies and a particle, placed by points and axes in both
-    ways."""
+    """Add one joint of each kind between two bodies and a particle. Their points and axes are given
+    in both ways."""
     point = (0.3, 0.1, -0.2)
     m.spherical("spherical", a, b, point=point)
     m.spatial_revolute("revolute", a, b, point=point, axis=(1, 2, 0))
@@ -57,7 +57,7 @@ def everything():
 
 
 class Given(unittest.TestCase):
-    """Values that users give, and values that the library receives."""
+    """Tests which values the library receives for the values that users give."""
 
     def body(self, **fields):
         return baum.Mechanism().spatial_body("body", **fields).definition
@@ -165,7 +165,7 @@ class Solids(unittest.TestCase):
 
 
 class FreeBody(unittest.TestCase):
-    """A body without forces that rotates about its middle axis, which is unstable."""
+    """A body without forces rotates about its middle axis. This rotation is unstable."""
 
     @classmethod
     def setUpClass(cls):
@@ -177,7 +177,7 @@ class FreeBody(unittest.TestCase):
             inertia=cls.inertia,
             orientation=Rotation(TILTED),
             velocity=(1, 2, 3),
-            angular_velocity=(0.01, 2 * 0.8, 2 * 0.6),  # along the second principal axis
+            angular_velocity=(0.01, 2 * 0.8, 2 * 0.6),  # almost along the second principal axis
         )
         record = ["energy", "brick.velocity", "brick.acceleration", m["brick"].pose_of((1, 2, 3))]
         times = np.linspace(0, 10, 401)
@@ -185,7 +185,7 @@ class FreeBody(unittest.TestCase):
         cls.run_ = m.simulate(times, "rk8", rtol=1e-11)
 
     def momentum(self, run):
-        """Angular momentum in ground axes."""
+        """Return the angular momentum in ground axes."""
         axes = matrix(run.q[:, 3:])
         return np.einsum("nij,jk,nk->ni", axes, self.inertia, run.v[:, 3:])
 
@@ -194,7 +194,7 @@ class FreeBody(unittest.TestCase):
         energy, momentum = run["energy"].sum(axis=1), self.momentum(run)
         np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
         np.testing.assert_allclose(momentum, momentum[:1].repeat(len(run.t), 0), atol=1e-8)
-        self.assertGreater(np.ptp(run.v[:, 3]), 2)  # it has turned over
+        self.assertGreater(np.ptp(run.v[:, 3]), 2)  # the body has tumbled
 
     def test_velocities_are_in_ground_axes_recorded_or_not(self):
         recorded, run = self.recorded, self.run_
@@ -251,7 +251,7 @@ class Joints(unittest.TestCase):
                 }
                 add = "spatial_" + name if hasattr(m, "spatial_" + name) else name
                 add = {"line": "point_on_line", "plane": "point_on_plane"}.get(name, add)
-                if name == "plane":  # placed where the particle is
+                if name == "plane":  # the joint's point is the place of the particle
                     fields["point"] = (1.1, 2, 3)
                 getattr(m, add)("J", a, ends[said["body_b"].name], **fields)
                 self.assertEqual(m.freeze().mobility().degrees_of_freedom, 15 - rows)
@@ -302,7 +302,7 @@ class Joints(unittest.TestCase):
         np.testing.assert_allclose(run["weld.reaction"], [[0, 0, 19.62, 0, -9.81, 0]], atol=1e-14)
 
     def test_which_rows_have_a_length(self):
-        """A translation of bodies changes rows in metres, but not rows that are pure numbers."""
+        """If bodies are moved, rows in metres change, but rows that are pure numbers must not."""
         m = everything().freeze()
         w = baum.Workspace(m)
         q = w.move(0.1 * np.sin(np.arange(15)), w.design()[0])
@@ -315,14 +315,15 @@ class Joints(unittest.TestCase):
                 self.assertGreater(abs(before - after), 1e-3)
 
     def test_angles_count_revolutions_in_long_steps(self):
-        """Steps of half a revolution and more, also at times inside the steps."""
+        """Tests steps of half a revolution and more. Times inside the steps are tested as well."""
         m = baum.Mechanism(gravity=(0, 0, 0))
         m.spatial_body("wheel", angular_velocity=(0, 0, 1))
         m.spatial_revolute("hinge", m.ground, "wheel", point=(0, 0, 0))
         m.freeze()
         times = np.linspace(0, 15, 61)
         for method, options, bound in (
-            ("rk8", dict(rtol=1e-2), 0.05),  # of the method: 5 steps
+            # the allowed error is that of the method, which makes only 5 steps
+            ("rk8", dict(rtol=1e-2), 0.05),
             ("rk8", dict(rtol=1e-9), 1e-8),
             ("euler", dict(step=4.0), 1e-12),
         ):
@@ -349,7 +350,7 @@ class Joints(unittest.TestCase):
             study.add("euler", step=step)
         errors = [entry.error for entry in study.run().entries]
         self.assertEqual(len(errors), 6)
-        self.assertLess(max(errors), 1e-5)  # that of rk4 at 0.1 s
+        self.assertLess(max(errors), 1e-5)  # the error of rk4 with a step of 0.1 s
 
 
 class Forces(unittest.TestCase):
@@ -380,14 +381,14 @@ class Forces(unittest.TestCase):
     def test_a_moment_turns_a_body(self):
         m = baum.Mechanism(gravity=(0, 0, 0))
         body = m.spatial_body("body", inertia=(1, 2, 2.5), orientation=(HALF, HALF, 0, 0))
-        m.spatial_load("torque", body, moment=(0, 0, 4))  # along the body's y axis
+        m.spatial_load("torque", body, moment=(0, 0, 4))  # along the y axis of the body
         m.spatial_load("jet", body, moment=(0, 0, 5), follows_body=True)
         g = baum.Workspace(m.freeze()).force(0, baum.Workspace(m).design()[0], np.zeros(6))
         np.testing.assert_allclose(g, (0, 0, 0, 0, 4, 5), atol=1e-15)
 
 
 class Coordinates(unittest.TestCase):
-    """Drivers, couplings, springs, channels and events of coordinates by name."""
+    """Tests drivers, couplings, springs, channels and events that select a coordinate by its name."""
 
     def nut(self):
         m = baum.Mechanism(up="z")
@@ -433,7 +434,7 @@ class Coordinates(unittest.TestCase):
 
 
 class MovedCopies(unittest.TestCase):
-    """A copy with other positions and orientations is the same mechanism in another
+    """A copy with other positions and orientations must be the same mechanism in another
     configuration."""
 
     def compare(self, m, moved):
@@ -467,7 +468,8 @@ class MovedCopies(unittest.TestCase):
         a, b = (r @ matrix(np.array(m[name].definition["orientation"])) for name in "ab")
         moved = m.copy(a=dict(orientation=a), b=dict(orientation=b, position=(1, 1, 1)))
         np.testing.assert_allclose(moved["b"].definition["orientation"], quaternion(b, ""))
-        # The axes perpendicular to a joint's axis may differ, so compare the spaces of the rows.
+        # The two axes perpendicular to a joint's axis may differ. Therefore only the spaces spanned
+        # by the rows are compared.
         there, here = (baum.Workspace(one) for one in (m, moved))
         q, _ = there.design()
         q = there.move(0.1 * np.sin(np.arange(15)), q)

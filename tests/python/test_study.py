@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies: entries, reference, recommendations as keywords, mechanisms of Python functions."""
+"""Tests studies: entries, the reference, recommendations as keywords, and mechanisms with Python
+functions."""
 
 import os
 import tempfile
@@ -14,7 +15,7 @@ from mechanisms import circle, pendulum, rod_pendulum, slider_crank
 
 
 def small(mechanism, **options):
-    """A study of RK8 alone."""
+    """Return a study that uses only RK8."""
     made = baum.study(mechanism, 0, 1, samples=20, repeats=1, **options)
     return made.add_standard("rk8", settings=5)
 
@@ -49,7 +50,8 @@ class Studies(unittest.TestCase):
             best = self.study.recommend(error)
             self.assertIn("rk8", best.why)
             run = self.m.simulate(t, **best)
-            self.assertLess(np.abs(run.q - exact).max(), error)  # scale 0.46 m: the smaller unit
+            # the scale of lengths, 0.46 m, is smaller than the unit
+            self.assertLess(np.abs(run.q - exact).max(), error)
 
     def test_stress_settings_are_entries_that_work_or_say_why(self):
         study = baum.study(self.m, 0, 1, samples=20, repeats=1, entry_limit=0.02, validate=False)
@@ -95,7 +97,8 @@ class Meaning(unittest.TestCase):
         study = baum.study(m, 0, 0.5, error=["slider.pose"], unit=1e-3, samples=20, repeats=1)
         study.add("rk4", step=1e-2).run()
         entry = study.entries[0]
-        # entry.error: the slider in millimetres and milliradians; entry.error_q: all bodies, scaled.
+        # entry.error is that of the slider, in millimetres and milliradians. entry.error_q is that
+        # of all bodies, scaled.
         self.assertLess(entry.error, 1e3 * entry.error_q * max(m.characteristic_length, 1) * 1.001)
         self.assertNotAlmostEqual(entry.error, entry.error_q)
 
@@ -137,7 +140,8 @@ class Running(unittest.TestCase):
             study.add("rk4", step=0.03).add("rk4", step=0.01)
             study.add("rk8", rtol=1e-4).add("rk8", rtol=1e-8).run()
             self.assertTrue(all(entry.state == "done" for entry in study.entries))
-            self.assertGreater(study.reference.digits, 7)  # second derivatives are differences
+            # the second derivatives are computed by differences
+            self.assertGreater(study.reference.digits, 7)
             best = study.recommend(1e-3)
             m.simulate([0.3], **best)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Threads, cancelling, progress and Ctrl-C."""
+"""Tests threads, cancelling, progress and Ctrl-C."""
 
 import contextvars
 import os
@@ -9,27 +9,60 @@ import sys
 import threading
 import time
 import unittest
+import unittest.mock
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 import baum
-from baum import _calls
+from baum import _calls, simulation
 from mechanisms import circle, pendulum, rod_pendulum, slider_crank
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LONG = 1e9  # [s], a run that nobody waits for
+LONG = 1e9  # [s] duration of a run that is never completed
 
 
 def long_run():
     return rod_pendulum().simulation("rk4", step=1e-3)
 
 
+class ShortCalls(unittest.TestCase):
+    """Calls that take less than AT_ONCE stay in the calling thread; longer ones are continued in a
+    second one."""
+
+    def test_a_short_run_starts_no_thread(self):
+        code = (
+            "import threading; from mechanisms import slider_crank; m = slider_crank()\n"
+            's = m.simulation("rk4", step=1e-3); s.advance_to(2e-3); m.simulate([1e-3], "rk4", '
+            "step=1e-3)\nprint(threading.active_count())"
+        )
+        done = subprocess.run([sys.executable, "-c", code], cwd=HERE, capture_output=True, text=True)
+        self.assertEqual((done.stdout.strip(), done.stderr), ("1", ""))
+
+    def test_it_does_not_matter_where_a_call_is_continued(self):
+        m = slider_crank()
+        times = np.linspace(0, 0.2, 41)
+        for method in ({"integrator": "rk4", "step": 1e-3}, {"integrator": "rk8", "rtol": 1e-7}):
+            whole = m.simulate(times, **method)
+            moved = m.simulation(**method)
+            moved.advance_to(0.2)
+            with unittest.mock.patch.object(simulation, "AT_ONCE", 1e-9):
+                parts = m.simulate(times, **method)
+                again = m.simulation(**method)
+                self.assertEqual(again.advance_to(0.2), baum.Status.OK)
+            np.testing.assert_array_equal(parts.q, whole.q)
+            np.testing.assert_array_equal(again.q, moved.q)
+            self.assertEqual(parts.status, baum.Status.OK)
+            self.assertEqual(again.message, "")
+            counters = (str(run.counters._replace(wall=0)) for run in (parts, whole))
+            self.assertEqual(*counters)
+
+
 class Pool(unittest.TestCase):
     VARIANTS = 1000
 
     def timed(self, title, make):
-        """The result of make() and the cost of a variant."""
+        """Return the result of make(), and what each variant costs."""
         begun = time.perf_counter()
         made = make()
         each = (time.perf_counter() - begun) / self.VARIANTS
@@ -187,7 +220,8 @@ class Tasks(unittest.TestCase):
         self.assertEqual(made, [1])
 
 
-# A shell starts background programs with SIGINT ignored, so the program sets a handler.
+# A shell starts background programs so that they ignore SIGINT. The program therefore sets a
+# handler.
 INTERRUPTED = """
 import signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -208,7 +242,7 @@ except KeyboardInterrupt:
 @unittest.skipUnless(hasattr(signal, "SIGINT") and os.name == "posix", "no signals")
 class Interrupted(unittest.TestCase):
     def interrupt(self, setup, call, after="s.time > 0", times=1):
-        """The output of a program that receives SIGINT as soon as it has printed that it is
+        """Return the output of a program. It receives SIGINT as soon as it has printed that it is
         ready."""
         program = INTERRUPTED.format(here=HERE, setup=setup, call=call, after=after)
         child = subprocess.Popen(
@@ -242,6 +276,15 @@ class Interrupted(unittest.TestCase):
             "interrupted True",
             self.interrupt(
                 's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10)', "s.step(10**10)"
+            ),
+        )
+
+    def test_runs_that_ask_again_and_again(self):
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk8", rtol=1e-6)',
+                "while True: s.advance_to(s.time + 0.01)",
             ),
         )
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Live views: frames arrive, buttons pause and step the run, strangers are refused, and views end.
-tests/browser/check_live.py uses the page."""
+"""Tests live views. Frames must arrive, buttons must pause and step the run, foreign requests must
+be refused, and views must end. tests/browser/check_live.py uses the page."""
 
 import contextlib
 import gc
@@ -19,7 +19,7 @@ import numpy as np
 import baum
 from mechanisms import pendulum, slider_crank
 
-PATIENCE = 20.0  # [s] until a test fails; machines are slow at times
+PATIENCE = 20.0  # [s] after this time a test fails; it is long, because machines may be slow
 
 
 def until(test):
@@ -34,7 +34,7 @@ def until(test):
 
 
 def ask(view, what="", method="GET", **headers):
-    """The status and text of an answer of the view."""
+    """Make a request to the view, and return the status and the text of the answer."""
     url = urllib.parse.urlsplit(view.url)
     connection = http.client.HTTPConnection(url.hostname, url.port, timeout=PATIENCE)
     try:
@@ -53,7 +53,7 @@ def ask_for_events(view):
 
 
 class Page:
-    """Receives the events of a view, as a page does."""
+    """Receives the events of a view in the same way as a page."""
 
     def __init__(self, view):
         self._socket = ask_for_events(view)
@@ -129,7 +129,7 @@ class Views(unittest.TestCase):
             self.assertIn("Content-Type: text/event-stream", page.head)
             while len(page.frames) < 10:
                 self.s.step()
-            until(lambda: page.last["t"] == self.s.time)  # the last state is shown, too
+            until(lambda: page.last["t"] == self.s.time)  # the last state must also be shown
             np.testing.assert_allclose(page.last["q"], self.s.q, rtol=1e-6, atol=1e-12)
         times = [frame["t"] for frame in page.frames]
         self.assertEqual(times, sorted(times))
@@ -249,14 +249,14 @@ class Views(unittest.TestCase):
             until(lambda: len(page.frames) > 3)
             ask(view, "pause", "POST")
             before = self.until_still(lambda: page.last["t"])
-            for count in (1, 4):  # also if they follow each other at once
+            for count in (1, 4):  # steps must also work if they follow each other immediately
                 for _ in range(count):
                     ask(view, "step", "POST")
                 until(lambda: page.last["t"] > before)
                 after = self.until_still(lambda: page.last["t"])
                 self.assertAlmostEqual(after, before + 1e-4 * count, delta=1e-9)
                 before = after
-            self.s.cancel()  # ends the waiting
+            self.s.cancel()  # this ends the wait
             thread.join(PATIENCE)
             self.assertFalse(thread.is_alive())
 
@@ -279,7 +279,7 @@ class Views(unittest.TestCase):
             thread = self.in_background(lambda: self.s.advance_to(0.01))
             time.sleep(0.2)
             self.assertTrue(thread.is_alive())
-            self.assertEqual(self.s.time, 0)  # it waits before the first step
+            self.assertEqual(self.s.time, 0)  # the run waits before its first step
         thread.join(PATIENCE)
         self.assertFalse(thread.is_alive())
         self.assertEqual(self.s.time, 0.01)
@@ -315,7 +315,7 @@ class Views(unittest.TestCase):
                 return value
         raise AssertionError("the run is not held")
 
-    # ---- strangers
+    # ---- foreign requests
 
     def test_foreign_pages_are_refused(self):
         view = self.view()
@@ -339,7 +339,7 @@ class Views(unittest.TestCase):
                 self.assertEqual(connection.getresponse().status, 404, path)
                 connection.close()
         self.assertEqual(ask(view, "other")[0], 404)
-        self.assertEqual(ask(view, "pause")[0], 404)  # buttons are posted
+        self.assertEqual(ask(view, "pause")[0], 404)  # requests of buttons must use POST
         self.assertEqual(ask(view, "frame", "POST")[0], 404)
         self.assertNotIn(secret, ask(view)[1])
 

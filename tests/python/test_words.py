@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No text that reaches Python contains a C name."""
+"""Tests that no text that reaches Python contains a C name."""
 
 import re
 import unittest
@@ -55,7 +55,7 @@ class Table(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
-    """Errors whose messages contain C names before they are translated."""
+    """Errors whose messages contain C names until the binding translates them."""
 
     def refused(self, call, *arguments, **fields):
         with self.assertRaises(baum.Error) as caught:

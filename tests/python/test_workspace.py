@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Evaluation at a state: shapes, and consistency of the results."""
+"""Tests evaluations at a state: the shapes of results, and that results are consistent."""
 
 import unittest
 

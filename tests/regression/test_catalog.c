@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The catalogue compared with itself and with the tables of tests/data, which were computed in
- * another way. References satisfy the constraints of their mechanisms and agree with the initial
- * states, runs agree with the references, and formulas are as accurate as they state. */
+/* Compares the catalogue with itself and with the tables of tests/data, which were computed in
+ * another way. References must satisfy the constraints of their mechanisms and agree with the
+ * initial states. Runs must agree with the references. Formulas must be as accurate as they
+ * state. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,7 +23,7 @@
 #include "slider_crank_driven_reference.h"
 #include "sundials_pendulum_reference.h"
 
-/* An entry and its reference, with the parameters of a choice. */
+/* An entry and its reference, for the parameters of a choice. */
 typedef struct known {
   baum_catalog_entry entry;
   baum_catalog_choice choice;
@@ -130,7 +131,8 @@ static void look_at_constraints(const known *k)
     off_rate = fmax(off_rate, worst_of(rate, k->nc));
   }
   printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
-  /* Covers the rounding of coordinates up to 30 and of sums of a few sines and cosines. */
+  /* The limit allows for rounding of coordinates up to 30, and of sums of a few sines and
+   * cosines. */
   assert_true(off <= 1e-14);
   assert_true(off_rate <= 1e-14 * fmax(1.0, fast));
   free(phi);
@@ -172,7 +174,7 @@ static baum_catalog_error run(const known *k, double rtol)
   printf("%-24s rtol %.0e: start %.0e %.0e, q %.1e at %g s, v %.1e at %g s, floors %.0e %.0e\n",
          k->entry.name, rtol, start.q, start.v, error.q, error.q_time, error.v, error.v_time,
          error.q_floor, error.v_floor);
-  /* Covers the rounding of the design configuration and of its assembly. */
+  /* The limit allows for rounding of the design configuration and of its assembly. */
   assert_true(start.q <= 1e-15 && start.v <= 1e-15);
   baum_simulation_destroy(simulation);
   free(rows);
@@ -184,8 +186,9 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Measured errors are up to 5e-10, because the errors of hundreds of steps add up; 1.9e-9 after
-   * nine revolutions of the spatial slider-crank; 6e-9 after flat configurations. */
+  /* Errors of up to 5e-10 were measured, because the errors of hundreds of steps add up. After nine
+   * revolutions of the spatial slider-crank, 1.9e-9 was measured, and after flat configurations
+   * 6e-9. */
   double wanted = k->entry.smooth ? 3e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);
@@ -197,7 +200,7 @@ static void runs_begin_at_the_references_and_stay_there(void **state)
   for_each_reference(look_at_run);
 }
 
-/* ---- formulas against tables ---- */
+/* ---- formulas, compared with tables ---- */
 
 static void compare_with_table(const char *name, int count, const double *t, const double *q,
                                int width)
@@ -243,7 +246,7 @@ static void forty_windows_follow_their_equation(void **state)
   }
 }
 
-/* ---- formulas with other parameters against runs ---- */
+/* ---- formulas with other parameters, compared with runs ---- */
 
 static void formulas_hold_for_other_parameters(void **state)
 {
@@ -269,7 +272,7 @@ static void formulas_hold_for_other_parameters(void **state)
   for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
     known k = know(&choices[i]);
     baum_catalog_error error = run(&k, 1e-11);
-    double wanted = k.entry.smooth ? 1e-9 : 1e-7; /* larger after flat configurations */
+    double wanted = k.entry.smooth ? 1e-9 : 1e-7; /* errors are larger after flat configurations */
     assert_true(error.q <= wanted && error.v <= wanted);
     forget(&k);
   }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pendulum A01, released level, through 2000 s: 981 swings. Its motion is known in closed form,
+/* The pendulum A01 is released level and swings for 2000 s, which are 981 swings. Its motion is
+ * known in closed form:
  *
  *   sin(angle / 2) = k sn(w t + K),   k^2 = 1/2,   w^2 = g / L,   x = -sin angle,   y = -cos angle
  *
- * with the angle measured from the lowest point, and sn computed in long double by the
+ * The angle is measured from the lowest point. The function sn is computed in long double by the
  * arithmetic-geometric mean (M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 1964,
  * 16.4).
  */
@@ -52,14 +53,15 @@ static void the_closed_form_is_that_of_the_table(void **state)
     double q[2];
     closed_form(A01_PENDULUM_T[k], q);
     for (int i = 0; i < 2; i++) {
-      /* The table has 17 digits. Here g is exactly 9.81; the mechanism has the nearest double. */
+      /* The table has 17 digits. It uses g = 9.81 exactly, and the mechanism uses the nearest
+       * double. */
       ASSERT_NEAR(q[i], A01_PENDULUM_Q[k][i], 0.0, 1e-14);
     }
   }
 }
 
-/* Prints how the error grows; returns the last error. A constant relative error of the period makes
- * the error grow like t, a drift of the energy like t^2. */
+/* Prints how the error grows, and returns the last error. If the period has a constant relative
+ * error, the error grows like t. If the energy drifts, it grows like t^2. */
 static double follow(const model *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -89,7 +91,8 @@ static void a_pendulum_is_followed_through_2000_s(void **state)
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   o.integrator = baum_rk8();
   o.rtol = 1e-13;
-  /* A hundred times the measured error, so that the rounding of other processors is covered. */
+  /* The limit is a hundred times the measured error, because rounding on other processors is
+   * different. */
   assert_true(follow(&m, &o) <= 1e-6);
   model_destroy(&m);
 }

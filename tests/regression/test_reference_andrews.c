@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism by user functions in 7 angles, with and without a Jacobian, and as 7
- * rigid bodies, compared with the catalogue's samples. These were computed for this project and are
- * correct to 15 digits; the published ones have only 10. */
+/* Compares Andrews' squeezing mechanism with the catalogue's samples. It is built by user functions
+ * in 7 angles, with and without a Jacobian, and of 7 rigid bodies. The samples were computed for
+ * this project, and are correct to 15 digits. The published values have only 10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -84,8 +84,8 @@ static void rk4_with_projection_reaches_both(void **state)
 {
   (void)state;
   model m;
-  /* The crank rotates at up to 1.4e3 rad/s, by 16 rad in all. The error is about (1.4e3 h)^4 =
-   * 7e-10, times 16, divided by 5!. */
+  /* The crank rotates at up to 1.4e3 rad/s, and by 16 rad in total. The error is about (1.4e3
+   * h)^4 = 7e-10, multiplied by 16 and divided by 5!. */
   double step = 0.03 / 8192;
   assert_int_equal(model_andrews_angles(true, &m), BAUM_OK);
   assert_reached_by_rk4(&ANGLES, m.mechanism, step, 1e-10);
@@ -116,13 +116,13 @@ static void multipliers_have_the_sign_of_the_equations(void **state)
                    BAUM_OK);
   for (int i = 0; i < ANDREWS_SAMPLES; i++) {
     for (int k = 0; k < 7; k++) {
-      /* The error of the positions is 3e-12 (measured above); that of the velocities is larger by a
-       * rate of 1e3 1/s. */
+      /* The error of the positions was measured above to be 3e-12. The error of the velocities is
+       * larger by a rate of 1e3 1/s. */
       ASSERT_NEAR(rows[i * ROW + k], ANDREWS_V[i][k], 0.0, 1e-8);
     }
     for (int k = 0; k < 6; k++) {
-      /* Forces change by 4530 N/m x 0.03 m within some tenths of a radian, or 1e3 N/rad. An error
-       * of 3e-12 rad therefore causes an error of 3e-9 N. */
+      /* Forces change by 4530 N/m x 0.03 m within some tenths of a radian. This is about 1e3 N/rad.
+       * An error of 3e-12 rad therefore causes an error of 3e-9 N. */
       ASSERT_NEAR(rows[i * ROW + 7 + k], ANDREWS_LAMBDA[i][k], 0.0, 1e-8);
     }
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The car axis: four user coordinates and two rows that depend on time, with and without their
- * derivatives, compared with the catalogue's samples (18 digits). */
+/* Compares the car axis with the catalogue's samples, which have 18 digits. It has four user
+ * coordinates and two rows that depend on time, with and without their derivatives. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,8 +48,8 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_car_axis(true, &m), BAUM_OK);
-  /* Springs of 1 N/m on 5e-4 kg oscillate at 45 rad/s. The error is about (45 h)^4 = 4e-10, divided
-   * by 5!. */
+  /* Springs of 1 N/m with masses of 5e-4 kg oscillate at 45 rad/s. The error is about (45
+   * h)^4 = 4e-10, divided by 5!. */
   assert_reached_by_rk4(&AXIS, m.mechanism, 1e-4, 1e-10);
   model_destroy(&m);
 }
@@ -72,11 +72,12 @@ static void multipliers_are_the_negative_of_the_test_set(void **state)
     baum_simulation_sample(run, CAR_AXIS_T, CAR_AXIS_SAMPLES, channels, 2, rows, NULL), BAUM_OK);
   for (int i = 0; i < CAR_AXIS_SAMPLES; i++) {
     for (int k = 0; k < 4; k++) {
-      /* The error of the positions is below 1e-10 (see above), multiplied by 45 1/s. */
+      /* The error of the positions is below 1e-10, as tested above. Here it is multiplied by 45
+       * 1/s. */
       ASSERT_NEAR(rows[i * ROW + k], CAR_AXIS_V[i][k], 0.0, 4.5e-9);
     }
     for (int k = 0; k < 2; k++) {
-      /* The same error of the positions, multiplied by the stiffness of 1 N/m. */
+      /* The same error of the positions is multiplied by the stiffness of 1 N/m. */
       ASSERT_NEAR(rows[i * ROW + 4 + k], -CAR_AXIS_LAMBDA[i][k], 0.0, 1e-10);
     }
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of three rods compared with the catalogue's reference (17 digits). */
+/* Compares a chain of three rods with the catalogue's reference, which has 17 digits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,8 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_chain_3(&m), BAUM_OK);
-  /* The angular velocities w briefly reach 40 rad/s, so the error is about (w h)^4 = 6e-10. */
+  /* The angular velocities w reach 40 rad/s for a short time. The error is therefore about (w
+   * h)^4 = 6e-10. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-9);
   model_destroy(&m);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A crank-rocker four-bar under gravity compared with the catalogue's reference (15 digits). */
+/* Compares a crank-rocker four-bar under gravity with the catalogue's reference, which has 15
+ * digits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +40,7 @@ static void ida_with_ggl_reaches_the_reference_within_1e_6(void **state)
   model_destroy(&m);
 }
 
-/* Only 1e-9 is expected, because an initial error grows by a factor of 1e4 in these 5 s. */
+/* Only 1e-9 is required, because an initial error grows by a factor of 1e4 in these 5 s. */
 static void adams_is_within_1e_9_at_its_tightest(void **state)
 {
   (void)state;
@@ -61,7 +62,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
   model m;
   assert_int_equal(model_four_bar(&m), BAUM_OK);
   /* The angular velocities w reach 9 rad/s. The error is about (w h)^4 = 1.5e-12, multiplied by the
-   * angle of at most 9 rad/s x 5 s. */
+   * angle, which is at most 9 rad/s x 5 s. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-10);
   model_destroy(&m);
 }

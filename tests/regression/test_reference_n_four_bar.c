@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Problem A02 of IFToMM and A Coruna with 40 windows: 243 coordinates and 242 rows. It moves from
- * upright to its first flat position, where J loses 40 rows. Compared with tests/data. */
+/* Problem A02 of IFToMM and A Coruna with 40 windows. It has 243 coordinates and 242 rows. It moves
+ * from its upright to its first flat position, where J loses 40 rows of rank. The motion is
+ * compared with tests/data. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +19,8 @@ static double larger(double a, double b)
   return isnan(b) || b > a ? b : a;
 }
 
-/* Angle of the first crank, and the largest difference of any coordinate from its value at that
- * angle. */
+/* Computes the angle of the first crank, and the largest difference of any coordinate from its
+ * value at this angle. */
 static void angle_and_departure(const double *q, double *out)
 {
   double c = cos(q[2]);
@@ -39,8 +40,8 @@ static void angle_and_departure(const double *q, double *out)
   }
 }
 
-/* The last sample is 5e-6 rad before the flat position. The accuracy in the flat position itself
- * would be accidental, because J loses rank there. */
+/* The last sample is 5e-6 rad before the flat position. In the flat position itself J loses rank,
+ * so that the accuracy there would be accidental. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -49,7 +50,7 @@ static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .lengths = "rr",
                                   .columns = angle_and_departure};
 
-/* Largest angle between two cranks at a hundred times. */
+/* Returns the largest angle between two cranks, at a hundred times. */
 static double apart_after(const model *m, int loops, double rtol, double end)
 {
   baum_simulation_options options = ggl_options();
@@ -81,10 +82,10 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
   model_destroy(&m);
 }
 
-/* In ten seconds the mechanism passes the flat position several times, where the motion may enter
+/* In ten seconds, the mechanism passes the flat position several times. There the motion may enter
  * other branches, as it does with INDEX2 and BAUMGARTE. On those branches the angles of the cranks
  * differ by radians. On the right branch all cranks remain parallel, even if their common angle is
- * inaccurate: the largest measured difference is 5e-8 rad. */
+ * inaccurate. The largest difference measured is 5e-8 rad. */
 static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
 {
   (void)state;

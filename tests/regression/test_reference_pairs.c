@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares dp5 and rk8 with projection, at rtol from 1e-4 to 1e-12, with reference motions that
- * avoid singular configurations. These integrators do not need SUNDIALS. */
+/* Compares dp5 and rk8 with reference motions that avoid singular configurations. They are used
+ * with projection, at rtol from 1e-4 to 1e-12. These integrators do not need SUNDIALS. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -63,8 +63,8 @@ static baum_status build_chain(model *m)
     .q = NAME##_Q[0], .lengths = (units)                                              \
   }
 
-/* A problem and the errors allowed for dp5 and rk8. The limits of the pendulum and the chain are
- * larger, because errors of 1e-12 in each step add up or grow in their long motions. */
+/* A problem, and the errors that are allowed for dp5 and for rk8. The limits for the pendulum and
+ * the chain are larger. Their motions are long, and errors of 1e-12 in each step add up or grow. */
 typedef struct problem {
   reference with;
   baum_status (*build)(model *m);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pendulums, by a distance joint and by one user function, compared with tests/data: A01 of IFToMM
- * and A Coruna to 10 s (closed form by elliptic functions, 20 digits) and that of SUNDIALS'
- * cvPendulum_dns to 30 s, whose period is exactly 2 s. */
+/* Compares two pendulums with tests/data. Each is made with a distance joint, and with one user
+ * function. The first is A01 of IFToMM and A Coruna up to 10 s, whose closed form with elliptic
+ * functions has 20 digits. The second pendulum is SUNDIALS' cvPendulum_dns up to 30 s. Its period
+ * is exactly 2 s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,8 +62,9 @@ static void rk4_with_projection_reaches_both(void **state)
 {
   (void)state;
   model m;
-  /* The angular velocity is below 5.3 rad/s. The error is about (5.3 h)^4 = 4e-11 and 3e-12 at
-   * these steps, multiplied by the angles covered, 40 and 120 rad, and divided by 5!. */
+  /* The angular velocity is below 5.3 rad/s. At these steps, (5.3 h)^4 is 4e-11 and 3e-12. The
+   * error is about this number, multiplied by the angle covered, which is 40 and 120 rad, and
+   * divided by 5!. */
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   assert_reached_by_rk4(&A01, m.mechanism, 1.0 / 2048, 1e-10);
   model_destroy(&m);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The eccentric slider-crank with and without a driver, compared with references correct to 16
- * digits. Without a driver the crank makes about five revolutions, and errors of its speed add up
- * to errors of its angle. It therefore needs tighter tolerances than the driven one. */
+/* Compares the eccentric slider-crank, with and without a driver, with references that are correct
+ * to 16 digits. Without a driver, the crank makes about five revolutions, and errors of its speed
+ * add up to errors of its angle. It therefore needs tighter tolerances than with a driver. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,8 @@ static const reference REFERENCES[2] = {
    .lengths = COLUMNS},
 };
 
-/* With a driver the samples are a table of tests/data, without one they come from the catalogue. */
+/* The samples for the crank with a driver are a table of tests/data. Those for the crank without a
+ * driver come from the catalogue. */
 static void read_sample(bool driven, int i, double *q, double *v)
 {
   const baum_catalog_choice choice = {.name = "slider_crank_eccentric"};
@@ -111,8 +112,8 @@ static void ida_at_index_3_runs_to_the_end_and_its_error_is_shown(void **state)
     const reference_run *run = &ladder.runs[2]; /* rtol 1e-6 */
     printf("at rtol 1e-06 the real error is %.2e\n", run->error);
     assert_true(run->status >= 0);
-    /* INDEX3 keeps the positions on the constraints but does not control the error along them.
-     * Measured: 0.2 without a driver, 5e-7 with one. */
+    /* INDEX3 keeps the positions on the constraints, but it does not control errors along the
+     * constraints. Errors of 0.2 were measured without a driver, and of 5e-7 with a driver. */
     assert_true(run->error < 1.0);
     assert_true(run->counters.max_phi < 1e-5);
     model_destroy(&m);
@@ -125,7 +126,7 @@ static void rk4_with_projection_reaches_them_too(void **state)
   for (int driven = 0; driven < 2; driven++) {
     model m = build(driven, false);
     /* The error is about (150 rad/s x h)^4 = 5e-12, multiplied by the 30 rad that the crank
-     * covers. */
+     * rotates. */
     assert_reached_by_rk4(&REFERENCES[driven], m.mechanism, 1e-5, 1e-10);
     model_destroy(&m);
   }
@@ -153,8 +154,8 @@ static void velocities_follow(void **state)
                                             &velocities, 1, rows, NULL),
                      BAUM_OK);
     for (int i = 0; i < SIZE; i++) {
-      /* The error of the positions is 1e-10 (see above); that of the velocities is larger by the
-       * factor 150 rad/s. */
+      /* The error of the positions is 1e-10, as tested above. The error of the velocities is larger
+       * by the factor 150 rad/s. */
       ASSERT_NEAR(rows[i], want[i], 0.0, 1e-10 * SPEED);
     }
     baum_simulation_destroy(run);
@@ -186,9 +187,11 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
 
     assert_true(v[2] == SPEED);
     assert_true(q[2] == 0.0);
-    assert_true(counters.start_change > 0.01); /* the design configuration was only approximate */
+    /* Assembly moved the bodies, because the design configuration was only approximate. */
+    assert_true(counters.start_change > 0.01);
     for (int i = 0; i < 9; i++) {
-      /* Covers the rounding of a few operations on lengths below 1 m and speeds below 150 rad/s. */
+      /* The limit allows for rounding in a few operations on lengths below 1 m and speeds below 150
+       * rad/s. */
       ASSERT_NEAR(q[i], want_q[i], 0.0, 1e-14);
       ASSERT_NEAR(v[i], want_v[i], 0.0, 1e-14 * SPEED);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies, compared with the catalogue's
- * reference (20 digits). */
+/* Compares the slider-crank of SUNDIALS' idaSlCrank_dns with the catalogue's reference, which has
+ * 20 digits. It is built of two bodies. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,7 +34,8 @@ static void rk4_with_projection_reaches_it_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_sundials_slider_crank(&m), BAUM_OK);
-  /* The angular velocities w are about 1 rad/s, so the error is about (w h)^4 / 5! = 2e-12. */
+  /* The angular velocities w are about 1 rad/s. The error is therefore about (w h)^4 / 5! =
+   * 2e-12. */
   assert_reached_by_rk4(&SIX, m.mechanism, 1.0 / 256, 1e-10);
   model_destroy(&m);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares runs of the spatial mechanisms of the catalogue by dp5, RATTLE and the methods of
- * SUNDIALS with the references. test_catalog.c does this for rk8. */
+/* Compares runs of the catalogue's spatial mechanisms with their references. The runs use dp5,
+ * RATTLE and the methods of SUNDIALS. test_catalog.c does the same for rk8. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -65,13 +65,14 @@ static void references_are_met(void **state)
   (void)state;
   check_all(baum_dp5(), BAUM_FORMULATION_PROJECTION, 1e-6);
 #if BAUM_HAVE_SUNDIALS
-  /* The largest measured error is 4e-6, for the spatial slider-crank after thousands of steps. */
+  /* The largest error measured is 4e-6. It occurs for the spatial slider-crank after thousands of
+   * steps. */
   check_all(baum_cvode_bdf(), BAUM_FORMULATION_PROJECTION, 1e-5);
   check_all(baum_ida(), BAUM_FORMULATION_GGL, 1e-5);
 #endif
 }
 
-/* The governors have dampers, which RATTLE refuses. */
+/* The governors are omitted, because they have dampers, which RATTLE refuses. */
 static void rattle_meets_them_with_its_order(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The axes of the grid. Most of them vary one number of an ordinary cell by powers of ten; these
- * are rows of the table DECADES. The others are functions. Names of axes in space begin with
- * "space". */
+/* The axes of the grid. Most axes vary one number of an ordinary cell by powers of ten. They are
+ * rows of the table DECADES. All other axes are functions. If the name of an axis begins with
+ * "space", its cells are in space. */
 #include "axes.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static const way BDF_GAINS = SUNDIALS("bdf baumgarte", baum_cvode_bdf, BAUMGARTE
 static const way GGL = SUNDIALS("ida ggl", baum_ida, GGL);
 static const way IDA_GAINS = SUNDIALS("ida baumgarte", baum_ida, BAUMGARTE);
 
-/* Lists end with NULL. */
+/* These lists end with NULL. */
 static const way *const FIXED_WAYS[] = {&RK4,        &RK8_FIXED, &AB4,   &EULER,
                                         &SYMPLECTIC, &RATTLE,    &ALPHA, NULL};
 static const way *const VARIABLE_WAYS[] = {&RK8,       &RK8_GAINS, &DP5,       &ADAMS, &BDF,
@@ -74,8 +74,8 @@ static bool is_in_space(const char *axis)
   return strncmp(axis, "space", 5) == 0;
 }
 
-/* Returns a cell with ordinary numbers. If the axis is in space, its scene is a planar scene in a
- * tilted plane or a spatial mechanism of the catalogue. */
+/* Returns a cell with ordinary numbers. If the axis is in space, the scene of the cell is a planar
+ * scene in a tilted plane, or a spatial mechanism of the catalogue. */
 static cell ordinary(const char *axis, scene_kind kind)
 {
   const bool space = is_in_space(axis);
@@ -108,14 +108,14 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
 #define NUMBER(FIELD) offsetof(cell, FIELD)
 
 typedef struct decades {
-  const char *name; /* name for the command line */
-  const char *axis; /* printed name */
-  size_t number;    /* offset of the varied number, a double of the cell */
-  unsigned kinds;   /* set of kinds of scenes */
-  int from, to, by; /* exponents of ten */
+  const char *name; /* name on the command line */
+  const char *axis; /* name that is printed */
+  size_t number;    /* offset of the number that is varied, which is a double of the cell */
+  unsigned kinds;   /* set of kinds of scenes for which the axis exists */
+  int from, to, by; /* the exponents of ten */
   const way *const *ways;
-  bool zero;    /* begin with 0 */
-  int64_t most; /* largest number of steps; 0: that of an ordinary cell */
+  bool zero;    /* whether the first value is 0 */
+  int64_t most; /* largest number of steps, or 0 for the number of an ordinary cell */
 } decades;
 
 static const decades DECADES[] = {
@@ -146,7 +146,7 @@ static const decades DECADES[] = {
    GAIN_WAYS, true, 0},
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio),
    KIND(CRANK) | KIND(WINDOWS) | KIND(SPATIAL_CRANK) | KIND(RSSR), -12, 12, 3, WAYS, false, 0},
-  /* the ratio of a rod's moments of inertia, at most 2 */
+  /* This is the ratio of a rod's moments of inertia. It is at most 2. */
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio), KIND(BRICARD), -12, 0, 3, WAYS,
    false, 0},
   {"space_stiffness", "space: stiffness", NUMBER(scene.stiffness), KIND(SPATIAL_CRANK), 0, 12, 2,
@@ -162,7 +162,7 @@ static const decades DECADES[] = {
   {"space_speed", "space: speed", NUMBER(scene.rate), KIND(FOUR_BAR) | KIND(SPATIAL_CRANK), 0, 6, 1,
    WAYS, false, 0},
   {"space_speed", "space: speed", NUMBER(scene.rate), KIND(RSSR), 0, 6, 1, DRIVEN_WAYS, false, 0},
-  /* a slower top does not precess steadily */
+  /* If the top were slower, it would not precess steadily. */
   {"space_speed", "space: speed", NUMBER(scene.rate), KIND(TOP), 2, 6, 1, WAYS, false, 0},
 };
 
@@ -232,8 +232,8 @@ static void sweep_space_violation(cell_list *list)
   sweep_violation(list, "space: violation", "space: violation, exact", SCENE_FOUR_BAR);
 }
 
-/* N-four-bars start `gap` [rad] before a singular configuration and move through it. For the
- * slider-crank, `gap` [m] is the length of the rod minus that of the crank. */
+/* An N-four-bar starts at a distance of `gap` [rad] from a singular configuration, and moves
+ * through it. For the slider-crank, `gap` [m] is by how much the rod is longer than the crank. */
 static void sweep_singular(cell_list *list, const char *axis, const char *rod, int by)
 {
   for (int decade = 0; decade <= 16; decade += by) {
@@ -271,7 +271,7 @@ static void sweep_bodies(cell_list *list)
       cell c = ordinary("bodies", KINDS[k]);
       int bodies = (int)pow(10.0, decade);
       c.scene.count = KINDS[k] == SCENE_CHAIN ? bodies : bodies / 2 + (bodies == 1);
-      /* The fastest rate of a chain of n links is n times its angular velocity. */
+      /* In a chain of n links, the fastest rate is n times the angular velocity. */
       c.periods = KINDS[k] == SCENE_CHAIN ? 0.2 / bodies : decade < 4 ? 0.2 : 20.0 / bodies;
       c.step = fmin(c.step, c.periods / 4);
       with_ways(list, c, bodies, WAYS);
@@ -279,8 +279,8 @@ static void sweep_bodies(cell_list *list)
   }
 }
 
-/* In space, takes only every second value of OFF, and not the largest number of redundant
- * joints. */
+/* Adds cells with redundant joints. In space, every second value of OFF and the largest number of
+ * redundant joints are omitted. */
 static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
 {
   static const int SPARES[] = {0, 1, 5, 20};
@@ -291,7 +291,8 @@ static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
       cell c = ordinary(axis, kind);
       c.scene.spare = SPARES[n];
       c.scene.off = OFF[i];
-      c.share = 10.0 * SPARES[n] * OFF[i]; /* the redundant joints disagree by OFF[i] */
+      /* The redundant joints differ from the others by OFF[i]. */
+      c.share = 10.0 * SPARES[n] * OFF[i];
       with_ways(list, c, OFF[i], WAYS);
     }
   }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stress grid without this library: pendulum and slider-crank as a first hand-written program
- * for CVODE and IDA would solve them. Matrices are dense, gains are 5 1/s as in textbooks, atol =
- * rtol, and runs start in the design configuration. Nothing is scaled, assembled or checked.
+/* Runs the stress grid without this library. The pendulum and the slider-crank are solved as by a
+ * simple hand-written program for CVODE and IDA. Matrices are dense, gains are 5 1/s as in
+ * textbooks, and atol = rtol. Runs start in the design configuration. Nothing is scaled, assembled
+ * or checked.
  *
  *   bare [--list]
  *
- * Prints the counts of outcomes next to those of the library for the same cells, with the same
- * oracle and the same permitted errors.
+ * The program prints how often each outcome occurs, next to the same numbers for the library. The
+ * cells, the oracle and the permitted errors are the same.
  */
 #include <cvode/cvode.h>
 #include <ida/ida.h>
@@ -29,8 +30,8 @@ static const double GAIN = 5.0; /* [1/s] alpha = beta */
 typedef enum bare_way { ADAMS, BDF, INDEX1, INDEX3, BARE_WAYS } bare_way;
 static const char *const BARE_NAMES[BARE_WAYS] = {"CVODE Adams", "CVODE BDF", "IDA index 1",
                                                   "IDA index 3"};
-/* The settings of the library that each program is compared with; both programs with IDA are
- * compared with the same setting. */
+/* Each program is compared with one of these settings of the library. Both programs that use IDA
+ * are compared with the same setting. */
 static const char *const BESIDE[BARE_WAYS] = {"adams", "bdf", "ida ggl", "ida ggl"};
 
 /* ---- the equations, by hand ---- */
@@ -41,7 +42,7 @@ typedef struct hand {
   int rows;
   double mass[Q];
   double gravity;
-  double crank; /* lengths of crank and rod */
+  double crank; /* length of the crank; the length of the rod is the next member */
   double rod;
 } hand;
 
@@ -74,7 +75,8 @@ typedef struct rows {
   double j[ROWS][Q];
 } rows;
 
-/* Adds sign times the point (x, 0) of body b, which is r + A(angle) (x, 0), to two rows. */
+/* Adds a point to two rows, multiplied by `sign`. It is the point (x, 0) of body b, which is
+ * r + A(angle) (x, 0) in ground axes. */
 static void add_point(rows *r, int row, const double *q, const double *v, int b, double x,
                       double sign)
 {
@@ -106,7 +108,7 @@ static void crank_rows(const hand *h, const double *q, const double *v, rows *r)
   }
 }
 
-/* x^2 + y^2 = l^2 */
+/* Sets the rows of the constraint x^2 + y^2 = l^2. */
 static void bob_rows(const hand *h, const double *q, const double *v, rows *r)
 {
   for (int k = 0; k < h->rows; k++) {
@@ -147,7 +149,8 @@ static void load(const hand *h, const double *q, const double *v, double *force)
   }
 }
 
-/* Gaussian elimination with partial pivoting; false if a pivot is zero. */
+/* Solves a system by Gaussian elimination with partial pivoting. Returns false if a pivot is
+ * zero. */
 static bool eliminate(int n, double a[KKT][KKT + 1])
 {
   for (int k = 0; k < n; k++) {
@@ -179,7 +182,7 @@ static bool eliminate(int n, double a[KKT][KKT + 1])
   return true;
 }
 
-/* Solves for accelerations and multipliers, with Baumgarte's gains; false if the matrix is
+/* Solves for accelerations and multipliers with Baumgarte's gains. Returns false if the matrix is
  * singular. */
 static bool accelerate(const hand *h, const double *q, const double *v, double *x)
 {
@@ -267,7 +270,7 @@ static int dae(double t, N_Vector y_, N_Vector dy_, N_Vector residual, void *use
   return 0;
 }
 
-/* Sets the design configuration. */
+/* Sets q and v to the design configuration. */
 static void set_design(const scene *s, double *q, double *v)
 {
   const double nudge = 1e-7;
@@ -301,7 +304,7 @@ static bool start_cvode(problem *p, const cell *c, double t)
   return fine && CVodeSetLinearSolver(p->memory, p->solver, p->matrix) == 0;
 }
 
-/* Starts with consistent accelerations and multipliers, as user guides recommend. */
+/* Starts IDA with consistent accelerations and multipliers, as its user guide recommends. */
 static bool start_ida(problem *p, const cell *c, double t)
 {
   int n = p->h.n;
@@ -329,7 +332,8 @@ static bool start_ida(problem *p, const cell *c, double t)
   return fine;
 }
 
-/* Integrates to `end` and counts steps. Returns whether the integrator reports success. */
+/* Integrates to the time `end`, and counts the steps. Returns whether the integrator reports
+ * success. */
 static bool advance(problem *p, const cell *c, double t, double end, int64_t *steps)
 {
   bool ida = p->which >= INDEX3 || p->which == INDEX1;
@@ -458,7 +462,7 @@ int main(int argc, char **argv)
 {
   bool tell = argc > 1 && strcmp(argv[1], "--list") == 0;
   cell_list list = axes_cells(NULL);
-  /* SUNDIALS prints messages to stderr; discard them. */
+  /* SUNDIALS prints messages to stderr. They are discarded. */
   if (!freopen("/dev/null", "w", stderr)) {
     return EXIT_FAILURE;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One cell of the stress grid: a scene, a way to integrate it, and the result. */
+/* A cell of the stress grid. It consists of a scene and a way to integrate it, and has a result. */
 #ifndef BAUM_TEST_CELL_H
 #define BAUM_TEST_CELL_H
 
@@ -10,42 +10,44 @@ typedef struct way {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  bool fixed;   /* the step is fixed */
-  double order; /* order of a fixed-step method with its default gains */
-  bool built;   /* part of this build */
+  bool fixed;   /* whether the step is fixed */
+  double order; /* for a fixed-step method: its order with its default gains */
+  bool built;   /* whether this build contains the method */
 } way;
 
 typedef struct cell {
   const char *axis;
-  double value; /* value of the number that the axis varies */
+  double value; /* value of the number that varies along the axis */
   scene scene;
   const way *way;
-  double periods;   /* duration of the run / period of its fastest rate */
-  double step;      /* fixed step / this period */
-  double rtol;      /* for variable steps */
-  double gain;      /* [1/s] alpha = beta; NaN: the default rule */
-  double share;     /* [-] added to the permitted error for inexact data, relative to the scale */
-  baum_start begin; /* option `start` of the run */
+  double periods; /* duration of the run divided by the period of its fastest rate */
+  double step;    /* fixed step divided by this period */
+  double rtol;    /* tolerance, for variable steps */
+  double gain;    /* [1/s] alpha = beta, or NaN for the default rule */
+  /* [-] is added to the permitted error because of inexact data; relative to the scale. */
+  double share;
+  baum_start begin; /* the option `start` of the run */
   int64_t most;     /* largest number of steps */
 } cell;
 
 typedef enum outcome {
-  MET,     /* the error is within the promise */
+  MET,     /* the error is at most the promise */
   REFUSED, /* the run was not started */
   STOPPED, /* the run ended early with a message */
   WARNED,  /* a warning doubts the motion */
-  CROSSED, /* wrong, but reported a singularity crossing where branches are within 1e-10 */
-  WRONG,   /* status OK, no warning, and an error above the promise */
+  /* The motion is wrong, but a crossing was reported at a place where branches are within 1e-10. */
+  CROSSED,
+  WRONG, /* the status is OK and there is no warning, but the error is above the promise */
   OUTCOMES
 } outcome;
 
 typedef struct grade {
   outcome outcome;
-  bool false_alarm;   /* refused or warned, although the motion is right */
-  double error;       /* relative to the scale, or in rad; NaN: none */
-  double promise;     /* largest permitted error, in the same unit */
-  double seconds;     /* of the run */
-  double all_seconds; /* of run and oracle */
+  bool false_alarm;   /* the run was refused or warned, although its motion is right */
+  double error;       /* relative to the scale, or in rad; NaN if there is none */
+  double promise;     /* the largest permitted error, in the same unit */
+  double seconds;     /* [s] time of the run */
+  double all_seconds; /* [s] time of the run and the oracle */
   int64_t steps;
   baum_status status;
   char message[400];
@@ -53,7 +55,7 @@ typedef struct grade {
 
 const char *outcome_name(outcome o);
 
-/* Duration of a cell's run, and its units of time and length. */
+/* The duration of a cell's run, and the units of time and length for it. */
 typedef struct cell_time {
   double rate;   /* [rad/s] fastest rate of the motion */
   double period; /* [s] */
@@ -62,7 +64,8 @@ typedef struct cell_time {
 } cell_time;
 
 cell_time cell_time_of(const cell *c);
-/* Writes error and promise for positions q, in the units of the scene, after out->steps steps. */
+/* Computes the error and the promise of the positions q after out->steps steps. The positions are
+ * in the units of the scene. */
 void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time,
                   grade *out);
 grade cell_grade(const cell *c);

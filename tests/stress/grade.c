@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the largest error that a run may have, its promise, and compares the actual error with
- * it.
+/* Computes the largest error that a run may have, which is called its promise. Compares the actual
+ * error with the promise.
  *
- * The error is the largest of all positions at the end, with lengths relative to the characteristic
- * length and angles in radians. With variable steps, the estimated error of each step, a mean over
- * all coordinates, is at most rtol. An error grows as neighbouring motions diverge. This gives the
- * promise
+ * The error is the largest one of all positions at the end. Lengths are relative to the
+ * characteristic length, and angles are in radians. With variable steps, the error of each step is
+ * estimated as a mean over all coordinates, and this estimate is at most rtol. An error grows in
+ * the same way as neighbouring motions diverge. The promise is therefore
  *
  *   CONSTANT x rtol x steps x growth
  *
- * The oracle gives the growth from neighbouring motions. CONSTANT covers the ratio of the largest
- * error to the mean, and of an error to its estimate. With a fixed step h and a span T the promise
- * is the error of a method of order p,
+ * The oracle computes the growth from neighbouring motions. CONSTANT allows for two ratios: the
+ * ratio of the largest error to the mean error, and the ratio of an error to its estimate. With a
+ * fixed step h and a span T, the promise is the error of a method of order p:
  *
  *   CONSTANT x rate T x (rate h)^p x growth
  *
- * where rate is the fastest rate of the motion. This is sufficient because the error constants of
- * all methods are below 1, and the n-th derivative of a motion is a few times rate^n. Both promises
- * also include the rounding error of a double for each step.
+ * Here `rate` is the fastest rate of the motion. This promise is large enough, because the error
+ * constants of all methods are below 1, and the n-th derivative of a motion is a few times rate^n.
+ * Both promises also contain the rounding error of a double for each step.
  */
 #include <math.h>
 #include <stdio.h>
@@ -31,8 +31,8 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* Upper bound of every promise, because a result with a larger error is useless: WORTHLESS or, with
- * variable steps and if this is larger, TOLERANCES x rtol. */
+/* No promise is larger than this, because a result with a larger error would be useless. The bound
+ * is WORTHLESS. With variable steps it is TOLERANCES x rtol if that is larger. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
@@ -50,7 +50,7 @@ const char *outcome_name(outcome o)
 typedef struct truth {
   double rate;   /* [rad/s] fastest rate of the motion */
   double span;   /* [s] */
-  double growth; /* [-] factor by which the distance of neighbouring motions grows */
+  double growth; /* [-] the factor by which neighbouring motions move apart */
   oracle_state end;
   bool known;
 } truth;
@@ -60,7 +60,8 @@ static double rate_at(const oracle *o, oracle_state y)
   return (double)fmaxl(fabsl(y.v), sqrtl(fabsl(o->acceleration(o->scene, y.x, y.v))));
 }
 
-/* Returns the largest distance of a body's poses at the angles x and y, lengths over `scale`. */
+/* Returns the largest distance between the poses of a body at the angles x and y. Lengths are
+ * divided by `scale`. */
 static double distance(const scene *s, long double x, long double y, double scale)
 {
   double most = 0.0;
@@ -75,8 +76,9 @@ static double distance(const scene *s, long double x, long double y, double scal
   return most;
 }
 
-/* Returns the rate of oscillation on a stiff spring, from the slope of the acceleration. The size
- * of the acceleration, which rate_at() uses, does not show this rate. */
+/* Returns the rate of oscillations on a stiff spring. It is computed from the slope of the
+ * acceleration. The function rate_at() uses the size of the acceleration, which does not show this
+ * rate. */
 static double stiff_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};
@@ -85,7 +87,8 @@ static double stiff_rate(const scene *s)
   return slope > 0 ? sqrt((double)slope / 1e-3) : 0.0;
 }
 
-/* Returns the fastest rate in the first LOOKS radians. Its period is a cell's unit of time. */
+/* Returns the fastest rate within the first LOOKS radians. The period of this rate is the unit of
+ * time for a cell. */
 static double find_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};
@@ -123,7 +126,7 @@ static truth find_truth(const scene *s, double span, double rate, double scale)
 /* ---- a run ---- */
 
 typedef struct trial {
-  scene scene; /* with the actual start of the run */
+  scene scene; /* contains the actual start of the run */
   model m;
   baum_simulation *run;
   baum_status status;
@@ -166,7 +169,7 @@ static void count(trial *t)
   }
 }
 
-/* If a body is displaced in the design configuration, the true motion starts where the library
+/* If a body is displaced in the design configuration, the true motion starts where the library has
  * assembled it. */
 static void take_start(trial *t)
 {
@@ -235,12 +238,12 @@ static double error_of(const scene *s, const double *q, oracle_state end, double
 
 static double promise_of(const cell *c, const truth *true_, int64_t steps, double scale)
 {
-  double parts = fmax(scale, scene_bodies(&c->scene)); /* rounding adds up along the bodies */
+  double parts = fmax(scale, scene_bodies(&c->scene)); /* rounding errors add up along the bodies */
   double rounding = ROUNDING * (double)(steps + 100) * parts;
   double method = CONSTANT * c->rtol * (double)steps;
   double most = fmax(WORTHLESS, TOLERANCES * c->rtol);
   if (c->way->fixed) {
-    double h = c->step * 2.0 * PI; /* step times rate */
+    double h = c->step * 2.0 * PI; /* the step times the rate */
     method = CONSTANT * true_->rate * true_->span * pow(h, c->way->order);
     most = WORTHLESS;
   }
@@ -252,7 +255,7 @@ static double seconds(void)
   return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* The scale in metres. */
+/* Returns the scale in metres. */
 static double scale_of(const cell *c, const trial *t)
 {
   double scale = 1.0;
@@ -263,7 +266,7 @@ static double scale_of(const cell *c, const trial *t)
 void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time, grade *out)
 {
   double start = s->start;
-  double span = start + time->span - start; /* rounded as in the run */
+  double span = start + time->span - start; /* rounded in the same way as in the run */
   truth true_ = find_truth(s, span, time->rate, time->scale);
   out->error = error_of(s, q, true_.end, time->scale);
   out->promise = true_.known ? promise_of(c, &true_, out->steps, time->scale) : (double)NAN;
@@ -276,8 +279,8 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* A configuration closer than this to a singular one counts as singular, because rounding errors
- * cannot distinguish them. */
+/* If a configuration is closer than this to a singular one, it is considered singular, because
+ * rounding errors do not allow to distinguish them. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
@@ -297,8 +300,9 @@ static outcome judge(const trial *t, const grade *g)
   return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
 
-/* Returns true for two kinds of wrong refusal: a start that is neither singular nor inconsistent,
- * and gains that the library calls unstable although the run meets its promise with them. */
+/* Returns true if a refusal was wrong, which can happen in two ways. The start may be neither
+ * singular nor inconsistent. Or the library may call gains unstable although the run meets its
+ * promise with them. */
 static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {
@@ -346,8 +350,8 @@ grade cell_grade(const cell *c)
     measure(c, &t, time, &out);
   }
   out.outcome = judge(&t, &out);
-  /* From a singular configuration the motion can take several branches. A warning is then justified
-   * even if the run followed the expected branch accurately. */
+  /* From a singular configuration, the motion can continue on several branches. A warning is then
+   * justified, even if the run followed the expected branch accurately. */
   bool open = c->scene.gap <= SINGULAR;
   out.false_alarm = (out.outcome == WARNED && out.error <= out.promise && !open) ||
                     (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of one angle with their first and second derivatives, in long double. */
+/* Computes with functions of one angle, together with their first and second derivatives, in long
+ * double. */
 #ifndef BAUM_TEST_JETS_H
 #define BAUM_TEST_JETS_H
 
@@ -35,7 +36,8 @@ static inline jets jets_times(jets a, jets b)
                  a.d[2] * b.d[0] + 2 * a.d[1] * b.d[1] + a.d[0] * b.d[2]}};
 }
 
-/* f(a) by the chain rule; f, f1 and f2 are f, f' and f'' at the value of a. */
+/* Returns f(a) by the chain rule. The arguments f, f1 and f2 are f, f' and f'' at the value of
+ * a. */
 static inline jets jets_chain(long double f, long double f1, long double f2, jets a)
 {
   return (jets){{f, f1 * a.d[1], f2 * a.d[1] * a.d[1] + f1 * a.d[2]}};
@@ -57,14 +59,14 @@ static inline jets jets_root(jets a)
   return jets_chain(r, 1 / (2 * r), -1 / (4 * r * a.d[0]), a);
 }
 
-/* 1 / a */
+/* Returns 1 / a. */
 static inline jets jets_inverse(jets a)
 {
   long double x = 1 / a.d[0];
   return jets_chain(x, -x * x, 2 * x * x * x, a);
 }
 
-/* atan2(y, x) */
+/* Returns atan2(y, x). */
 static inline jets jets_angle(jets x, jets y)
 {
   long double square = x.d[0] * x.d[0] + y.d[0] * y.d[0];

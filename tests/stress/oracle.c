@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard, Numerische
- * Mathematik 41 (1983) 373). Its error is a series in h^2 even with an inaccurate Jacobian, so
- * differences are sufficient. With a zero Jacobian this is the method of Gragg, Bulirsch and Stoer.
+/* The method is extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard,
+ * Numerische Mathematik 41 (1983) 373). Its error is a series in h^2 even if the Jacobian is
+ * inaccurate. A Jacobian by differences is therefore sufficient. If the Jacobian is zero, this is
+ * the method of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 
@@ -10,7 +11,8 @@
 enum { COLUMNS = 8, MOST_STEPS = 4000 };
 
 static const int PARTS[COLUMNS] = {2, 6, 10, 14, 22, 34, 50, 70};
-/* Permitted error of x in a step. Extrapolation enlarges the rounding of 5e-20 about ten times. */
+/* The largest permitted error of x in a step. Extrapolation enlarges the rounding error of 5e-20
+ * about ten times. */
 static const long double TOLERANCE = 1e-17L;
 
 typedef struct slopes {
@@ -18,7 +20,8 @@ typedef struct slopes {
   long double v;
 } slopes;
 
-/* The Jacobian by central differences. Only the speed of extrapolation depends on its accuracy. */
+/* Computes the Jacobian by central differences. Its accuracy only affects how fast the
+ * extrapolation converges. */
 static slopes slopes_at(const oracle *o, oracle_state y, long double span)
 {
   long double dx = 1e-6L;
@@ -31,7 +34,7 @@ static slopes slopes_at(const oracle *o, oracle_state y, long double span)
   };
 }
 
-/* (1 - h J)^-1 r */
+/* Returns (1 - h J)^-1 r. */
 static oracle_state solve(slopes j, long double h, oracle_state r)
 {
   long double det = 1 - h * j.v - h * h * j.x;
@@ -58,7 +61,7 @@ static oracle_state midpoints(const oracle *o, slopes j, long double span, int p
   return (oracle_state){y.x + d.x, y.v + d.v};
 }
 
-/* Extrapolates a step by Neville's scheme; returns the difference of the last two columns. */
+/* Extrapolates a step by Neville's scheme. Returns the difference of the last two columns. */
 static long double step(const oracle *o, long double span, oracle_state from, oracle_state *to)
 {
   slopes j = slopes_at(o, from, span);
@@ -87,7 +90,7 @@ bool oracle_advance(const oracle *o, long double span, oracle_state *state)
     bool last = fabsl(span - done) <= fabsl(h);
     h = last ? span - done : h;
     long double error = step(o, h, *state, &next);
-    /* A NaN shortens the step, too. */
+    /* The step is also shortened if the error is NaN. */
     if (!(error <= TOLERANCE * (1 + fabsl(state->x)))) {
       h /= 2;
       continue;

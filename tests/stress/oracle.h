@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrates x'' = f(x, x') for one degree of freedom far more accurately than any tested run: in
- * long double, and also for stiff forces. */
+/* Integrates x'' = f(x, x') for one degree of freedom, in long double. It is much more accurate
+ * than any run that is tested, even for stiff forces. */
 #ifndef BAUM_TEST_ORACLE_H
 #define BAUM_TEST_ORACLE_H
 
@@ -16,7 +16,7 @@ typedef struct oracle_state {
   long double v; /* [rad/s] */
 } oracle_state;
 
-/* Advances by `span` [s]; returns false if that would take too many steps. */
+/* Advances the state by the time `span` [s]. Returns false if this would take too many steps. */
 bool oracle_advance(const oracle *o, long double span, oracle_state *state);
 
 #endif

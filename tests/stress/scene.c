@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With all coordinates p(x) as functions of one angle x(t), p' = dp/dx, and masses m,
+/* All coordinates p(x) are functions of one angle x(t). With p' = dp/dx and the masses m, the
+ * equation of motion is
  *
  *   (sum m p'^2) x'' = sum (G p' - m p' p'' x'^2) - k (x - x_r) - d x'
  *
- * where G is the force of gravity; k, d and x_r are stiffness, damping and relaxed angle of the
- * spring. Bodies that move alike are evaluated once and multiplied by their number.
+ * Here G is the force of gravity, and k, d and x_r are the stiffness, the damping and the relaxed
+ * angle of the spring. Bodies that move in the same way are evaluated only once. The result is
+ * multiplied by their number.
  */
 #include "space.h"
 
@@ -17,14 +19,15 @@ static const long double CRANK = 1.0L;
 static const long double COUPLER = 2.0L;
 static const long double ROCKER = 2.2L;
 static const long double GROUND = 2.5L;
-static const double RELAXED = 0.1; /* [rad] angle at start minus relaxed angle of the spring */
+/* [rad] angle at the start minus the relaxed angle of the spring. */
+static const double RELAXED = 0.1;
 
 static const scene START[SCENE_KINDS] = {
   [SCENE_BOB] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_PENDULUM] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_CRANK] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_FOUR_BAR] = {.count = 2, .angle = 1.0, .rate = 1.0, .gravity = 9.81},
-  /* Starts hanging, and does not reach singular (flat) configurations. */
+  /* The windows start hanging. They do not reach flat configurations, which are singular. */
   [SCENE_WINDOWS] = {.count = 2, .angle = -1.0, .rate = 1.0, .gravity = 9.81},
   [SCENE_CHAIN] = {.count = 3, .angle = 0.3, .rate = 3.0, .gravity = 0.0},
   [SCENE_SPATIAL_CRANK] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
@@ -78,22 +81,23 @@ int scene_bodies(const scene *s)
   }
 }
 
-/* ---- geometry: points and angles with their first and second derivatives by x ---- */
+/* ---- geometry: points and angles, with two derivatives with respect to x ---- */
 
 typedef struct curve {
-  long double at[3]; /* x, y, angle */
+  long double at[3]; /* x, y and angle */
   long double d[3];
   long double dd[3];
 } curve;
 
-/* An angle and its derivatives by x. */
+/* An angle and its derivatives with respect to x. */
 typedef struct turn {
   long double at;
   long double d;
   long double dd;
 } turn;
 
-/* Returns the point at `length` from `from` in the direction of the angle a, with that angle. */
+/* Returns the point at the distance `length` from the point `from`, in the direction of the angle
+ * a. The angle of the result is a. */
 static curve along(curve from, turn a, long double length)
 {
   long double c = length * cosl(a.at);
@@ -104,7 +108,7 @@ static curve along(curve from, turn a, long double length)
     {from.dd[0] - s * a.dd - c * a.d * a.d, from.dd[1] + c * a.dd - s * a.d * a.d, a.dd}};
 }
 
-/* The same point, with the angle 0. */
+/* Returns the same point with the angle 0. */
 static curve level(curve p)
 {
   p.at[2] = p.d[2] = p.dd[2] = 0;
@@ -115,7 +119,8 @@ static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
   if (rod == CRANK) {
-    return (turn){-x, -1, 0}; /* the smooth branch through the configuration where they coincide */
+    /* The smooth branch through the configuration in which rod and crank coincide. */
+    return (turn){-x, -1, 0};
   }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
   long double c = cosl(a.at);
@@ -124,7 +129,8 @@ static turn rod_of_crank(const scene *s, long double x)
   return a;
 }
 
-/* Solves crank e(x) + coupler e(a) = ground + rocker e(b) for a and b; e(a) = (cos a, sin a). */
+/* Solves crank e(x) + coupler e(a) = ground + rocker e(b) for the angles a and b. Here e(a) = (cos
+ * a, sin a). */
 static void close_four_bar(long double x, turn *a, turn *b)
 {
   long double r[2] = {GROUND - CRANK * cosl(x), -CRANK * sinl(x)};
@@ -136,7 +142,7 @@ static void close_four_bar(long double x, turn *a, turn *b)
   long double sa = COUPLER * sinl(a->at);
   long double cb = ROCKER * cosl(b->at);
   long double sb = ROCKER * sinl(b->at);
-  long double det = sa * cb - ca * sb; /* of -sa a' + sb b' = f, ca a' - cb b' = g */
+  long double det = sa * cb - ca * sb; /* determinant of -sa a' + sb b' = f, ca a' - cb b' = g */
   long double f = CRANK * sinl(x);
   long double g = -CRANK * cosl(x);
   a->d = (-cb * f - sb * g) / det;
@@ -147,7 +153,7 @@ static void close_four_bar(long double x, turn *a, turn *b)
   b->dd = (-sa * g - ca * f) / det;
 }
 
-/* Even bodies are cranks, odd ones are couplers. */
+/* Returns the pose of a body. Bodies with even numbers are cranks, and the others are couplers. */
 static curve pose_in_windows(int body, turn first)
 {
   curve left = {{(long double)(body / 2)}, {0}, {0}};
@@ -229,7 +235,8 @@ static double mass_of(const scene *s, int body)
   return last && s->kind != SCENE_PENDULUM ? mass * s->ratio : mass;
 }
 
-/* A pendulum has only one body; its `ratio` is its inertia relative to that of a uniform rod. */
+/* Returns the moment of inertia of a body. A pendulum has only one body. There `ratio` is its
+ * moment of inertia divided by that of a uniform rod. */
 static double inertia_of(const scene *s, int body)
 {
   double length = length_of(s, body);
@@ -346,7 +353,7 @@ static void pin_four_bar(baum_i_parts *parts, const baum_body_id *b)
   pin(parts, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
 }
 
-/* Pins body k to the body before it or to ground; returns its first pin. */
+/* Adds a pin between body k and the body before it, or ground. Returns the first pin of body k. */
 static baum_joint_id hang(baum_i_parts *parts, const scene *s, baum_body_id before,
                           baum_body_id body, int k)
 {
@@ -445,8 +452,8 @@ static baum_status build_planar(const scene *s, model *out)
   return model_finish(&parts, si ? NULL : &s->units, out);
 }
 
-/* Replaces a model by its twin in a tilted plane. A violation also moves the last body off the
- * plane. */
+/* Replaces a model by its twin in a tilted plane. A violation moves the last body off the plane as
+ * well. */
 static baum_status tilt_model(const scene *s, model *m)
 {
   baum_mechanism *tilted = NULL;

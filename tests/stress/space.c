@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With positions r(x) and quaternions p(x) of all bodies as functions of one angle x(t), r' =
- * dr/dx, w = 2 vec(p^-1 p'), masses m and inertias I,
+/* The positions r(x) and quaternions p(x) of all bodies are functions of one angle x(t). With
+ * r' = dr/dx, w = 2 vec(p^-1 p'), the masses m and the inertias I, the equation of motion is
  *
  *   sum (m r'.r' + w.I w) x'' = sum (m g.r' - (m r'.r'' + w.I w') x'^2) + the spring's force
  *
- * where w' = 2 vec(p^-1 p''). The gyroscopic moment does no work.
+ * Here w' = 2 vec(p^-1 p''). The gyroscopic moment does no work.
  */
 #include "space.h"
 
@@ -21,7 +21,7 @@ static const long double CRANK = 0.08L;
 static const long double ROD = 0.3L;
 static const long double BESIDE = 0.1L;
 static const long double ABOVE = 0.12L;
-static const long double ANCHOR = 1; /* [m] x of the spring's end on the ground */
+static const long double ANCHOR = 1; /* [m] x of that end of the spring which is on the ground */
 
 static const long double SHORT_CRANK = 0.1L;
 static const long double COUPLER = 0.4L;
@@ -45,8 +45,8 @@ int space_bodies(const scene *s)
   return s->kind == SCENE_TOP ? 1 : s->kind == SCENE_BRICARD ? RODS : 3;
 }
 
-/* A top with a horizontal axis precesses steadily at m g l / (C n) with its axial moment of inertia
- * C and its spin n. */
+/* Returns the angular velocity of precession. A top with a horizontal axis precesses steadily at m
+ * g l / (C n). Here C is its axial moment of inertia, and n is its spin. */
 static double precession(const scene *s)
 {
   double axial = TOP_MASS * TOP_RADIUS * TOP_RADIUS / 2;
@@ -100,7 +100,8 @@ static void go(carried *c, long double x, long double y, long double z)
   }
 }
 
-/* Returns axes at `from` with x towards `to`, and z perpendicular to the ground's x. */
+/* Returns axes whose origin is `from`, whose x axis points to `to`, and whose z axis is
+ * perpendicular to the x axis of the ground. */
 static carried between(const carried *from, const carried *to)
 {
   jets d[3];
@@ -136,7 +137,7 @@ static carried crank_body(int body, jets x)
   return rod;
 }
 
-/* The rocker's angle b is the solution of A cos b + B sin b = C. */
+/* The angle b of the rocker is the solution of A cos b + B sin b = C. */
 static carried rssr_body(int body, jets x)
 {
   carried tip = at_point(0, 0, 0);
@@ -164,7 +165,8 @@ static carried rssr_body(int body, jets x)
   return coupler;
 }
 
-/* The joint angles are a, b, a, b, a, where b follows from sin a + sin b + sin a sin b = 0. */
+/* The angles of the joints are a, b, a, b, a. The angle b follows from sin a + sin b + sin a sin
+ * b = 0. */
 static carried bricard_body(int body, jets a)
 {
   jets sine = jets_sin(a);
@@ -218,7 +220,7 @@ void space_pose(const scene *s, int body, long double x, long double pose[SPACE_
 
 /* ---- the equation ---- */
 
-/* Computes w = 2 vec(p^-1 p^(n)) with the n-th derivative of p. */
+/* Computes w = 2 vec(p^-1 p^(n)), where p^(n) is the n-th derivative of p. */
 static void spin(const carried *c, int n, long double w[3])
 {
   for (int i = 1; i < 4; i++) {
@@ -229,7 +231,8 @@ static void spin(const carried *c, int n, long double w[3])
   }
 }
 
-/* Mass and moments of inertia of the slider-crank and of Bricard's rods. */
+/* Returns the mass and the moments of inertia of a body of the slider-crank, or of Bricard's
+ * rods. */
 static void inertia_of(const scene *s, int body, long double out[4])
 {
   static const long double crank[3][4] = {
@@ -245,7 +248,8 @@ static void inertia_of(const scene *s, int body, long double out[4])
   }
 }
 
-/* [m] length of the spring at 0.1 rad before the start, rounded to double as in the mechanism. */
+/* Returns the length of the spring [m] at 0.1 rad before the start. It is rounded to double as in
+ * the mechanism. */
 static long double relaxed_length(const scene *s)
 {
   jets at = crank_body(2, (jets){{s->angle - 0.1L, 1, 0}}).r[0];
@@ -283,7 +287,7 @@ long double space_acceleration(const scene *s, long double x, long double v)
 
 /* ---- building ---- */
 
-/* Factor from SI units to those of the scene. */
+/* Returns the factor from SI units to the units of the scene. */
 static double factor_of(const char *unit, const model_units *u)
 {
   double length = u->length;
@@ -297,7 +301,7 @@ static double factor_of(const char *unit, const model_units *u)
                                        : 1.0;
 }
 
-/* The value of a parameter in SI units. */
+/* Returns the value of a parameter in SI units. */
 static double value_of(const scene *s, const baum_catalog_parameter *p)
 {
   bool is_top = s->kind == SCENE_TOP;

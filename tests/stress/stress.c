@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stress grid: tests that every run meets its tolerance or reports why not.
+/* Runs the stress grid. Every run must meet its tolerance, or report why it does not.
  *
  *   stress [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
  *
- * --thin runs every K-th cell only. Fails if a run is silently wrong, or if there is more than one
- * false alarm in twenty cells.
+ * With --thin, only every K-th cell is run. The program fails if a run is silently wrong, or if
+ * more than one cell in twenty is a false alarm.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +66,7 @@ static void print_json(const counts *n)
   printf(", \"false_alarm\": %d}\n", n->false_alarms);
 }
 
-/* Counts for each axis, in the order of their first cells. */
+/* The counts for each axis. The axes are in the order of their first cells. */
 typedef struct table {
   const char *axis[AXES_MOST];
   counts row[AXES_MOST];
@@ -139,7 +139,7 @@ int main(int argc, char **argv)
     print_json(&all);
   }
   /* At most one cell in twenty may be a false alarm. A thinned grid has only about a hundred cells,
-   * so chance may double the share, and one in ten is permitted. */
+   * in which the share may be twice as large by chance. Then one in ten is permitted. */
   int cells_to_an_alarm = w.thin > 1 ? 10 : 20;
   bool fine = all.of[WRONG] == 0 && cells_to_an_alarm * all.false_alarms <= all.cells;
   return fine ? EXIT_SUCCESS : EXIT_FAILURE;

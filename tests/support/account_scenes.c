@@ -11,7 +11,7 @@ const account_scene account_scenes[ACCOUNT_SCENES] = {
   {"polar", ACCOUNT_POLAR, BAUM_START_ASSEMBLE, 1.0},
 };
 
-/* ---- functions of the user ---- */
+/* ---- user functions ---- */
 
 /* The law of a stiffening spring with a damper. */
 static int spring_law(double length, double rate, double *out, void *user)
@@ -24,7 +24,7 @@ static int spring_law(double length, double rate, double *out, void *user)
   return 0;
 }
 
-/* The law of the driver. It starts with the velocity 0, because the link is at rest. */
+/* The law of the driver. At the start it prescribes the velocity 0, because the link is at rest. */
 static int drive_law(double t, double s[3], void *user)
 {
   (void)user;
@@ -34,7 +34,8 @@ static int drive_law(double t, double s[3], void *user)
   return 0;
 }
 
-/* A user force on a planar body: drag, and -x^3 along x, which has the potential x^4 / 4. */
+/* A user force on a planar body. It consists of drag, and of the force -x^3 along x, which has the
+ * potential x^4 / 4. */
 static int drag(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -65,8 +66,8 @@ static int polar_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Computes the velocity-dependent inertia forces of that particle, and adds a radial spring of 30
- * N/m and a radial damper of 0.5 N s/m. */
+/* Computes the inertia forces of that particle that depend on velocities. Also adds the force of a
+ * radial spring of 30 N/m and of a radial damper of 0.5 N s/m. */
 static int polar_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {
@@ -88,7 +89,7 @@ static int polar_potential(double t, const double *q, double *out, void *user)
 
 /* ---- parts ---- */
 
-/* Builds a mechanism. `status` keeps the first failure of all calls. */
+/* Builds a mechanism by several calls. `status` keeps the status of the first call that failed. */
 typedef struct maker {
   baum_mechanism *m;
   baum_status status;
@@ -101,8 +102,8 @@ static void keep(maker *make, baum_status status)
   make->status = make->status == BAUM_OK ? status : make->status;
 }
 
-/* Adds a double pendulum of two links of 1 m along x, of which the second rotates at 2 rad/s. `off`
- * moves the links off their constraints. */
+/* Adds a double pendulum. Its two links are 1 m long and lie along x, and the second one rotates at
+ * 2 rad/s. `off` moves the links off their constraints. */
 static void add_links(maker *make, double off)
 {
   keep(make, baum_mechanism_set_gravity(make->m, 0.0, -9.81, 0.0));

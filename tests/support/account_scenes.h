@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms for tests of the energy account. Together they have every kind of work that it
+/* Mechanisms for tests of the energy account. Together they do every kind of work that the account
  * distinguishes. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
@@ -7,11 +7,11 @@
 #include <baum/baum.h>
 
 typedef enum account_kind {
-  ACCOUNT_QUIET,    /* only gravity acts on two links: constant energy */
-  ACCOUNT_DRIVEN,   /* a driver with a user law rotates the first link */
-  ACCOUNT_DAMPED,   /* springs, dampers, a user law, loads, an input, a user force */
+  ACCOUNT_QUIET,    /* only gravity acts on two links, so the energy is constant */
+  ACCOUNT_DRIVEN,   /* a driver with a user's law rotates the first link */
+  ACCOUNT_DAMPED,   /* has springs, dampers, a user's law, loads, an input and a user force */
   ACCOUNT_VIOLATED, /* the initial state violates the constraints */
-  ACCOUNT_POLAR,    /* user coordinates with M(q) and a damper */
+  ACCOUNT_POLAR,    /* has user coordinates with M(q), and a damper */
   ACCOUNT_SCENES
 } account_kind;
 

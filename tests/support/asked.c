@@ -120,7 +120,7 @@ static int weight(double t, const double *q, double *out, void *user)
   return visit(user, ASKED_WEIGHT, out);
 }
 
-/* Sets a tension or torque and its derivatives. */
+/* Sets the tension or torque of a spring, and its derivatives. */
 static int spring(double length, double rate, double out[3])
 {
   out[0] = 3.0 * length + 0.1 * rate;
@@ -163,7 +163,7 @@ static int track(const double xy[2], double out[6], void *user)
   return visit(user, ASKED_TRACK, out);
 }
 
-/* An event function that is never zero. */
+/* An event function that never becomes zero. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user)
 {
@@ -182,7 +182,7 @@ int asked_progress(const baum_simulation *run, double t, void *user)
   return visit(user, ASKED_PROGRESS, NULL);
 }
 
-/* ---- a mechanism with all functions ---- */
+/* ---- a mechanism with all user functions ---- */
 
 static void add_masses(asked *b)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism with every kind of user function. The functions of one kind can be made to fail, to
- * return NaN or to call the library.
+/* A mechanism with every kind of user function. All functions of one kind can be made to fail, to
+ * return NaN, or to call the library.
  *
- * It consists of masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling,
- * torsion spring, user force), a driven crank, and a pea on a curve with a spring. Its only input
- * is the stiffness of the masses.
+ * The mechanism contains masses with user coordinates, a bead that a user constraint keeps on a
+ * hoop, and two arms with a coupling, a torsion spring and a user force. It also contains a driven
+ * crank, and a pea on a curve with a spring. Its only input is the stiffness of the masses.
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H
@@ -33,7 +33,7 @@ typedef enum asked_kind {
   ASKED_PROGRESS = ASKED_KINDS
 } asked_kind;
 
-/* The names of the element and of the function in messages. */
+/* The names of an element and of its function in messages. */
 typedef struct asked_name {
   const char *element;
   const char *function;
@@ -43,14 +43,14 @@ extern const asked_name asked_names[ASKED_KINDS];
 
 typedef enum asked_fault { ASKED_FINE, ASKED_STOPS, ASKED_GIVES_NAN, ASKED_CALLS_BACK } asked_fault;
 
-/* The `user` of all functions. */
+/* All functions receive a pointer to this struct as their `user`. */
 typedef struct asked asked;
 
 struct asked {
   asked_kind kind; /* the kind of functions that fails */
   asked_fault fault;
-  int64_t calls; /* calls of that kind while it fails */
-  bool inside;   /* prevents recursion */
+  int64_t calls; /* how often functions of that kind were called while they had to fail */
+  bool inside;   /* set during a call, to prevent recursion */
   baum_mechanism *mechanism;
   baum_joint_id motor;
   baum_input_id input;
@@ -60,11 +60,12 @@ struct asked {
   void (*back)(asked *user); /* called instead of failing, if the fault is ASKED_CALLS_BACK */
 };
 
-/* Makes and freezes the mechanism, whose functions keep the address of *b. Fails the test on
- * failure. */
+/* Makes the mechanism and freezes it. Its functions keep the address of *b. If this fails, the test
+ * fails. */
 void asked_make(asked *b);
 
-/* An event function that is never zero, and a progress function. Their `user` is the asked. */
+/* An event function that never becomes zero, and a progress function. Their `user` is a pointer to
+ * the asked. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user);
 int asked_progress(const baum_simulation *run, double t, void *user);

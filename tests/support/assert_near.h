@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares doubles, because cmocka compares floats. Include after cmocka.h. */
+/* Compares doubles. cmocka cannot be used for this, because it compares floats. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_ASSERT_NEAR_H
 #define BAUM_TEST_ASSERT_NEAR_H
 
 #include <math.h>
 
-/* Asserts |got - want| <= atol + rtol |want|, and prints both values otherwise. NaN fails; equal
- * infinities pass. */
+/* Asserts that |got - want| <= atol + rtol |want|. If this is not true, prints both values. NaN
+ * fails, and infinities pass if they are equal. */
 #define ASSERT_NEAR(got, want, rtol, atol) \
   assert_near_((got), (want), (rtol), (atol), #got, __FILE__, __LINE__)
 

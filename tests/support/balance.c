@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The force of a row on body k is -lambda times the columns of that body in the row. So the sums of
- * forces and moments over all bodies of a joint are zero if
+/* Tests whether the forces that a joint exerts on its bodies are in balance. The force of one row
+ * of J on a body is -lambda times the entries of this row in the columns of the body. The forces
+ * and moments on all bodies of a joint therefore add up to zero if the following sums over these
+ * bodies are zero for every row:
  *
  *   force x: J [1 0 0 ...],   force y: J [0 1 0 ...],   moment about the origin: J [-y x 1 ...]
  *
- * are zero for every row, summed over the bodies. Each body contributes its three columns, a
- * particle two.
+ * Each body contributes its three columns, and a particle contributes two.
  */
 #include "balance.h"
 
@@ -19,7 +20,7 @@
 
 enum { FORCE_X, FORCE_Y, MOMENT, SUMS, BLOCK = TEST_SIZE_MAX * TEST_SIZE_MAX };
 
-/* Rounding of sums of a dozen terms. */
+/* The tolerance is the rounding error of sums of a dozen terms. */
 static const double TOLERANCE = 1e-13;
 
 static bool has_ground(const baum_i_joint *joint)

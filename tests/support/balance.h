@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Balance of the forces of a joint. */
+/* Checks that the forces of a joint are in balance. */
 #ifndef BAUM_TEST_BALANCE_H
 #define BAUM_TEST_BALANCE_H
 
 #include "point.h"
 
-/* Checks that forces and moments add up to zero for every joint with one row that does not involve
- * ground, because such a joint does not resist a rigid motion of all its bodies. Pins are not
- * checked: the moments of their rows balance only if both points coincide. */
+/* Checks every joint with one row that does not involve ground. Such a joint does not resist a
+ * rigid motion of all its bodies, so its forces and moments must add up to zero. Pins are not
+ * checked, because the moments of their rows are only in balance if both points coincide. */
 void check_rows_balance(test_point *p);
 
 #endif

@@ -28,8 +28,8 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies of one entry ---- */
 
-/* An entry of the catalogue and two studies of it. The samples of a study are equally spaced, so
- * the studies end where the equal spacing of the catalogue's samples ends. */
+/* An entry of the catalogue, and two studies of it. The samples of a study are equally spaced. Both
+ * studies therefore end where the samples of the catalogue stop being equally spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* samples of the catalogue */
@@ -55,8 +55,8 @@ static baum_status take_times(pair *p)
   return status;
 }
 
-/* Stops the study after the first half of its stages, which measures errors. The second half would
- * measure times, which are not needed. */
+/* Stops the study after the first half of its stages, in which it measures errors. In the second
+ * half, the study would measure times, which are not needed here. */
 static int stop_before_times(const baum_study *study, int32_t done, int32_t total, void *user)
 {
   (void)study;
@@ -136,7 +136,7 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 
 /* ---- checks ---- */
 
-/* Tells whether the entry has fixed gains for which violations do not decay. */
+/* Tells whether the entry has fixed gains with which violations do not decay. */
 static bool has_unstable_constants(const baum_study_entry *entry)
 {
   baum_amplification a;
@@ -168,8 +168,9 @@ static bool is_consistent(const pair *p, const baum_study_entry *own,
   (void)baum_study_reference_read(p->own, &a, sizeof a);
   (void)baum_study_reference_read(p->stored, &b, sizeof b);
   double differ = fabs(stored->error_q - own->error_q);
-  double open = a.uncertainty_q + b.uncertainty_q + 1e-14 * own->error_q; /* last: rounding */
-  return own->error_q == stored->error_q || differ <= open;               /* both may be infinite */
+  /* The last term is for rounding. */
+  double open = a.uncertainty_q + b.uncertainty_q + 1e-14 * own->error_q;
+  return own->error_q == stored->error_q || differ <= open; /* both may be infinite */
 }
 
 static bool is_better(const baum_study_entry *entry, const baum_study *study)
@@ -201,7 +202,7 @@ static void judge_entry(const pair *p, int32_t k, catalog_tally *t)
   catalog_tally_add(t, &one);
 }
 
-/* Returns the number of entries of an integrator with a formulation. */
+/* Returns how many entries a study has for an integrator with a formulation. */
 static int count_entries(const baum_study *study, const baum_integrator *integrator,
                          baum_formulation formulation)
 {
@@ -216,8 +217,9 @@ static int count_entries(const baum_study *study, const baum_integrator *integra
   return count;
 }
 
-/* Counts the methods without all their entries. Every integrator must have each of its formulations
- * with all settings, and BAUMGARTE with the default rule and with all constant gains. */
+/* Counts the methods for which some entries are missing. Every integrator must have all its
+ * settings with each of its formulations. With BAUMGARTE, it must have them with the default rule
+ * and with all constant gains. */
 static int count_missing(const baum_study *study, const baum_study_grid *grid)
 {
   int missing = 0;

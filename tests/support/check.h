@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks preconditions of a test: calls that must not fail, and a build with SUNDIALS. Include
+/* Checks what a test assumes: that calls do not fail, or that the build contains SUNDIALS. Include
  * after cmocka.h. */
 #ifndef BAUM_TEST_CHECK_H
 #define BAUM_TEST_CHECK_H
@@ -7,7 +7,7 @@
 #include <baum/status.h>
 #include <baum/version.h>
 
-/* Fails the test unless the status is BAUM_OK or a warning. */
+/* Fails the test if the status is neither BAUM_OK nor a warning. */
 static inline void check(baum_status status)
 {
   if (status < BAUM_OK) {

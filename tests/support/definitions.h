@@ -8,15 +8,16 @@
 
 #include <baum/mechanism.h>
 
-/* As doubles, because the macros of math.h are floats and clang warns of the conversion. */
+/* These are doubles, because the macros of math.h are floats and clang warns about the
+ * conversion. */
 #define TEST_NAN      ((double)NAN)
 #define TEST_INFINITY ((double)INFINITY)
 
 /* Adds an element of one kind without returning its id. */
 typedef baum_status add_fn(baum_mechanism *mechanism, const void *def);
 
-/* Checks that adding the definition fails with BAUM_ERR_ARGUMENT and this message, and adds
- * nothing. */
+/* Checks that an attempt to add the definition fails with BAUM_ERR_ARGUMENT and this message, and
+ * that nothing is added. */
 void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *message);
 
 /* A bad value that replaces one number of a good definition. */
@@ -29,15 +30,17 @@ typedef struct bad_number {
 void check_bad_numbers(baum_mechanism *mechanism, add_fn *add, const void *good, size_t size,
                        const bad_number *numbers, int count);
 
-/* Compares two definitions byte by byte, but their names as text. */
+/* Checks that two definitions are equal. Their names are compared as texts, and everything else
+ * byte by byte. */
 void check_same_definition(const void *got, const void *want, size_t size);
 
-/* Size of a definition up to its last member, without padding at its end. */
+/* Returns the size of a definition up to its last member. Padding bytes at the end are not
+ * included. */
 #define FILLED_SIZE(NAME, LAST) \
   (offsetof(baum_##NAME##_def, LAST) + sizeof(((baum_##NAME##_def *)0)->LAST))
 
 /* Adds `first` and reads it back, then sets `second` and reads it back. FAMILY is body, joint or
- * force; NAME is that of baum_NAME_def, and LAST its last member. */
+ * force. NAME is the name in baum_NAME_def, and LAST is the last member of this struct. */
 #define CHECK_ROUND_TRIP(FAMILY, NAME, LAST, mechanism, first, second)                          \
   do {                                                                                          \
     baum_##FAMILY##_id id_;                                                                     \

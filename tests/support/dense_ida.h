@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IDA with a dense Jacobian that it computes by differences, for comparison with the exact
- * Jacobian. Only in builds with SUNDIALS. */
+/* IDA with a dense Jacobian, which IDA computes by differences. Tests compare it with the exact
+ * Jacobian. It exists only in builds with SUNDIALS. */
 #ifndef DENSE_IDA_H
 #define DENSE_IDA_H
 
 #include "integrator_run.h"
 
-/* Replaces the integrator of an open run. Release the replacement before you close the run. Only
- * one run at a time can have it. */
+/* Replaces the integrator of an open run. The replacement must be released before the run is
+ * closed. Only one run at a time can use it. */
 void dense_ida_use(integrator_run *run);
 void dense_ida_release(void);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares derivatives with differences of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with
- * h = 1e-3. The truncation error is h^4 f''''' / 30, 3e-14 times the fifth derivative; rounding
- * errors are about 1e-12 f. At the states of test_point_random() f and its fifth derivative may be
- * several thousand, hence the tolerance of 1e-8, absolute and relative. */
+/* Compares derivatives with differences of five points. They are (8
+ * (f_1 - f_-1) - (f_2 - f_-2)) / 12 h, with h = 1e-3. The truncation error is h^4 f''''' / 30,
+ * which is 3e-14 times the fifth derivative. Rounding errors are about 1e-12 f. At the states of
+ * test_point_random(), f and its fifth derivative may be several thousand. The tolerance, absolute
+ * and relative, is therefore 1e-8. */
 #include "derivatives.h"
 
 #include <setjmp.h>
@@ -20,7 +21,7 @@ static const double TOLERANCE = 1e-8;
 
 enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
 
-/* Fixed arguments of the functions below, which are then functions of the state only. */
+/* Fixed arguments of the functions below. With these, the functions depend only on the state. */
 typedef struct directions {
   double w[TEST_SIZE_MAX];
   double lambda[TEST_SIZE_MAX];
@@ -87,7 +88,8 @@ static void spread_force_squares(const test_point *p, const double *blocks, doub
 
 /* ---- functions of the state ---- */
 
-/* Fills with NaN, to detect functions that add to old values or do not set a value. */
+/* Fills the values with NaN. This shows whether a function adds to old values, or does not set a
+ * value. */
 static void spoil(double *values, int count)
 {
   for (int i = 0; i < count; i++) {
@@ -186,7 +188,8 @@ static baum_i_coordinate coordinate_at(const test_point *p, const directions *d)
   return c;
 }
 
-/* Copies the columns of the first joint's bodies to all nv columns. wide_of() does the reverse. */
+/* Copies the columns that belong to the first joint's bodies to an array of all nv columns.
+ * wide_of() does the reverse. */
 static void spread_wide(const test_point *p, const double *wide, double *full)
 {
   const baum_i_joint *joint = p->mechanism->joints[0];
@@ -270,7 +273,8 @@ static void compare(const char *what, int row, int column, double got, double di
   ASSERT_NEAR(got, difference, TOLERANCE, TOLERANCE);
 }
 
-/* Checks that a matrix (count x nv) is the derivative of fn with respect to q, or to v. */
+/* Checks that a matrix (count x nv) is the derivative of fn, either with respect to q or with
+ * respect to v. */
 static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *fn,
                          const directions *d, int count, const double *matrix)
 {
@@ -285,8 +289,8 @@ static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *f
   }
 }
 
-/* Checks that sign * values is the time derivative of fn at constant v: with q' = v if `moving`,
- * else at constant q. */
+/* Checks that sign * values is the time derivative of fn. The velocities v are constant. If
+ * `moving` is set, q' = v, otherwise q is constant as well. */
 static void check_in_time(test_point *p, const char *what, bool moving, state_fn *fn,
                           const directions *d, int count, double sign, const double *values)
 {
@@ -329,7 +333,8 @@ static void linearize_joints(test_point *p, const directions *d, const baum_i_jo
   assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, d->w, d->lambda, blocks), BAUM_OK);
 }
 
-/* Checks that every block is the same whether it is requested alone or with the others. */
+/* Checks that every block has the same values whether it is requested alone or together with the
+ * others. */
 static void check_blocks_alone(test_point *p, const directions *d, const joint_arrays *all)
 {
   size_t rows = (size_t)p->mechanism->jacobian_size * sizeof(double);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares derivatives of the elements of a mechanism with differences, at the present state. */
+/* Compares the derivatives of a mechanism's elements with differences, at the present state. */
 #ifndef BAUM_TEST_DERIVATIVES_H
 #define BAUM_TEST_DERIVATIVES_H
 
@@ -14,7 +14,7 @@ void check_coordinate_derivatives(test_point *p);
 /* Checks force_q and force_v of all forces. */
 void check_force_derivatives(test_point *p);
 
-/* Checks that the force at rest is minus the gradient of the potential. */
+/* Checks that the force at zero velocities is minus the gradient of the potential. */
 void check_potential_gradient(test_point *p);
 
 #endif

@@ -26,7 +26,8 @@ static baum_mechanism *begin(void)
   return mechanism;
 }
 
-/* Adds a rod from a point, with a length and an angle. Its centre of mass is its middle. */
+/* Adds a rod that begins at a point and has this length and this angle. Its centre of mass is in
+ * the middle. */
 static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
                             double length, double angle)
 {
@@ -121,7 +122,7 @@ baum_mechanism *slider_crank_make(const slider_crank *data)
   return freeze(mechanism);
 }
 
-/* x = r cos(angle) + branch D with D = sqrt(l^2 - u^2), u = r sin(angle) - e. */
+/* With u = r sin(angle) - e and D = sqrt(l^2 - u^2), x = r cos(angle) + branch D. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3])
 {
   double rate = data->drive.rate;
@@ -164,8 +165,8 @@ static const double COUPLER = 3.0;
 static const double ROCKER = 2.5;
 static const double FRAME = 2.8;
 
-/* Finds the tip of the crank and the joint of coupler and rocker (knee). Of the two possible knees
- * it takes the one above the line from the tip to the rocker's foot. */
+/* Finds the tip of the crank, and the knee, which is the joint between coupler and rocker. Of the
+ * two possible knees, it finds the one above the line from the tip to the rocker's foot. */
 static void find_knee(double angle, double tip[2], double knee[2])
 {
   tip[0] = CRANK * cos(angle);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose driver leaves no degree of freedom, and their motion in closed form. Uses the
- * public interface only. */
+/* Mechanisms without degrees of freedom, because drivers prescribe all motion. Their motion is
+ * known in closed form. These functions use only the public interface. */
 #ifndef BAUM_TEST_DRIVEN_H
 #define BAUM_TEST_DRIVEN_H
 
 #include <baum/baum.h>
 
-/* What drives the crank: angle + rate t, or a law. */
+/* How the crank is driven: by angle + rate t, or by a law. */
 typedef struct drive {
   double angle; /* [rad] in the design configuration */
   double rate;  /* [rad/s] */
@@ -32,12 +32,12 @@ typedef struct slider_crank {
 baum_mechanism *slider_crank_make(const slider_crank *data);
 /* Adds a slider-crank to an open mechanism. */
 void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
-/* Computes x of the slider, its velocity and its acceleration, at a crank angle and the constant
- * angular velocity data->drive.rate. */
+/* Computes x of the slider, its velocity and its acceleration, at a crank angle. The angular
+ * velocity of the crank is the constant data->drive.rate. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
-/* Returns the smallest difference between this crank angle and one at which the rod is
- * perpendicular to the guide, where the crank locks if the rod is too short. INFINITY if there is
- * no such angle. */
+/* At some crank angles the rod may be perpendicular to the guide. If the rod is too short, the
+ * crank locks there. Returns the smallest difference between this crank angle and such an angle.
+ * Returns INFINITY if there is no such angle. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----
@@ -47,7 +47,7 @@ double slider_crank_to_lock(const slider_crank *data, double angle);
 enum { ROCKER_ANGLE = 8 };
 
 baum_mechanism *four_bar_make(const drive *motor);
-/* Returns the angle of the rocker, up to multiples of 2 pi. */
+/* Returns the angle of the rocker, up to a multiple of 2 pi. */
 double four_bar_rocker(double angle);
 
 /* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a

@@ -12,13 +12,13 @@
 
 #include "every_element_good.h"
 
-/* ---- functions of the user ---- */
+/* ---- user functions ---- */
 
 static const double CIRCLE_RADIUS = 0.3;
 static const double CRANK_ANGLE = 0.5;
-static const double BLOCK_ANGLE = 0.1; /* of all blocks: none is horizontal */
+static const double BLOCK_ANGLE = 0.1; /* angle of all blocks, so that none is horizontal */
 
-/* Counts a call. If the call has to fail, puts a NaN into `out` or returns fault->answer. */
+/* Counts a call. If the call has to fail, writes NaN into `out` or returns fault->answer. */
 static int answer(void *user, double t, double *out)
 {
   every_fault *fault = user;
@@ -125,7 +125,7 @@ static int drag_force_v(double t, const double *q, const double *v, const double
 }
 
 /* The position of the bead in the slot of the disc, as a function of the crank's angle. The law has
- * no time argument, so it ignores fault->after. */
+ * no time argument, so fault->after has no effect on it. */
 static int lead_law(double x, double f[3], void *user)
 {
   f[0] = 0.05 + 0.02 * sin(x - CRANK_ANGLE);
@@ -134,7 +134,7 @@ static int lead_law(double x, double f[3], void *user)
   return answer(user, -(double)INFINITY, f);
 }
 
-/* The curve y = 2 x^2 - 0.1. Ignores fault->after too, because it has no time argument. */
+/* The curve y = 2 x^2 - 0.1. It has no time argument either, so fault->after has no effect. */
 static int track_curve(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];
@@ -459,7 +459,7 @@ static baum_status add_train(every_element *parts)
            : status;
 }
 
-/* Adds the wheel and its hinge, which the spline driver moves. */
+/* Adds the wheel and its hinge. The spline driver moves this hinge. */
 static baum_status add_wheel(every_element *parts)
 {
   baum_planar_revolute_def hinge = baum_planar_revolute_def_default();

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism with an element of every kind, and a table of all kinds, for tests of the
- * interface.
+/* One mechanism that has an element of every kind, and a table of all kinds. Tests of the interface
+ * use them.
  *
- * Planar: a driven crank with a rod and a slider on a guide, and a tool welded to the slider; a bob
- * on a circle about the slider (user constraint); two masses in a row (user coordinates); a spring,
- * a load, a drag (user force), a torsion spring; a disc on an axle, geared with the crank; a bar on
- * a rail, whose rack is in mesh with the disc; a bead in a slot of the disc, positioned by the
- * crank's angle (coupling); a pea on a curve of the bar; a wheel on a hinge that is driven along a
- * spline (cam).
+ * These elements are planar: a driven crank with a rod and a slider on a guide, and a tool welded
+ * to the slider; a bob on a circle about the slider (user constraint); two masses in a row (user
+ * coordinates); a spring, a load, a drag (user force), a torsion spring; a disc on an axle, geared
+ * with the crank; a bar on a rail, whose rack is in mesh with the disc; a bead in a slot of the
+ * disc, positioned by the crank's angle (coupling); a pea on a curve of the bar; a wheel on a hinge
+ * that is driven along a spline (cam).
  *
- * In space: a shaft in a bearing; a yoke on a universal joint of the shaft, with a shoe on a plane;
- * a ram on a slide; a top in a socket of the shaft and on a table of the ram; a tube in a sleeve,
- * with a cap clamped to it; a ball on a wire of the yoke and on a strut of the cap; coil (spring),
- * push (load), winding (joint spring of the sleeve).
+ * These elements are spatial: a shaft in a bearing; a yoke on a universal joint of the shaft, with
+ * a shoe on a plane; a ram on a slide; a top in a socket of the shaft and on a table of the ram; a
+ * tube in a sleeve, with a cap clamped to it; a ball on a wire of the yoke and on a strut of the
+ * cap; coil (spring), push (load), winding (joint spring of the sleeve).
  *
  * It has 71 positions, 65 velocities, 56 rows and 9 degrees of freedom. The planar part comes
- * first; its numbers are 26, 26, 22 and 4. The design configuration fulfils all rows except that of
- * cam.
+ * first. It has 26 positions, 26 velocities, 22 rows and 4 degrees of freedom. The design
+ * configuration satisfies all rows except the row of `cam`.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -31,13 +31,13 @@ typedef struct any_id {
   uint32_t tag;
 } any_id;
 
-/* Makes the functions of the elements fail, and counts their calls. If all fields are zero they do
- * not fail. */
+/* Makes the functions of the elements fail on purpose, and counts their calls. If all fields are
+ * zero, the functions do not fail. */
 typedef struct every_fault {
-  int answer;    /* return value of a failing call; 0: it sets NaN instead */
+  int answer;    /* return value of a failing call; if 0, the call sets NaN instead */
   bool fails;    /* whether calls fail */
   double after;  /* a call fails if t is above this */
-  int64_t from;  /* if > 0, calls fail from this number on, at any t */
+  int64_t from;  /* if > 0, the call with this number and all later calls fail, at any t */
   int64_t calls; /* number of calls of all functions */
 } every_fault;
 
@@ -92,8 +92,9 @@ typedef struct every_element {
   baum_force_id coil;
   baum_force_id push;
   baum_force_id winding;
-  baum_input_id throttle;        /* of load and push, initially 1 */
-  every_fault *fault;            /* `user` of all functions; may be NULL */
+  /* The input of the loads `load` and `push`; its initial value is 1. */
+  baum_input_id throttle;
+  every_fault *fault;            /* the `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* arrays for the definitions */
   baum_body_id drag_bodies[1];
 } every_element;
@@ -112,13 +113,13 @@ typedef union any_def {
 
 typedef enum field_type {
   FIELD_SIZE,     /* struct_size */
-  FIELD_NAME,     /* copied text */
-  FIELD_NUMBERS,  /* doubles, at most FIELD_NUMBERS_MAX */
+  FIELD_NAME,     /* text that is copied */
+  FIELD_NUMBERS,  /* up to FIELD_NUMBERS_MAX doubles */
   FIELD_INTEGER,  /* int32_t, int64_t or an enum */
   FIELD_FLAG,     /* bool */
-  FIELD_ID,       /* id of a body, joint or input */
-  FIELD_FUNCTION, /* function, or other pointer that is not dereferenced */
-  FIELD_ARRAY,    /* copied doubles or ids, or NULL */
+  FIELD_ID,       /* id of a body, a joint or an input */
+  FIELD_FUNCTION, /* a function, or another pointer that the library does not dereference */
+  FIELD_ARRAY,    /* array of doubles or ids that is copied, or NULL */
   FIELD_GAINS
 } field_type;
 
@@ -131,14 +132,15 @@ typedef struct element_field {
 
 typedef struct element_kind {
   const char *name;  /* baum_<name>_def */
-  const char *title; /* its name in messages */
+  const char *title; /* name of the kind in messages */
   const char *family;
   size_t size;
   void (*init)(any_def *def, size_t caller_size);
   baum_status (*add)(baum_mechanism *mechanism, const any_def *def, any_id *id);
   baum_status (*get)(const baum_mechanism *mechanism, any_id id, any_def *out, size_t caller_size);
   baum_status (*set)(baum_mechanism *mechanism, any_id id, const any_def *def);
-  /* Sets the definition that every_element_build() uses. The parts that it refers to must exist. */
+  /* Sets the definition with which every_element_build() adds an element of this kind. The other
+   * elements that this definition names must exist. */
   void (*good)(const every_element *parts, any_def *def);
   size_t id; /* offset of the id in every_element */
   const baum_i_definition *const *definition;
@@ -161,14 +163,14 @@ extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_o
 
 any_id every_element_id(const every_element *parts, const element_kind *kind);
 
-/* Builds the mechanism without freezing it; on failure leaves no mechanism. Reads parts->fault and
- * writes all other fields. */
+/* Builds the mechanism without freezing it. If this fails, no mechanism remains. The function reads
+ * parts->fault and sets all other fields. */
 baum_status every_element_build(every_element *parts);
 
-/* Builds and freezes the mechanism. Any failure fails the test. */
+/* Builds and freezes the mechanism. If anything fails, the test fails. */
 every_element every_element_make(every_fault *fault);
 
-/* Likewise with the planar part only, for which nq = nv. */
+/* Do the same with only the planar part. In this mechanism nq = nv. */
 every_element every_element_make_planar(void);
 
 /* Tells whether an integrator supports the mechanism, which has dampers and a variable mass. */

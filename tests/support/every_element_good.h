@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The definitions of every_element.c, which the table of kinds in every_element_kinds.c uses. */
+/* The definitions of every_element.c. The table of kinds in every_element_kinds.c uses them. */
 #ifndef BAUM_TEST_EVERY_ELEMENT_GOOD_H
 #define BAUM_TEST_EVERY_ELEMENT_GOOD_H
 
@@ -42,7 +42,8 @@ void good_spatial_spring(const every_element *parts, any_def *to);
 void good_spatial_load(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
 
-/* Adds the spatial bodies that are not the example of their kind. In every_element_spatial.c. */
+/* Adds those spatial bodies that are needed in addition to one example of each kind. The function
+ * is in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 
 /* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */

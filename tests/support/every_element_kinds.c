@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fields of the simulation options, and the table of all kinds with the fields of their
+/* The fields of the simulation options. Also the table of all kinds, with the fields of their
  * definitions. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The spatial part of the mechanism with every element. */
+/* The spatial part of the mechanism that has every element. */
 #include "every_element_good.h"
 
 /* ---- bodies ---- */

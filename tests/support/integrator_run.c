@@ -160,7 +160,7 @@ double motion_error(int nv, const double *q, const double *v, const double *want
   return error;
 }
 
-/* Returns the largest error at 50 times up to t. */
+/* Returns the largest error over 50 times up to t. */
 static double largest_error(const integrator_setup *setup, double t, motion_fn *motion, double rate)
 {
   integrator_run run;
@@ -187,7 +187,7 @@ double tolerance_factor(const integrator_setup *setup, double t, motion_fn *moti
     double error = log10(largest_error(&trial, t, motion, rate));
     sum += k * error;
   }
-  return pow(10.0, -sum / 28.0); /* least-squares slope; 28 is the sum of k^2 */
+  return pow(10.0, -sum / 28.0); /* slope of the least-squares line; 28 is the sum of k^2 */
 }
 
 /* ---- mechanisms ---- */
@@ -237,7 +237,8 @@ baum_mechanism *make_pendulum(void)
   return freeze(mechanism);
 }
 
-/* The pendulum's equation angle'' = -9.81 cos(angle), with the angle from the x axis. */
+/* The equation of the pendulum is angle'' = -9.81 cos(angle). The angle is measured from the x
+ * axis. */
 static void angle_rate(const double y[2], double rate[2])
 {
   rate[0] = y[1];
@@ -332,7 +333,8 @@ static void add_spring(baum_mechanism *mechanism, baum_body_id id, double stiffn
   check(baum_mechanism_add_planar_spring(mechanism, &spring, NULL));
 }
 
-/* The force -4 q. A spring of zero length would have no direction at the origin. */
+/* The user force -4 q. It replaces a spring of zero length, which would have no direction at the
+ * origin. */
 static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {

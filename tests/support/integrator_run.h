@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs an integrator as a simulation does, but without warnings and counters. Also defines small
- * mechanisms whose motion is known. */
+/* Runs an integrator in the same way as a simulation, but without warnings and counters. The file
+ * also declares small mechanisms whose motion is known. */
 #ifndef BAUM_TEST_INTEGRATOR_RUN_H
 #define BAUM_TEST_INTEGRATOR_RUN_H
 
@@ -8,23 +8,24 @@
 
 enum { RUN_SIZE_MAX = 24 };
 
-/* What to run. integrator_setup_make() sets all fields. */
+/* Describes what is to be run. integrator_setup_make() sets all fields. */
 typedef struct integrator_setup {
-  baum_mechanism *mechanism; /* frozen, with an exact design configuration; owned by the caller */
+  baum_mechanism *mechanism; /* frozen, with an exact design configuration; the caller owns it */
   const baum_integrator *integrator;
-  baum_formulation formulation; /* BAUM_FORMULATION_DEFAULT: the integrator's first */
-  bool fixed;                   /* fixed step, else variable */
-  double gain;                  /* [1/s] alpha and beta, if the formulation has gains */
-  double step;                  /* [s] > 0, fixed step */
-  double rtol;                  /* variable step */
-  double direction;             /* +1, -1 */
+  /* BAUM_FORMULATION_DEFAULT is the first formulation of the integrator. */
+  baum_formulation formulation;
+  bool fixed;       /* true for a fixed step, false for a variable step */
+  double gain;      /* [1/s] alpha and beta, if the formulation has gains */
+  double step;      /* [s] > 0, for a fixed step */
+  double rtol;      /* for a variable step */
+  double direction; /* +1 or -1 */
 } integrator_setup;
 
 /* Returns default settings, with a fixed step if the integrator has one. */
 integrator_setup integrator_setup_make(baum_mechanism *mechanism, const baum_integrator *integrator,
                                        baum_formulation formulation);
 
-/* A run. Its address must not change while it is open. */
+/* A run of an integrator. While it is open, its address must not change. */
 typedef struct integrator_run {
   const baum_integrator *integrator;
   baum_workspace *workspace;
@@ -35,20 +36,21 @@ typedef struct integrator_run {
   int64_t steps;
   double state_q[RUN_SIZE_MAX];
   double state_v[RUN_SIZE_MAX];
-  double q[RUN_SIZE_MAX]; /* result of integrator_run_to(), possibly interpolated */
+  double q[RUN_SIZE_MAX]; /* set by integrator_run_to(), if necessary by interpolation */
   double v[RUN_SIZE_MAX];
 } integrator_run;
 
-/* Opens a run. Returns an error of the integrator's creation, after which nothing has to be closed;
- * any other error fails the test. */
+/* Opens a run. If the integrator cannot be created, returns the error. Then nothing has to be
+ * closed. Any other error fails the test. */
 baum_status integrator_run_open(integrator_run *run, const integrator_setup *setup);
 void integrator_run_close(integrator_run *run);
 
-/* Takes one step. A fixed step has the length run->step and projects if the formulation does. A
- * failing step leaves the state unchanged. */
+/* Takes one step. A fixed step has the length run->step. It projects if the formulation does. If
+ * the step fails, the state stays unchanged. */
 baum_status integrator_run_step(integrator_run *run);
 
-/* Advances to t and sets q and v. With a fixed step, t must be a multiple of the step. */
+/* Advances to t, and sets q and v to the values there. With a fixed step, t must be a multiple of
+ * the step. */
 baum_status integrator_run_to(integrator_run *run, double t);
 
 /* Sets t, q, v and the direction of time, and restarts the integrator. */
@@ -58,19 +60,21 @@ baum_status integrator_run_restart(integrator_run *run, double t, const double *
 /* Computes q and v (2) of a known motion at t. */
 typedef void motion_fn(double t, double q[2], double v[2]);
 
-/* Returns the factor by which the largest error up to t falls when rtol falls tenfold. Computed
- * from the slope of log error over log rtol with seven tolerances from 1e-4 to 1e-10. */
+/* Returns the factor by which the largest error up to t decreases when rtol decreases by a factor
+ * of 10. The factor is computed from the slope of log error over log rtol, with seven tolerances
+ * from 1e-4 to 1e-10. */
 double tolerance_factor(const integrator_setup *setup, double t, motion_fn *motion, double rate);
 
 /* ---- mechanisms, which the caller destroys ---- */
 
-/* A particle of 1 kg on a rod of 1 m from the origin, which starts at rest with a horizontal rod.
- * Gravity is 9.81 m/s^2. */
+/* Makes a particle of 1 kg on a rod of 1 m from the origin. It starts at rest, and the rod is
+ * horizontal. Gravity is 9.81 m/s^2. */
 baum_mechanism *make_pendulum(void);
-/* Its exact motion at time t. */
+/* Computes the exact motion of this pendulum at time t. */
 void pendulum_motion(double t, double q[2], double v[2]);
 
-/* A pendulum with a zero user force "faulty", which returns `answer` if |t| > `after`. */
+/* A pendulum with a user force "faulty". The force is zero, but the function returns `answer` if
+ * |t| > `after`. */
 typedef struct force_fault {
   double after;
   int answer;
@@ -78,18 +82,19 @@ typedef struct force_fault {
 } force_fault;
 baum_mechanism *make_faulty_pendulum(force_fault *fault);
 
-/* A free particle of 1 kg under gravity, which starts at the origin with (1, 2) m/s. */
+/* Makes a free particle of 1 kg under gravity. It starts at the origin with the velocity (1, 2)
+ * m/s. */
 baum_mechanism *make_throw(void);
 void throw_motion(double t, double q[2], double v[2]);
 
-/* A particle of 1 kg with the force -4 q and without gravity, which starts at rest at (1, 0): x =
- * cos 2 t. */
+/* Makes a particle of 1 kg with the force -4 q and without gravity. It starts at rest at (1, 0), so
+ * x = cos 2 t. */
 baum_mechanism *make_oscillator(void);
 void oscillator_motion(double t, double q[2], double v[2]);
 
-/* A particle of 1 kg with a damper of 1e4 N s/m and a spring of 1 N/m to the origin, which starts
- * at rest at (1, 0). It swings nearly like the pendulum, because motion along the damper decays at
- * 1e4 1/s. */
+/* Makes a particle of 1 kg. A damper of 1e4 N s/m and a spring of 1 N/m connect it to the origin.
+ * It starts at rest at (1, 0). Motion along the damper decays with 1e4 1/s, so the particle swings
+ * almost like the pendulum. */
 baum_mechanism *make_stiff(void);
 
 /* Returns the largest |q - want_q| and |v - want_v| / rate over all nv coordinates. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A jet is the value of a function of time and its first two derivatives. Also vectors of jets. */
+/* A jet consists of the value of a function of time and of its first two derivatives. This file
+ * computes with jets and with vectors of jets. */
 #ifndef BAUM_TEST_JET_H
 #define BAUM_TEST_JET_H
 
@@ -39,7 +40,8 @@ static inline jet jet_root(jet a)
   return (jet){{root, rate, (a.d[2] / 2 - rate * rate) / root}};
 }
 
-/* Returns the angle of (c, s). Its value has only double precision. */
+/* Returns the angle whose cosine and sine are proportional to c and s. The value of this jet has
+ * only double precision. */
 static inline jet jet_angle(jet c, jet s)
 {
   wide square = c.d[0] * c.d[0] + s.d[0] * s.d[0];

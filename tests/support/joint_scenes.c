@@ -18,7 +18,8 @@ static void need(baum_status status)
   }
 }
 
-/* Design pose of a body, and its initial angular velocity (NaN: not given). */
+/* The pose of a body in the design, and its initial angular velocity, which is NaN if it is not
+ * given. */
 typedef struct placed {
   double x, y, angle, w;
 } placed;
@@ -64,7 +65,7 @@ static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, doub
   return id;
 }
 
-/* Lets b slide in a along an axis of the design configuration. */
+/* Lets body b slide in body a along an axis, which is given in the design configuration. */
 static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
                            const double axis[2])
 {
@@ -97,7 +98,7 @@ static baum_joint_id slot(baum_mechanism *m, baum_body_id a, baum_body_id b, con
 
 /* ---- scenes ---- */
 
-/* A double pendulum. */
+/* Makes a double pendulum. */
 static void revolute(baum_mechanism *m)
 {
   baum_body_id upper = body(m, "upper", (placed){0.2, 0.0, 0.0, 1.0});
@@ -106,7 +107,7 @@ static void revolute(baum_mechanism *m)
   (void)pin(m, upper, lower, 0.4, 0.0);
 }
 
-/* A block on a swinging beam. */
+/* Makes a block that slides on a swinging beam. */
 static void translational(baum_mechanism *m)
 {
   const double axis[2] = {cos(0.3), sin(0.3)};
@@ -117,7 +118,7 @@ static void translational(baum_mechanism *m)
   (void)guide(m, beam, block, at, axis);
 }
 
-/* A plate on a massless rod. */
+/* Makes a plate on a massless rod. */
 static void distance(baum_mechanism *m)
 {
   baum_body_id plate = body(m, "plate", (placed){0.5, -0.1, 0.0, 1.5});
@@ -131,7 +132,7 @@ static void distance(baum_mechanism *m)
   need(baum_mechanism_add_planar_distance(m, &def, NULL));
 }
 
-/* A pendulum of two welded links. */
+/* Makes a pendulum of two links that are welded together. */
 static void fixed(baum_mechanism *m)
 {
   baum_body_id link = body(m, "link", (placed){0.2, 0.0, 0.0, 1.0});
@@ -145,7 +146,7 @@ static void fixed(baum_mechanism *m)
   need(baum_mechanism_add_planar_fixed(m, &def, NULL));
 }
 
-/* A pendulum on a driven crank. */
+/* Makes a pendulum on a driven crank. */
 static void driver(baum_mechanism *m)
 {
   baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, FREE});
@@ -158,7 +159,7 @@ static void driver(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-/* A pendulum on a crank that swings back and forth. */
+/* Makes a pendulum on a crank. A spline driver swings this crank back and forth. */
 static void spline_driver(baum_mechanism *m)
 {
   static const double times[5] = {0.0, 0.3, 0.7, 1.2, 1.5};
@@ -193,7 +194,7 @@ static int parabola_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A bead on a wire. */
+/* Makes a bead on this wire. */
 static void user_constraint(baum_mechanism *m)
 {
   baum_body_id bead = particle(m, "bead", -0.3, 0.18);
@@ -206,7 +207,8 @@ static void user_constraint(baum_mechanism *m)
   need(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
-/* A quick-return mechanism: the pin of a crank slides in the slot of a swinging arm. */
+/* Makes a quick-return mechanism, in which the pin of a crank slides in the slot of a swinging
+ * arm. */
 static void pin_in_slot(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.0};
@@ -218,7 +220,7 @@ static void pin_in_slot(baum_mechanism *m)
   (void)slot(m, arm, crank, at, axis);
 }
 
-/* A particle that is driven along a swinging slot. */
+/* Makes a particle that a driver moves along a swinging slot. */
 static void driver_in_slot(baum_mechanism *m)
 {
   const double at[2] = {0.3, 0.0};
@@ -233,7 +235,7 @@ static void driver_in_slot(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-/* A pinion whose centre of mass is off its axis, above a sliding rack. */
+/* Makes a pinion above a sliding rack. The centre of mass of the pinion is off its axis. */
 static void rack_and_pinion(baum_mechanism *m)
 {
   const double at[2] = {0.0, 0.0};
@@ -251,7 +253,8 @@ static void rack_and_pinion(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* A pinion that rolls down a sloping rack, with its centre in a slot parallel to the rack. */
+/* Makes a pinion that rolls down a sloping rack. Its centre moves in a slot parallel to the
+ * rack. */
 static void rolling(baum_mechanism *m)
 {
   const double at[2] = {0.1, 0.2};
@@ -269,7 +272,8 @@ static void rolling(baum_mechanism *m)
   need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* Sun and planet gears on an arm, all with their centres of mass off the axes. */
+/* Makes a sun gear and a planet gear on an arm. The centres of mass of all of them are off their
+ * axes. */
 static void gear(baum_mechanism *m)
 {
   baum_body_id sun = body(m, "sun", (placed){0.05, 0.0, 0.0, 4.0});
@@ -287,7 +291,7 @@ static void gear(baum_mechanism *m)
   need(baum_mechanism_add_planar_gear(m, &def, NULL));
 }
 
-/* Adds a crank and a weight that slides vertically, and returns a definition that couples them. */
+/* Adds a crank and a weight that slides vertically. Returns a definition that couples them. */
 static baum_coupling_def crank_and_weight(baum_mechanism *m)
 {
   const double at[2] = {0.3, 0.0};
@@ -300,7 +304,7 @@ static baum_coupling_def crank_and_weight(baum_mechanism *m)
   return def;
 }
 
-/* A weight on a rope that is wound on a drum. */
+/* Makes a weight on a rope, which winds on a drum. */
 static void coupling(baum_mechanism *m)
 {
   baum_coupling_def def = crank_and_weight(m);
@@ -317,7 +321,7 @@ static int lift(double x, double f[3], void *user)
   return 0;
 }
 
-/* A weight that a cam with two lobes lifts. */
+/* Makes a weight that is lifted by a cam with two lobes. */
 static void cam(baum_mechanism *m)
 {
   static double height = 0.03;
@@ -327,8 +331,8 @@ static void cam(baum_mechanism *m)
   need(baum_mechanism_add_coupling(m, &def, NULL));
 }
 
-/* The ellipse ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20 = 0. On it, the gradient has a length between
- * 0.5 and 1. */
+/* The ellipse ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20 = 0. The gradient at points of the ellipse has a
+ * length between 0.5 and 1. */
 static int ellipse(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -340,7 +344,7 @@ static int ellipse(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* A particle on the elliptic track of a swinging body. */
+/* Makes a particle on an elliptic track, which is part of a swinging body. */
 static void curve(baum_mechanism *m)
 {
   baum_body_id track = body(m, "track", (placed){0.0, -0.2, 0.0, 1.0});

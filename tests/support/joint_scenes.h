@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small mechanism for each kind of joint, with gravity, initial velocities and one or two degrees
- * of freedom. Tests of all joints use them. */
+/* One small mechanism for each kind of joint. It has gravity, initial velocities, and one or two
+ * degrees of freedom. Tests of all joints use them. */
 #ifndef BAUM_TEST_JOINT_SCENES_H
 #define BAUM_TEST_JOINT_SCENES_H
 
@@ -8,9 +8,9 @@
 
 typedef struct joint_scene {
   const char *name;
-  void (*build)(baum_mechanism *mechanism); /* fails the test on failure */
+  void (*build)(baum_mechanism *mechanism); /* fails the test if a call fails */
   int degrees_of_freedom;
-  bool conservative; /* energy is constant: no drivers */
+  bool conservative; /* whether the energy is constant, as it is without drivers */
 } joint_scene;
 
 enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* of nv and nc */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A bar that is pinned to ground, and a second bar that two pins join rigidly to the first. One of
- * the four rows of these pins is redundant; the best choice of the omitted row changes twice per
- * revolution. Include after cmocka.h. */
+/* A bar is pinned to ground. Two pins join a second bar rigidly to the first. One of the four rows
+ * of these two pins is redundant. Which row is best omitted changes twice per revolution. Include
+ * after cmocka.h. */
 #ifndef BAUM_TEST_LOCKED_PAIR_H
 #define BAUM_TEST_LOCKED_PAIR_H
 
@@ -16,8 +16,8 @@ static inline baum_body_id locked_pair_bar(baum_i_parts *parts, double x, double
   return baum_i_parts_body_at(parts, NULL, 1.0, 0.1, at, BAUM_I_GIVE_ALL);
 }
 
-/* With an initial angular velocity `rate` above 6 rad/s the bars make full revolutions. `welded`
- * replaces the two pins by a weld. */
+/* The bars make full revolutions if their initial angular velocity `rate` is above 6 rad/s. If
+ * `welded` is set, a weld replaces the two pins. */
 static inline baum_mechanism *locked_pair_make(double rate, bool welded)
 {
   baum_mechanism *m = NULL;

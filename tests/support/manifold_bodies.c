@@ -71,7 +71,7 @@ static int angle_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The moment of the weight of a pendulum with the direction q = (cos, sin). */
+/* The moment of the weight on a pendulum in the direction q = (cos, sin). */
 static int angle_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {
@@ -206,8 +206,8 @@ static void free_rate(const double *p, const double *w, double *dp, void *user)
   quaternion_product(p, z, dp);
 }
 
-/* Rotates p by an angle with tan(angle / 2) = h |w| / 2, which agrees with the exponential map up
- * to second order. */
+/* Rotates p by an angle for which tan(angle / 2) = h |w| / 2. This agrees with the exponential map
+ * up to second order. */
 static void free_move(double h, const double *w, double *p, void *user)
 {
   (void)user;
@@ -251,7 +251,7 @@ static bool is_gyroscopic(const manifold_body *body)
   return body->inertia[0] != body->inertia[1] || body->inertia[0] != body->inertia[2];
 }
 
-/* The gyroscopic moment -w x I w. */
+/* The gyroscopic moment -w x (I w). */
 static int free_force(double t, const double *q, const double *v, const double *inputs, double *out,
                       void *user)
 {
@@ -261,7 +261,7 @@ static int free_force(double t, const double *q, const double *v, const double *
   const manifold_body *body = user;
   const double momentum[3] = {body->inertia[0] * v[0], body->inertia[1] * v[1],
                               body->inertia[2] * v[2]};
-  if (is_gyroscopic(body)) { /* otherwise out is zero already */
+  if (is_gyroscopic(body)) { /* otherwise `out` is already zero */
     cross(momentum, v, out);
   }
   return 0;
@@ -330,7 +330,7 @@ static int top_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Adds the weight along -z. */
+/* Adds the weight, which acts along -z. */
 static int top_force(double t, const double *q, const double *v, const double *inputs, double *out,
                      void *user)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies with positions on a manifold, as user coordinates of sizes (nq, nv):
+/* Bodies whose positions are on a manifold. They are made with user coordinates. Their sizes are
+ * (nq, nv):
  *
  *   turned body   q = (x, y, cos, sin), v = (x', y', angular velocity)                (4, 3)
  *   angle         q = (cos, sin), v the angular velocity                              (2, 1)
@@ -13,14 +14,14 @@
 
 typedef struct manifold_body {
   double mass;
-  double inertia[3]; /* a turned body uses only the first */
+  double inertia[3]; /* a turned body uses only the first number */
 } manifold_body;
 
 baum_body_id manifold_add_turned(baum_mechanism *mechanism, manifold_body *body, double x, double y,
                                  double angle, const double *v);
 baum_body_id manifold_add_angle(baum_mechanism *mechanism, manifold_body *body, double angle,
                                 const double *v);
-/* The length of p may differ from 1 by rounding. */
+/* The length of the quaternion p may differ from 1 by rounding. */
 baum_body_id manifold_add_top(baum_mechanism *mechanism, manifold_body *body, const double q[7],
                               const double *v);
 baum_body_id manifold_add_free_top(baum_mechanism *mechanism, manifold_body *body,

@@ -20,10 +20,10 @@ enum { SIZE = MANIFOLD_SIZE };
 
 /* ---- pins between turned bodies ---- */
 
-/* A pin that joins point b of the last body to point a of the first body, or of ground. */
+/* A pin. It joins point b of the last body to point a of the first body or of ground. */
 typedef struct pin {
   bool to_ground;
-  bool to_ordinary; /* the last body has an angle instead of (cos, sin) */
+  bool to_ordinary; /* the last body has an ordinary angle instead of (cos, sin) */
   double a[2];
   double b[2];
 } pin;
@@ -65,7 +65,7 @@ static void put_side(const double *c, const double s[2], double sign, int first,
   out[columns + first + 2] = sign * arm[0];
 }
 
-/* Computes the Jacobian with respect to velocities. For pins between turned bodies only. */
+/* Computes the Jacobian with respect to velocities. This is only for pins between turned bodies. */
 static int pin_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -185,8 +185,8 @@ static void translate_angle(const double *twin_q, double *q)
 
 static manifold_body rod = {.mass = 1.5, .inertia = {0.2}};
 static pin hinge = {.to_ground = true, .b = {-0.5, 0.1}};
-/* Places the rod at the angle 0.4 rad with its point b at the origin. v are the velocities for -4
- * rad/s. */
+/* Finds the position of the rod at the angle 0.4 rad, with its point b at the origin. The
+ * velocities v belong to an angular velocity of -4 rad/s. */
 static void place_rod(double *x, double *y, double v[3])
 {
   double arm[2] = {0.0, 0.0};
@@ -232,11 +232,11 @@ static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
 static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
 static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
 static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
-/* Pins of a coupler that is as long as the crank. The configurations in which the slider is at the
- * main pin are bifurcations. */
+/* The pins of a coupler that is only as long as the crank. Configurations in which the slider is at
+ * the main pin are then bifurcations. */
 static pin short_crank_pin = {.a = {0.5, 0.0}, .b = {-0.5, 0.0}};
 static pin short_slider_pin = {.a = {0.5, 0.0}, .b = {0.0, 0.0}};
-/* The crank starts at 1 rad with 4 rad/s. */
+/* The crank starts at an angle of 1 rad with an angular velocity of 4 rad/s. */
 static const double CRANK = 1.0;
 static const double CRANK_V[3] = {(double)NAN, (double)NAN, 4.0};
 
@@ -278,7 +278,7 @@ static void add_rail(baum_mechanism *mechanism, const baum_body_id *body)
   check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
 }
 
-/* Builds the slider-crank and sets ids. */
+/* Builds the slider-crank, and sets the ids of its bodies. */
 static void build_crank_of(baum_mechanism *mechanism, double half, baum_body_id ids[3])
 {
   crank_place p = place_crank(CRANK, half);
@@ -303,7 +303,7 @@ static void build_short_crank(baum_mechanism *mechanism)
   build_crank_of(mechanism, 0.5, ids);
 }
 
-/* Drives the crank by sin(angle - CRANK - 4 t) = 0. */
+/* Drives the crank by the constraint sin(angle - CRANK - 4 t) = 0. */
 static int driver_phi(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -367,7 +367,7 @@ static void translate_crank(const double *twin_q, double *q)
   translate_bodies(twin_q, q, 3);
 }
 
-/* ---- a turned body followed by an ordinary one, so that columns of q and v differ ---- */
+/* ---- a turned body before an ordinary one, so that q and v have different columns ---- */
 
 static manifold_body lower_rod = {.mass = 0.7, .inertia = {0.05}};
 static pin joint_pin = {.to_ordinary = true, .a = {0.5, 0.0}, .b = {-0.4, 0.0}};

@@ -17,7 +17,7 @@
 /* A body that rotates about a fixed point, the origin. */
 typedef struct top {
   manifold_body body;
-  double point[3]; /* fixed point relative to the centre of mass, in body axes */
+  double point[3]; /* the fixed point relative to the centre of mass, in body axes */
   double p[4];
   double w[3];
 } top;
@@ -45,7 +45,8 @@ static int point_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The velocity of the fixed point is r' + A (w x s), so its columns for w are A (e_j x s). */
+/* The velocity of the fixed point is r' + A (w x s). The columns for w are therefore A (e_j x
+ * s). */
 static int point_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -126,8 +127,8 @@ void manifold_build_ball(baum_mechanism *mechanism)
   build_top(mechanism, &ball, true);
 }
 
-/* Euler's equations about the fixed point: J0 w' = (J0 w) x w + moment of the weight, with J0 = I +
- * m (s.s - s s^T). */
+/* Evaluates Euler's equations about the fixed point: J0 w' = (J0 w) x w + moment of the weight,
+ * with J0 = I + m (s.s - s s^T). */
 static void top_rates(const top *of, const double y[7], double dy[7])
 {
   const double *s = of->point;

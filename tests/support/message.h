@@ -7,8 +7,8 @@
 
 #include <baum/status.h>
 
-/* Asserts that the status is `want` and that this thread's message contains all parts, which '|'
- * separates. */
+/* Asserts that the status is `want`, and that the message of this thread contains all parts. In
+ * `parts`, the character '|' separates one part from the next. */
 #define ASSERT_SAYS(status, want, parts) \
   assert_says_((status), (want), (parts), baum_message(), #status, __FILE__, __LINE__)
 

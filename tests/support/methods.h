@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed-step methods as src/stabilization describes them, and reproducible random numbers. */
+/* The fixed-step methods, as src/stabilization describes them, and random numbers that are the same
+ * in every run. */
 #ifndef BAUM_TEST_METHODS_H
 #define BAUM_TEST_METHODS_H
 

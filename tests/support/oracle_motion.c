@@ -12,8 +12,8 @@ static void normalize3(wide x[3])
   }
 }
 
-/* Computes cosine and sine: halves the angle until it is below 1, sums the series, and doubles the
- * angle again. */
+/* Computes cosine and sine. The angle is halved until it is below 1, the series are summed, and the
+ * angle is doubled again. */
 static void wide_turn(wide angle, wide *cosine, wide *sine)
 {
   int halved = 0;
@@ -37,7 +37,7 @@ static void wide_turn(wide angle, wide *cosine, wide *sine)
 
 /* ---- bodies ---- */
 
-/* Writes the rotation matrix A of the quaternion p, which is defined by A e = p e p*. */
+/* Computes the rotation matrix A of a quaternion p. It is defined by A e = p e p*. */
 static void matrix_of_quaternion(const wide p[4], wide a[9])
 {
   wide square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
@@ -79,7 +79,7 @@ int oracle_six_of(const oracle_body *body, int k)
   return body->kind == 'b' && k == 2 ? 5 : k;
 }
 
-/* Uses A' = A [w]x and, at constant w, A'' = A [w]x [w]x. */
+/* The derivatives are A' = A [w]x and, if w is constant, A'' = A [w]x [w]x. */
 motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6])
 {
   motion m = {.r = {{{0}}}};
@@ -192,7 +192,7 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
 
 /* The vectors of a joint during a motion. */
 typedef struct moving {
-  jet e[3]; /* from body_a's point to body_b's */
+  jet e[3]; /* the vector from body_a's point to body_b's point */
   jet axes[2][3][3];
 } moving;
 
@@ -279,8 +279,8 @@ int oracle_coordinate_count(oracle_kind kind)
   }
 }
 
-/* Angles are 0 in the design configuration, in which the axes on both bodies coincide. A universal
- * joint rotates about the x axis of body_b. */
+/* Angles are 0 in the design configuration, because the axes on both bodies coincide there. The
+ * second rotation of a universal joint is about the x axis of body_b. */
 jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bodies)
 {
   const moving m = moving_of(joint, bodies);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pendulum whose event times are known in closed form. It hangs down at angle 0, starts at rest
- * at an angle below pi, and passes angle 0 at odd multiples of a quarter period. Include after
- * cmocka.h. */
+/* A pendulum for which the times of events are known in closed form. At the angle 0 it hangs down.
+ * It starts at rest at an angle below pi, and passes the angle 0 at odd multiples of a quarter
+ * period. Include after cmocka.h. */
 #ifndef BAUM_TEST_PENDULUM_EVENTS_H
 #define BAUM_TEST_PENDULUM_EVENTS_H
 
@@ -15,8 +15,8 @@ typedef struct swing {
   double quarter; /* [s] */
 } swing;
 
-/* Returns the quarter period K(sin(angle / 2)) / rate, where `rate` is the angular frequency of
- * small swings and K = pi / (2 agm(1, cos(angle / 2))) (Abramowitz, Stegun 1964, 17.6.3). */
+/* Returns the quarter period. It is K(sin(angle / 2)) / rate, where `rate` is the angular frequency
+ * of small swings. K is pi / (2 agm(1, cos(angle / 2))) (Abramowitz, Stegun 1964, 17.6.3). */
 static inline double quarter_of(double angle, double rate)
 {
   double a = 1.0;
@@ -29,8 +29,8 @@ static inline double quarter_of(double angle, double rate)
   return acos(-1.0) / (2.0 * a * rate);
 }
 
-/* Makes a body of 1 kg and 0.25 kg m^2, whose centre is 1 m from the pin. The angular frequency of
- * small swings is sqrt(9.81 / 1.25) rad/s. */
+/* Makes a pendulum. Its body has 1 kg and 0.25 kg m^2, and its centre is 1 m from the pin. The
+ * angular frequency of small swings is sqrt(9.81 / 1.25) rad/s. */
 static inline swing swing_make(double angle)
 {
   swing s = {.mechanism = NULL};

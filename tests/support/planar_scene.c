@@ -75,7 +75,7 @@ static void check_pair(planar_add_fn *add, int which, planar_check_fn *check)
     {BAUM_GROUND, scene.ball}, {scene.bead, BAUM_GROUND}, {scene.ball, scene.bead},
   };
   add(&scene, pairs[which][0], pairs[which][1]);
-  /* Adds the element again, so that indices and offsets in arrays are not all zero. */
+  /* The element is added a second time, so that not all indices and offsets in arrays are zero. */
   add(&scene, scene.crank, BAUM_GROUND);
   test_point p;
   test_point_open(&p, scene.mechanism);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism of two planar bodies and two particles at different places, between which tests add
- * joints and forces. */
+/* A mechanism of two planar bodies and two particles at different places. Tests add joints and
+ * forces between them. */
 #ifndef BAUM_TEST_PLANAR_SCENE_H
 #define BAUM_TEST_PLANAR_SCENE_H
 
@@ -19,17 +19,17 @@ typedef struct planar_scene {
 
 planar_scene planar_scene_make(void);
 
-/* Returns a point in the axes of a body or of ground. It is not the origin, except for
- * particles. */
+/* Returns a point in the axes of a body or of ground. For a particle this point is the origin, and
+ * for all other bodies it is not. */
 void planar_scene_arm(const planar_scene *scene, baum_body_id body, double arm[2]);
 
-/* Adds the element to test between two bodies. */
+/* Adds an element between the bodies a and b. This element is the one that is tested. */
 typedef void planar_add_fn(planar_scene *scene, baum_body_id a, baum_body_id b);
 typedef void planar_check_fn(test_point *p);
 
-/* Runs `check` for every pair of bodies, including ground and, if allowed, particles, at 20 random
- * states. Each mechanism has the element twice: first between the pair, then between crank and
- * ground. */
+/* Calls `check` for every pair of bodies, at 20 random states. Ground is one of the bodies, and
+ * particles are included if they are allowed. Each mechanism has the element twice: first between
+ * the bodies of the pair, and then between crank and ground. */
 void for_each_planar_pair(planar_add_fn *add, bool particles, planar_check_fn *check);
 
 /* Sets the two bodies and the two points of a definition. */

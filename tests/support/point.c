@@ -35,7 +35,7 @@ void test_point_update(test_point *p)
   baum_i_point_set(&p->point, p->t, p->q, p->v);
 }
 
-/* Uses the upper bits of Knuth's linear congruential generator. */
+/* The random number is made of the upper bits of Knuth's linear congruential generator. */
 double test_uniform(uint64_t *seed, double low, double high)
 {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;

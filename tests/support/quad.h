@@ -14,8 +14,8 @@ static inline wide wide_size(wide x)
   return x < 0 ? -x : x;
 }
 
-/* Returns the square root, by Newton's iteration from the root in double precision, which has at
- * least a quarter of the digits. */
+/* Returns the square root, by Newton's iteration. It starts from the root in double precision,
+ * which has at least a quarter of the digits. */
 static inline wide wide_root(wide x)
 {
   wide root = (wide)__builtin_sqrt((double)x);

@@ -135,8 +135,8 @@ static void bring_up(const quad_equations *s, int k, int best)
   s->order[best] = kept;
 }
 
-/* Subtracts from all later columns their component along column k, which has unit length. Does this
- * twice, because rounding leaves a component in the first pass. */
+/* Subtracts from all later columns their components along column k. This column has unit length.
+ * The subtraction is made twice, because rounding leaves small components in the first pass. */
 static void take_out(const quad_equations *s, int k)
 {
   const wide *q = column(s, k);
@@ -152,8 +152,8 @@ static void take_out(const quad_equations *s, int k)
   }
 }
 
-/* Computes Q and R with pivoting. Stops if the remaining columns are dependent, and returns the
- * length of the longest of them; returns 0 if all columns are independent. */
+/* Computes Q and R, with pivoting. If the remaining columns are dependent, the function stops and
+ * returns the length of the longest of them. If all columns are independent, it returns 0. */
 static wide factor_rows(const quad_equations *s, int *rank)
 {
   for (int k = 0; k < s->nc; k++) {
@@ -182,7 +182,7 @@ static wide factor_rows(const quad_equations *s, int *rank)
 
 /* ---- solution ---- */
 
-/* Solves R^T x with the first `rank` rows and columns of R. */
+/* Solves a system with R^T, using only the first `rank` rows and columns of R. */
 static void solve_transposed(const quad_equations *s, int rank, wide *x)
 {
   for (int k = 0; k < rank; k++) {
@@ -193,7 +193,7 @@ static void solve_transposed(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* Solves R x likewise. */
+/* Solves a system with R in the same way. */
 static void solve_straight(const quad_equations *s, int rank, wide *x)
 {
   for (int i = rank - 1; i >= 0; i--) {
@@ -204,7 +204,7 @@ static void solve_straight(const quad_equations *s, int rank, wide *x)
   }
 }
 
-/* Ten inverse iterations with R^T R. The result is accurate to one or two digits. */
+/* Makes ten inverse iterations with R^T R. The result is accurate to one or two digits. */
 static wide smallest_singular_value(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -224,7 +224,8 @@ static wide smallest_singular_value(const quad_equations *s, int rank)
   return 1 / wide_root(size);
 }
 
-/* Moves y, which is L^-1 g, to the nearest point that fulfils the independent rows. */
+/* Moves y to the nearest point that satisfies the independent rows. At the beginning, y is L^-1
+ * g. */
 static void move_onto_rows(const quad_equations *s, int rank)
 {
   wide *x = s->work;
@@ -240,8 +241,8 @@ static void move_onto_rows(const quad_equations *s, int rank)
   }
 }
 
-/* Returns the largest conflict |w^T y - c| of the dependent rows, where the column w of W is Q
- * times a column of R. */
+/* Returns the largest conflict |w^T y - c| of the dependent rows. For each of them, the column w of
+ * W is Q times a column of R. */
 static double largest_conflict(const quad_equations *s, int rank, wide size)
 {
   wide worst = 0;
@@ -337,7 +338,7 @@ void quad_equations_null(const quad_equations *s, int k, wide *lambda)
   lambda[s->order[behind]] = 1 / s->length[s->order[behind]];
 }
 
-/* ---- the library's own equations ---- */
+/* ---- the equations that the library provides ---- */
 
 typedef struct read_equations {
   double *mass;
@@ -363,7 +364,7 @@ static bool begin(quad_equations *s, read_equations *read, int nv, int nc)
 static bool solve(quad_equations *s, const read_equations *read, double *a, quad_rows *out)
 {
   size_t count = (size_t)(s->nv * s->nv + s->nc * s->nv + s->nv + s->nc);
-  for (size_t i = 0; i < count; i++) { /* both: mass, jacobian, force, gamma */
+  for (size_t i = 0; i < count; i++) { /* this covers mass, jacobian, force and gamma */
     s->mass[i] = read->mass[i];
   }
   wide *found = calloc((size_t)s->nv + 1, sizeof *found);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes accelerations in quadruple precision, also with dependent rows, and measures of their
- * dependence. M, J, g and gamma come from the library in double precision, but none of its solvers
- * is used. With M = L L^T and y = L^T a, and with the rows of J L^-T scaled to length 1, the
- * constraints are W^T y = c. A QR factorization of W with pivoting gives the y nearest to L^-1
- * g. */
+/* Computes accelerations in quadruple precision, even if rows are dependent, and measures of the
+ * dependence. M, J, g and gamma are computed by the library in double precision, but none of its
+ * solvers is used. Let M = L L^T and y = L^T a, and let the rows of J L^-T be scaled to length 1.
+ * The constraints are then W^T y = c. A QR factorization of W with pivoting gives that y which is
+ * nearest to L^-1 g. */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
 
@@ -14,20 +14,22 @@
 #include "quad.h"
 
 typedef struct quad_rows {
-  /* number of rows whose distance from the span of the earlier rows, in pivot order, is at least
-   * QUAD_DEPENDENT */
+  /* Number of independent rows. In pivot order, their distance from the span of the rows before
+   * them is at least QUAD_DEPENDENT. */
   int rank;
-  /* smallest singular value of W; if rows are dependent, the distance of the first of them from the
-   * span of the independent rows */
+  /* Smallest singular value of W. If rows are dependent, the distance of the first dependent row
+   * from the span of the independent rows. */
   double distance;
-  double kept;     /* smallest singular value of the independent rows */
-  double conflict; /* largest |W^T y - c| of dependent rows, relative to |c|, |y| and |L^-1 g| */
-  double size;     /* the larger of max |a| and max |M^-1 g| */
+  double kept; /* smallest singular value of the independent rows */
+  /* Largest |W^T y - c| of the dependent rows, relative to |c|, |y| and |L^-1 g|. */
+  double conflict;
+  double size; /* max |a| or max |M^-1 g|, whichever is larger */
 } quad_rows;
 
 static const double QUAD_DEPENDENT = 1e-10;
 
-/* The equations of an oracle. The caller sets mass, jacobian, force and gamma, then solves. */
+/* The equations that an oracle solves. The caller sets mass, jacobian, force and gamma, and then
+ * calls quad_equations_solve(). */
 typedef struct quad_equations {
   int nv;
   int nc;
@@ -35,10 +37,10 @@ typedef struct quad_equations {
   wide *jacobian; /* (nc x nv) */
   wide *force;    /* (nv) */
   wide *gamma;    /* (nc) */
-  int rank;       /* this and all below: results */
+  int rank;       /* this member and all members below are results */
   int *order;     /* (nc) rows in pivot order */
-  wide *factor;   /* (nv x nv) L */
-  wide *w;        /* (nc x nv) columns of W, then of Q; column k starts at k nv */
+  wide *factor;   /* (nv x nv) the factor L of M = L L^T */
+  wide *w;        /* (nc x nv) columns of W and later of Q; column k starts at k nv */
   wide *r;        /* (nc x nc) R in pivot order */
   wide *c;        /* (nc) right sides in pivot order */
   wide *length;   /* (nc) lengths of the rows of J L^-T */
@@ -46,25 +48,27 @@ typedef struct quad_equations {
   wide *work;     /* (nv + nc) */
 } quad_equations;
 
-/* Returns false if memory is missing. Destroy the equations also in that case. */
+/* Returns false if there is not enough memory. The equations must be destroyed even then. */
 bool quad_equations_create(quad_equations *s, int nv, int nc);
 void quad_equations_destroy(quad_equations *s);
 
-/* Computes a (nv). Returns false if M is not positive definite. */
+/* Solves the equations for the accelerations a (nv). Returns false if M is not positive
+ * definite. */
 bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out);
 
-/* After solving: the first function computes the multipliers (nc), which are 0 for dependent rows;
- * the second computes the k-th linear combination of the rows of J that is zero. */
+/* These functions are called after solving. The first one computes the multipliers (nc), which are
+ * 0 for dependent rows. The second one computes the k-th linear combination of the rows of J that
+ * is zero. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda);
 void quad_equations_null(const quad_equations *s, int k, wide *lambda);
 
-/* Reads M, J, g and gamma from a workspace and computes a (nv). Returns false if a call fails, M is
- * not positive definite, or memory is missing. */
+/* Reads M, J, g and gamma from a workspace and computes a (nv). Returns false if a call fails, if M
+ * is not positive definite, or if there is not enough memory. */
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out);
 
-/* Computes the velocities that fulfil time-independent constraints and are nearest to v in the
- * metric of M. These solve the same equations with gamma = 0 and the force M v. */
+/* Computes the velocities nearest to v, in the metric of M, that satisfy constraints which do not
+ * depend on time. They solve the same equations with gamma = 0 and the force M v. */
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out);
 

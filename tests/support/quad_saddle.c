@@ -18,7 +18,7 @@ typedef struct entry {
 typedef struct quad_system {
   int n; /* nv + nc */
   int nv;
-  entry *entries; /* of M and J, without J^T */
+  entry *entries; /* the entries of M and J, but not those of J^T */
   size_t count;
   size_t room;
   double *b;  /* (n) */
@@ -67,8 +67,8 @@ static void add(quad_system *s, int row, int column, double value)
 
 /* ---- order ---- */
 
-/* The sort key `at` of an unknown: 2 i for the velocity i; for a multiplier, the sum of the indices
- * of the first and the last velocity in its row of J. */
+/* The key `at` by which unknowns are sorted. For velocity i it is 2 i. For a multiplier it is the
+ * sum of the indices of the first and the last velocity in its row of J. */
 typedef struct seat {
   int at;
   int unknown;
@@ -119,8 +119,8 @@ static void find_order(quad_system *s)
 
 /* ---- elimination in a band ---- */
 
-/* A band matrix. Row i holds columns i - half to i + 2 half, then the right side. The upper part is
- * wider because row exchanges for pivots fill it. */
+/* A band matrix. Row i contains the columns i - half to i + 2 half, and then the right side. The
+ * upper part is wider than the lower part, because row exchanges for pivots fill it. */
 typedef struct band {
   int n;
   int half;
@@ -196,7 +196,7 @@ static void bring_up_pivot(const band *m, int k)
   }
 }
 
-/* Subtracts from row i the multiple of row k that eliminates column k. */
+/* Subtracts a multiple of row k from row i, so that the entry in column k becomes zero. */
 static void take_away(const band *m, int k, int last, int i)
 {
   wide *low = at(m, i, k);
@@ -377,7 +377,7 @@ double quad_error(int count, const double *x, const double *want)
   double size = 0.0;
   for (int i = 0; i < count; i++) {
     double apart = fabs(x[i] - want[i]);
-    error = isnan(error) || apart <= error ? error : apart; /* keeps NaN */
+    error = isnan(error) || apart <= error ? error : apart; /* this keeps NaN */
     size = fmax(size, fabs(want[i]));
   }
   return size > 0.0 ? error / size : error;

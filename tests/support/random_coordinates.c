@@ -10,8 +10,8 @@
 
 #include "check.h"
 
-/* Draws a joint and one of its coordinates. Returns -1 if the joint has no coordinate or has a
- * driver. */
+/* Chooses a random joint and one of its coordinates. Returns -1 if the joint has no coordinate, or
+ * if it has a driver. */
 static int choose_coordinate(random_spatial *r, int *number)
 {
   const spatial_oracle *o = &r->oracle;
@@ -24,8 +24,8 @@ static int choose_coordinate(random_spatial *r, int *number)
   return count > 0 ? n : -1;
 }
 
-/* Returns the library's name of a coordinate. For the first coordinate this is sometimes
- * BAUM_COORDINATE_FIRST. */
+/* Returns the name that the library gives to a coordinate. For the first coordinate of a joint, the
+ * result is sometimes BAUM_COORDINATE_FIRST. */
 static baum_joint_coordinate name_of(random_spatial *r, oracle_kind kind, int number)
 {
   static const baum_joint_coordinate names[ORACLE_JOINT_KINDS][3] = {

@@ -5,10 +5,12 @@
 
 #include "random_spatial.h"
 
-/* Draws a joint and adds a driver to it, unless it has no coordinate or already has a driver. */
+/* Chooses a random joint and adds a driver to it. If the joint has no coordinate or already has a
+ * driver, nothing is added. */
 void random_spatial_add_driver(random_spatial *r);
 
-/* Adds a joint spring whose free value differs by up to 1 from the design coordinate. */
+/* Adds a joint spring to a random joint. Its free value differs from the coordinate in the design
+ * by up to 1. */
 void random_spatial_add_joint_spring(random_spatial *r);
 
 #endif

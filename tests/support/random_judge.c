@@ -12,10 +12,10 @@
 
 #include "quad_rows.h"
 
-/* Dependent rows that contradict each other by more than this must be refused. */
+/* If dependent rows contradict each other by more than this, the library must refuse. */
 static const double CONTRADICTION = 1e-9;
 
-/* A configuration to test. */
+/* A configuration in which a mechanism is tested. */
 typedef struct scene {
   random_tally *tally;
   uint64_t seed;
@@ -31,7 +31,7 @@ typedef struct scene {
 
 /* ---- kinds ---- */
 
-/* Draws the kind of a mechanism: mostly small, one in ten with up to 30 bodies. */
+/* Chooses what kind of mechanism is made. Most are small, but one in ten has up to 30 bodies. */
 static random_kind draw_kind(chance *c)
 {
   bool large = chance_below(c, 10) == 0;
@@ -54,7 +54,7 @@ static double error_of(const scene *s, const quad_rows *rows)
   double most = 0.0;
   for (int i = 0; i < s->nv; i++) {
     double apart = fabs(s->a[i] - s->want[i]);
-    most = apart <= most ? most : apart; /* keeps NaN */
+    most = apart <= most ? most : apart; /* this keeps NaN */
   }
   return rows->size > 0.0 ? most / rows->size : most;
 }
@@ -69,8 +69,8 @@ static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *
     return RANDOM_CONFLICT;
   }
   double error = error_of(s, rows);
-  /* library and oracle may omit different rows; the results then differ by the conflict of the
-   * rows */
+  /* The library and the oracle may omit different rows. Their results then differ by the conflict
+   * of these rows. */
   double choice = dependent ? rows->conflict / rows->kept : 0.0;
   if (!(error <= RANDOM_ERROR + choice)) {
     return RANDOM_WRONG;
@@ -115,7 +115,7 @@ static void move_a_bit(scene *s, chance *c, double away)
   }
 }
 
-/* Projects the state onto the constraints and, if that succeeds, tests it. */
+/* Projects the state onto the constraints. If this succeeds, tests the projected state. */
 static void look_on_constraints(scene *s, const char *what)
 {
   if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
@@ -131,7 +131,7 @@ static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
   look_on_constraints(s, "design");
   move_a_bit(s, c, 0.2);
   look_on_constraints(s, "moved");
-  /* rows that are redundant on the constraints may be independent off them */
+  /* Rows that are redundant on the constraints may be independent off them. */
   (void)baum_mechanism_mobility(m, &mobility, sizeof mobility);
   if (mobility.redundant_rows == 0) {
     move_a_bit(s, c, 1.0);

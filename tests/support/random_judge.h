@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares accelerations of random mechanisms by the library with those in quadruple precision. */
+/* Compares accelerations of random mechanisms, as computed by the library, with those in quadruple
+ * precision. */
 #ifndef BAUM_TEST_RANDOM_JUDGE_H
 #define BAUM_TEST_RANDOM_JUDGE_H
 
 #include "random_mechanism.h"
 
 typedef enum random_verdict {
-  RANDOM_MET,         /* the error is within RANDOM_ERROR */
-  RANDOM_REFUSED,     /* rightly refused: rows are dependent or nearly so */
+  RANDOM_MET,         /* the error is at most RANDOM_ERROR */
+  RANDOM_REFUSED,     /* refused, which is right because rows are dependent or nearly so */
   RANDOM_WRONG,       /* the error is larger */
   RANDOM_CONFLICT,    /* accepted, although omitted rows contradict the others */
-  RANDOM_FALSE_ALARM, /* refused, but the rows are independent */
+  RANDOM_FALSE_ALARM, /* refused, although the rows are independent */
   RANDOM_VERDICTS
 } random_verdict;
 
-/* Permitted error, relative to the largest acceleration, either with or without constraints. */
+/* The largest permitted error. It is relative to the largest acceleration, either with or without
+ * constraints. */
 static const double RANDOM_ERROR = 1e-9;
 
-/* Counts of all configurations so far. */
+/* Numbers of configurations tested so far. */
 typedef struct random_tally {
   long mechanisms;
   long poses;
@@ -27,9 +29,9 @@ typedef struct random_tally {
   uint64_t worst_seed;
 } random_tally;
 
-/* Makes the mechanism of a seed in `room` and tests it with velocities: in its design
- * configuration, in another configuration on the constraints and, if no rows are redundant, in one
- * off the constraints. Prints wrong results and false alarms. */
+/* Makes the mechanism of a seed in `room`, and tests it with velocities. It is tested in its design
+ * configuration, and in another configuration on the constraints. If no rows are redundant, it is
+ * also tested in a configuration off the constraints. Prints wrong results and false alarms. */
 void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
 
 #endif

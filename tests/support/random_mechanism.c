@@ -40,7 +40,7 @@ int chance_below(chance *c, int count)
   return (int)((draw(c) >> 33) % (uint64_t)count);
 }
 
-/* ---- functions of the user ---- */
+/* ---- user functions ---- */
 
 static int coordinates_mass(double t, const double *q, double *out, void *user)
 {
@@ -273,7 +273,7 @@ static void add_weld(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'f', baum_mechanism_add_planar_fixed(r->mechanism, &def, &id), id);
 }
 
-/* Chooses a random point in body axes; for a particle, its own position. */
+/* Chooses a random point in body axes. For a particle, this is the particle itself. */
 static void choose_end(random_mechanism *r, const random_body *body, double end[2])
 {
   double point[2];
@@ -415,7 +415,7 @@ static double design_coordinate(const random_mechanism *r, int joint)
   return angle[1] - angle[0];
 }
 
-/* Adds a driver to a random joint, if it has a coordinate. */
+/* Chooses a random joint, and adds a driver to it if it has a coordinate. */
 static void add_driver(random_mechanism *r, const random_kind *kind)
 {
   int k = chance_below(&r->chance, r->joint_count + 1) - 1;
@@ -433,7 +433,7 @@ static void add_driver(random_mechanism *r, const random_kind *kind)
   def.joint = r->joints[k];
   def.law = sway;
   def.user = rows->at;
-  r->joint_kind[k] = 'x'; /* prevents a second driver */
+  r->joint_kind[k] = 'x'; /* this prevents a second driver */
   keep(r, 'v', baum_mechanism_add_driver(r->mechanism, &def, &id), id);
 }
 
@@ -520,7 +520,8 @@ static void add_load(random_mechanism *r)
   assert_int_equal(baum_mechanism_add_planar_load(r->mechanism, &def, &id), BAUM_OK);
 }
 
-/* Adds a spring between two bodies, except to user coordinates, which have no points. */
+/* Adds a spring between two bodies. Bodies with user coordinates are excluded, because they have no
+ * points. */
 static void add_spring(random_mechanism *r)
 {
   chance *c = &r->chance;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random mechanisms: bodies of all kinds, joints of all kinds in a random graph between bodies and
- * ground, loads and springs. The design configuration fulfils all constraints. Rows may be
- * redundant. The same seed gives the same mechanism on every machine. */
+/* Random mechanisms. They have bodies of all kinds, joints of all kinds in a random graph between
+ * bodies and ground, loads and springs. The design configuration satisfies all constraints. Rows
+ * may be redundant. The same seed gives the same mechanism on every machine. */
 #ifndef BAUM_TEST_RANDOM_MECHANISM_H
 #define BAUM_TEST_RANDOM_MECHANISM_H
 
@@ -24,31 +24,32 @@ int chance_below(chance *c, int count);
 
 typedef struct random_kind {
   int bodies;      /* at most RANDOM_BODIES */
-  int joints;      /* number of attempts to add one, at most RANDOM_JOINTS */
-  int particles;   /* [%] of the bodies */
-  int coordinates; /* likewise */
-  int pins;        /* [%] of the joints */
+  int joints;      /* number of attempts to add a joint, at most RANDOM_JOINTS */
+  int particles;   /* [%] of the bodies that are particles */
+  int coordinates; /* [%] of the bodies that have user coordinates */
+  int pins;        /* [%] of the joints that are pins */
   bool constant;   /* user coordinates have constant masses */
-  bool hub;        /* all joints involve body 1 */
+  bool hub;        /* whether all joints involve body 1 */
   double span;     /* masses are from 1/span to span */
   int loads;
-  int springs;        /* number of attempts to add one; springs have dampers */
-  bool drivers_begin; /* at time `start` drivers prescribe the design configuration */
+  int springs;        /* number of attempts to add a spring; springs have dampers */
+  bool drivers_begin; /* whether drivers prescribe the design configuration at time `start` */
   double start;       /* [s] */
 } random_kind;
 
-/* A body of any kind; also the data for the functions of user coordinates. */
+/* A body of any kind. It also contains the data for the functions of user coordinates. */
 typedef struct random_body {
   baum_body_id id;
   char kind; /* 'g'round, 'b'ody, 'p'article, 'c'oordinates */
   int size;  /* number of coordinates in q */
   double q[RANDOM_SIZE];
-  double factor[RANDOM_SIZE * RANDOM_SIZE]; /* M = factor factor^T; M_00 times 1 + q_0^2 / 4 */
+  /* M = factor factor^T, with M_00 multiplied by 1 + q_0^2 / 4. */
+  double factor[RANDOM_SIZE * RANDOM_SIZE];
   double force[RANDOM_SIZE];
   bool constant;
 } random_body;
 
-/* Random constraints: row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. d^2
+/* Random constraints. Row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. d^2
  * contains the squares of the elements of d. */
 typedef struct random_rows {
   int rows;
@@ -56,14 +57,14 @@ typedef struct random_rows {
   double linear[RANDOM_ROWS][RANDOM_SPAN * RANDOM_SIZE];
   double square[RANDOM_ROWS][RANDOM_SPAN * RANDOM_SIZE];
   double at[RANDOM_SPAN * RANDOM_SIZE];
-  int fail_at; /* number of calls until one fails; 0: none fails */
-  int answer;  /* return value of that call; 0: its results are NaN instead */
+  int fail_at; /* the call with this number fails; 0 if none fails */
+  int answer;  /* return value of this call; if 0, its results are NaN instead */
 } random_rows;
 
 typedef struct random_mechanism {
   baum_mechanism *mechanism;
   chance chance;
-  int body_count; /* includes ground, body 0 */
+  int body_count; /* includes ground, which is body 0 */
   random_body bodies[RANDOM_BODIES + 1];
   int joint_count;
   baum_joint_id joints[2 * RANDOM_JOINTS];
@@ -72,7 +73,7 @@ typedef struct random_mechanism {
   random_rows rows[RANDOM_JOINTS];
 } random_mechanism;
 
-/* Makes a frozen mechanism. Its functions point into *out, so *out must not be moved. */
+/* Makes a frozen mechanism. Its functions keep pointers into *out, so *out must not be moved. */
 void random_mechanism_make(random_mechanism *out, uint64_t seed, const random_kind *kind);
 void random_mechanism_destroy(random_mechanism *out);
 

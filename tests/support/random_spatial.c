@@ -43,7 +43,8 @@ static void check(baum_status status)
 
 /* ---- bodies ---- */
 
-/* Chooses the inertia tensor of an ellipsoid with random axes. One in six is nearly a rod. */
+/* Chooses the inertia tensor of an ellipsoid with random axes. One in six of these ellipsoids is
+ * nearly a rod. */
 static void choose_inertia(chance *c, double mass, double out[6])
 {
   double square[3];
@@ -146,10 +147,10 @@ static bool is_planar(const oracle_body *b)
   return b->kind == 'b' || b->kind == 'o';
 }
 
-/* ---- joints: definitions ---- */
+/* ---- definitions of joints ---- */
 
-/* Adds a joint of kind NAME. Copies the first SIZE bytes of its definition, which are laid out as
- * in that of a revolute joint, from `given`. */
+/* Adds a joint of the kind NAME. The first SIZE bytes of its definition are the same as in the
+ * definition of a revolute joint. They are copied from `given`. */
 #define ADD(NAME, SIZE)                                                       \
   {                                                                           \
     baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default();      \
@@ -158,7 +159,7 @@ static bool is_planar(const oracle_body *b)
     check(baum_mechanism_add_spatial_##NAME(r->mechanism, &def, &joint->id)); \
   }
 
-/* Adds a planar joint with the x axis of the oracle's joint. */
+/* Adds a planar joint. Its x axis is the x axis of the oracle's joint. */
 static void add_planar(random_spatial *r, const baum_spatial_revolute_def *given,
                        oracle_joint *joint)
 {
@@ -222,9 +223,9 @@ static void define_at_point(random_spatial *r, const double point[3], const doub
   }
 }
 
-/* Moves a point, given in ground axes, so that its body-axis coordinates are exact in double
- * precision: library and oracle then use the same point. For a particle the point becomes its
- * position. */
+/* Moves a point, which is given in ground axes, so that its coordinates in body axes can be
+ * represented exactly in double precision. Library and oracle then use the same point. For a
+ * particle, the point becomes the position of the particle. */
 static void round_on_body(const oracle_body *body, wide point[3], double out[3])
 {
   wide s[3];
@@ -237,7 +238,7 @@ static void round_on_body(const oracle_body *body, wide point[3], double out[3])
 }
 
 /* Defines a joint by points and axes on both bodies. `apart` is the vector from body_a's point to
- * body_b's. */
+ * body_b's point. */
 static void define_on_bodies(random_spatial *r, const double point[3], const double axis[3],
                              const double apart[3], oracle_joint *joint,
                              baum_spatial_revolute_def *def)
@@ -267,7 +268,7 @@ static void define_on_bodies(random_spatial *r, const double point[3], const dou
   }
 }
 
-/* ---- joints: points and axes ---- */
+/* ---- points and axes of joints ---- */
 
 static void choose_axis(random_spatial *r, const double point[3], bool in_plane, double axis[3])
 {
@@ -285,7 +286,7 @@ static void choose_axis(random_spatial *r, const double point[3], bool in_plane,
   }
 }
 
-/* Chooses a vector from body_a's point to body_b's that the joint permits. */
+/* Chooses a vector that the joint permits from body_a's point to body_b's point. */
 static void choose_apart(chance *c, oracle_kind kind, const double axis[3], double apart[3])
 {
   double beside[3];
@@ -366,8 +367,8 @@ static void add_joint_at(random_spatial *r, oracle_kind kind, const int bodies[2
   add_defined(r, &def, joint);
 }
 
-/* Chooses a kind of joint that both bodies support. Of the joints that close loops, two of three
- * have few rows. */
+/* Chooses a kind of joint that both bodies support. Two thirds of the joints that close loops have
+ * few rows. */
 static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
 {
   static const oracle_kind few[] = {ORACLE_SPHERICAL, ORACLE_UNIVERSAL, ORACLE_PLANAR,
@@ -389,8 +390,8 @@ static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
                                         : (oracle_kind)chance_below(c, ORACLE_JOINT_KINDS);
 }
 
-/* Adds a joint. One in twelve is added again, with exchanged bodies or at another point of the
- * axis, which makes rows redundant. */
+/* Adds a joint. One joint in twelve is added a second time, with exchanged bodies or at another
+ * point of its axis. This makes rows redundant. */
 static void add_joint(random_spatial *r, int one, int other, bool loop)
 {
   chance *c = &r->chance;

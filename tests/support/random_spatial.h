@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random spatial mechanisms, both for the library and for an oracle. Joints of all kinds form a
- * tree with some loops. There are springs, loads and drivers, also particles and planar bodies. The
- * design configuration fulfils all constraints. Rows may be redundant. The same seed gives the same
- * mechanism on every machine. */
+/* Random spatial mechanisms. Each is made both for the library and for an oracle. Joints of all
+ * kinds form a tree with some loops. There are springs, loads and drivers. Some bodies are
+ * particles or planar bodies. The design configuration satisfies all constraints. Rows may be
+ * redundant. The same seed gives the same mechanism on every machine. */
 #ifndef BAUM_TEST_RANDOM_SPATIAL_H
 #define BAUM_TEST_RANDOM_SPATIAL_H
 
@@ -17,10 +17,10 @@ typedef struct random_spatial {
   double span;           /* masses are from 1/span to span */
   int particles, planar; /* [%] of the bodies */
   enum { RANDOM_ANY, RANDOM_PARALLEL, RANDOM_CONCURRENT } axes;
-  double direction[3]; /* of parallel axes; or the point where concurrent axes meet */
+  double direction[3]; /* direction of parallel axes, or the point where concurrent axes meet */
 } random_spatial;
 
-/* Makes a frozen mechanism. Its driver laws point into *out, so *out must not be moved. */
+/* Makes a frozen mechanism. Its driver laws keep pointers into *out, so *out must not be moved. */
 void random_spatial_make(random_spatial *out, uint64_t seed);
 void random_spatial_destroy(random_spatial *out);
 

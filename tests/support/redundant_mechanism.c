@@ -83,8 +83,8 @@ static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, dou
   check(baum_mechanism_add_planar_translational(b->m, &def, NULL));
 }
 
-/* Adds a rod between two points, given relative to the centres of the bodies. All bodies have the
- * angle 0 in the design configuration. */
+/* Adds a rod between two points. The points are given relative to the centres of the bodies. All
+ * bodies have the angle 0 in the design configuration. */
 static void add_rod(builder *b, baum_body_id body_a, baum_body_id body_b, const double at_a[2],
                     const double at_b[2])
 {
@@ -113,7 +113,7 @@ static void join(builder *b, chain_kind kind, baum_body_id before, baum_body_id 
   }
 }
 
-/* Makes a chain of links of about 1 m. Some joints are added twice. */
+/* Makes a chain of links that are about 1 m long. Some joints are added twice. */
 static void make_chain(builder *b, chain_kind kind)
 {
   int count = 1 + chance_below(&b->chance, 6);
@@ -135,8 +135,8 @@ static void make_chain(builder *b, chain_kind kind)
   }
 }
 
-/* Makes equal, parallel cranks between a base and a coupler. Their feet are in line or not. The
- * second crank may be a massless rod. */
+/* Makes equal, parallel cranks between a base and a coupler. Their feet may be in line or not. The
+ * second crank is sometimes a massless rod. */
 static baum_body_id make_cranks(builder *b, baum_body_id base, const double corner[2], int cranks)
 {
   double crank[2] = {chance_number(&b->chance, -0.6, 0.6), chance_number(&b->chance, 0.5, 1.0)};
@@ -227,8 +227,9 @@ static double worse(double a, double b)
   return isnan(b) || b > a ? (isnan(b) ? (double)INFINITY : b) : a;
 }
 
-/* Returns the largest residual of all groups of rows. Each is relative to the largest term of its
- * group, or to 1e-14 of the largest term of all groups if that is larger. */
+/* Returns the largest residual of all groups of rows, as a fraction. Each residual is divided by
+ * the largest term of its group, or by 1e-14 of the largest term of all groups if that is
+ * larger. */
 static double largest_share(const double *rest, const double *size, int count, int group)
 {
   double all = 0.0;
@@ -243,7 +244,7 @@ static double largest_share(const double *rest, const double *size, int count, i
       most = worse(most, size[k]);
       most_rest = worse(most_rest, fabs(rest[k]));
     }
-    /* a group of zeros is in balance */
+    /* A group in which everything is zero is in balance. */
     share = most_rest == 0.0 ? share : worse(share, most_rest / fmax(most, 1e-14 * all));
   }
   return share;
@@ -272,7 +273,7 @@ double redundant_imbalance(const redundant_state *s, double *rows)
     size[i] = fabs(rest[i]);
   }
   for (size_t i = 0; i < n; i++) {
-    double free = rest[i] / mass[i * n + i]; /* acceleration without constraints */
+    double free = rest[i] / mass[i * n + i]; /* the acceleration without constraints */
     for (size_t k = 0; k < c; k++) {
       size[n + k] = worse(size[n + k], fabs(jacobian[k * n + i] * free));
     }
@@ -292,10 +293,11 @@ double redundant_imbalance(const redundant_state *s, double *rows)
   return share;
 }
 
-/* ---- uniqueness: a row that does not depend on the others has a unique multiplier ---- */
+/* ---- uniqueness: if a row does not depend on the others, its multiplier is unique ---- */
 
-/* Subtracts from `row` its components along orthonormal rows (count x n) and returns the length of
- * the rest. Two passes, because rounding leaves components in the first. */
+/* Subtracts from `row` its components along orthonormal rows (count x n), and returns the length of
+ * the result. This is done in two passes, because rounding leaves small components in the first
+ * pass. */
 static double leave(const double *rows, int count, int n, double *row)
 {
   double size = 0.0;
@@ -323,7 +325,7 @@ static void divide(double *row, int n, double by)
   }
 }
 
-/* Returns the distance of one unit row from the span of all others. */
+/* Returns the distance of a unit row from the span of all other rows. */
 static double distance(const double *jacobian, int nc, int n, int which, double *room)
 {
   static const double DEPENDENT = 1e-7;
@@ -344,8 +346,8 @@ static double distance(const double *jacobian, int nc, int n, int which, double 
   return 0.0;
 }
 
-/* Returns the number of wrong flags s->unique. Does not judge rows whose distance from the others
- * is between 1e-9 and 1e-5. */
+/* Counts how many of the flags s->unique are wrong. Rows are not judged if their distance from the
+ * others is between 1e-9 and 1e-5. */
 static int count_wrong_unique(const redundant_state *s)
 {
   size_t n = (size_t)s->nv;
@@ -375,7 +377,8 @@ static redundant_verdict verdict(baum_status status, double share)
   return share <= REDUNDANT_ERROR ? REDUNDANT_MET : REDUNDANT_WRONG;
 }
 
-/* Reads accelerations, multipliers and their uniqueness from a run that starts without assembly. */
+/* Reads accelerations, multipliers and the flags of uniqueness from a run. The run starts without
+ * assembly. */
 static baum_status read_run(const baum_mechanism *m, redundant_state *s)
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_A), baum_channel_of(BAUM_LAMBDA)};

@@ -29,9 +29,9 @@ static baum_status make_pendulum(baum_mechanism **out)
   return status ? status : baum_mechanism_freeze(*out);
 }
 
-/* Adds six entries. The first four are accurate and belong to two methods: three to rk4, one to
- * rk2. The fifth drifts until it gives a warning, which names the joint. The last is refused,
- * because its gains are unstable. */
+/* Adds six entries. The first four entries are accurate. Three of them belong to rk4, and one
+ * belongs to rk2. The fifth entry drifts until it gives a warning, which names the joint. The last
+ * entry is refused, because its gains are unstable. */
 static baum_status add_entries(baum_study *study)
 {
   static const double steps[REPORT_ENTRIES] = {0.04, 0.02, 0.01, 0.01, 0.05, 0.01};

@@ -6,8 +6,8 @@
 
 #include <baum/baum.h>
 
-/* The names contain characters that end attributes, elements and JSON strings, a tab, and a byte
- * that is not UTF-8. */
+/* These names contain a tab, a byte that is not UTF-8, and characters that could end attributes,
+ * elements and JSON strings. */
 #define REPORT_JOINT "<img src=x onerror=\"document.title='taken'\">"
 #define REPORT_TITLE "</title><script>document.title='taken'</script> \"q\" \\ \t \xff \xc3\xa9"
 
@@ -23,7 +23,7 @@ typedef struct report_scene {
   baum_study *study;
 } report_scene;
 
-/* Returns a study that has not been run. Both pointers are NULL if memory is missing. */
+/* Returns a study that has not been run. If there is not enough memory, both pointers are NULL. */
 report_scene report_scene_make(void);
 void report_scene_end(report_scene *scene);
 

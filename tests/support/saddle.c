@@ -43,7 +43,7 @@ static saddle make(int mass_blocks, int row_blocks, int columns)
   };
 }
 
-/* Allocates the values and vectors. The blocks must have been defined. */
+/* Allocates the values and vectors. The blocks must have been defined before. */
 static void complete(saddle *system)
 {
   baum_i_kkt_structure *structure = &system->structure;
@@ -100,9 +100,10 @@ void saddle_free(saddle *system)
   }
 }
 
-/* ---- random ones ---- */
+/* ---- random systems ---- */
 
-/* Lists the columns of a block for bodies i and j (or for i alone, if i = j) in random order. */
+/* Lists the columns of a block in random order. The block belongs to bodies i and j, or only to i
+ * if i = j. */
 static int list_columns(const saddle *system, int i, int j, uint64_t *seed, int *col)
 {
   int cols = 0;
@@ -126,7 +127,7 @@ static void add_joint(saddle *system, int rows, int i, int j, uint64_t *seed, in
   int *col = system->columns + *columns;
   int cols = list_columns(system, i, j, seed, col);
   *columns += cols;
-  system->jacobian_count += 1; /* leaves a gap */
+  system->jacobian_count += 1; /* leaves a gap between blocks */
   add_row_block(system, rows, cols, col);
 }
 
@@ -171,7 +172,7 @@ saddle saddle_make_random(uint64_t seed, int bodies)
   int loops = bodies / 3;
   saddle system = make(bodies, bodies + loops, 12 * (bodies + loops));
   for (int k = 0; k < bodies; k++) {
-    system.mass_count += 2; /* leaves a gap */
+    system.mass_count += 2; /* leaves a gap between blocks */
     add_mass_block(&system, pick(&seed, 2) ? 3 : 6);
   }
   int columns = 0;
@@ -230,7 +231,8 @@ saddle saddle_make_four_bar(int loops)
   return system;
 }
 
-/* Writes the columns of one body in a pin at (x, y) from its centre, in ground axes. */
+/* Writes the columns of one body in the rows of a pin. The pin is at (x, y) from the centre of the
+ * body, in ground axes. */
 static double *write_pin(double *value, int cols, double sign, double x, double y)
 {
   const double rows[2][3] = {{sign, 0.0, -sign * y}, {0.0, sign, sign * x}};
@@ -315,8 +317,8 @@ static wide size_of(wide x)
   return x < 0 ? -x : x;
 }
 
-/* Writes the dense system with its right side in extended precision: n rows of n + 1 numbers. An
- * omitted row becomes lambda_i = 0. */
+/* Writes the dense system and its right side in extended precision, as n rows of n + 1 numbers. An
+ * omitted row becomes the equation lambda_i = 0. */
 static wide *write_wide(const saddle *system, int n)
 {
   int nv = system->structure.nv;
@@ -353,7 +355,7 @@ static void bring_up_pivot(wide *matrix, int n, int k)
   }
 }
 
-/* Solves by Gauss-Jordan elimination. */
+/* Solves the system by Gauss-Jordan elimination. */
 static void eliminate(wide *matrix, int n)
 {
   for (int k = 0; k < n; k++) {
@@ -392,7 +394,7 @@ double saddle_backward_error(const saddle *system)
       residual -= term;
       size += size_of(term);
     }
-    /* keeps NaN */
+    /* This comparison keeps NaN. */
     double error = size > 0 ? (double)(size_of(residual) / size) : 0.0;
     worst = error <= worst ? worst : error;
   }

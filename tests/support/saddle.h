@@ -17,7 +17,7 @@ typedef struct saddle {
   double *f;
   double *r;
   double *a;          /* for the solution */
-  double *lambda;     /* likewise */
+  double *lambda;     /* for the multipliers of the solution */
   int mass_count;     /* length of mass */
   int jacobian_count; /* length of jacobian */
   baum_i_mass_block *mass_blocks;
@@ -25,37 +25,40 @@ typedef struct saddle {
   int *columns;
 } saddle;
 
-/* Returns a reproducible random number, uniform in [-1, 1). */
+/* Returns a pseudo-random number, uniform in [-1, 1). */
 double saddle_random(uint64_t *seed);
 
-/* A chain of bodies with 3 or 6 velocities and dense positive definite masses. Its joints have 1 to
- * 3 rows; some additional rows close loops. The rows of J are independent. Blocks and columns are
- * listed out of order, with gaps between their values. f and r are random. No shift, no omitted
- * rows. */
+/* Makes a chain of bodies, each with 3 or 6 velocities and a dense positive definite mass matrix.
+ * Its joints have 1 to 3 rows. Some additional rows close loops. The rows of J are independent.
+ * Blocks and columns are listed out of order, with gaps between their values. f and r contain
+ * random numbers. There is no shift, and no row is omitted. */
 saddle saddle_make_random(uint64_t seed, int bodies);
 
-/* N coupled planar four-bars: N + 1 parallel rods of 1 m on the ground, whose tips are joined by N
- * rods of 1 m. It has 2 N + 1 bodies of 1 kg and nc = 6 N + 2. saddle_pose_four_bar() computes mass
- * and jacobian at a crank angle. The mechanism is flat, and singular, at the angle 0. */
+/* Makes N coupled planar four-bars. They consist of N + 1 parallel rods of 1 m on the ground, and
+ * of N rods of 1 m that join the tips of these. The system has 2 N + 1 bodies of 1 kg, and nc = 6
+ * N + 2. saddle_pose_four_bar() computes mass and jacobian at a crank angle. At the angle 0, the
+ * mechanism is flat and therefore singular. */
 saddle saddle_make_four_bar(int loops);
 void saddle_pose_four_bar(saddle *system, double angle);
 
-/* A dense system with nv + nc unknowns: one mass block and one row block. All values are zero. */
+/* Makes a dense system with nv + nc unknowns, which has one mass block and one row block. All
+ * values are zero. */
 saddle saddle_make_dense(int nv, int nc);
 
 void saddle_free(saddle *system);
 
-/* Sets r = J a for a random a, so that dependent rows are consistent. */
+/* Sets r = J a for a random a. The right sides of dependent rows are then consistent. */
 void saddle_make_consistent(saddle *system, uint64_t seed);
 
-/* Makes the system use its array `omitted` or `shift`, filled with zeros. */
+/* Makes the system use its array `omitted` or `shift`. The array is filled with zeros. */
 void saddle_use_omitted(saddle *system);
 void saddle_use_shift(saddle *system);
 
-/* Computes want (nv + nc) = (a, lambda) by elimination in quadruple precision (or long double). */
+/* Computes the solution want (nv + nc) = (a, lambda), by elimination in quadruple precision (or in
+ * long double). */
 void saddle_solve(const saddle *system, double *want);
 
-/* Writes the whole matrix K ((nv + nc)^2, row-major), including omitted rows. */
+/* Writes the whole matrix K ((nv + nc)^2, row-major). Omitted rows are included. */
 void saddle_write_dense(const saddle *system, double *matrix);
 
 /* Returns the largest componentwise backward error of x = (system->a, system->lambda): max |b - K

@@ -43,8 +43,8 @@ static inline double largest_of(const double *x, int count)
   return largest;
 }
 
-/* Compares (a, lambda) with want. The tolerance is relative to the largest of a for a, to the
- * largest of lambda for lambda. */
+/* Checks that (a, lambda) equals `want`. The tolerance for a is relative to the largest a, and the
+ * tolerance for lambda is relative to the largest lambda. */
 static inline void assert_solution(const saddle *system, const double *want, double tolerance)
 {
   int nv = system->structure.nv;

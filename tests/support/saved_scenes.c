@@ -19,7 +19,7 @@
 
 double saved_random(int k)
 {
-  double x = 0.5 + 0.6180339887498949 * k; /* golden section */
+  double x = 0.5 + 0.6180339887498949 * k; /* the golden section */
   return x - floor(x);
 }
 
@@ -30,8 +30,8 @@ bool saved_reached(baum_status status)
 
 /* ---- mechanisms ---- */
 
-/* Replaces the law of the motor by its own quadratic continuation: value, velocity and acceleration
- * stay the same. */
+/* Replaces the law of the motor by a quadratic polynomial. This polynomial continues the law with
+ * the same value, velocity and acceleration. */
 static baum_status lead_on(baum_simulation *run, const saved_scene *scene)
 {
   double t = baum_simulation_time(run);
@@ -73,7 +73,8 @@ static void open_driven(saved_scene *scene)
 
 /* ---- the list ---- */
 
-/* Opens every integrator with each of its formulations, on a mechanism that it supports. */
+/* Opens a scene for every integrator with each of its formulations. The mechanism is one that the
+ * integrator supports. */
 static bool open_pair(saved_scene *scene, int *number)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -98,8 +99,8 @@ static bool open_pair(saved_scene *scene, int *number)
   return false;
 }
 
-/* Opens two coupled four-bars, with events, whose motion passes through two singular configurations
- * per revolution. */
+/* Opens a scene with two coupled four-bars and events. The motion passes through two singular
+ * configurations per revolution. */
 static bool open_singular(saved_scene *scene, int number)
 {
   const baum_integrator *const methods[] = {baum_rk4(), baum_rk8(), baum_ab4(), baum_ida()};
@@ -123,8 +124,8 @@ static bool open_singular(saved_scene *scene, int number)
   return true;
 }
 
-/* Opens scenes with the other solvers, redundant rows, fixed bodies, the energy account, the
- * kinematics integrator, and RATTLE in space. */
+/* Opens the other scenes. They have other solvers, redundant rows, fixed bodies, the energy
+ * account, the kinematics integrator, and RATTLE in space. */
 static bool open_other(saved_scene *scene, int number)
 {
   static const baum_solver solvers[] = {BAUM_SOLVER_KLU, BAUM_SOLVER_QR, BAUM_SOLVER_BLOCK};
@@ -156,7 +157,9 @@ static bool open_other(saved_scene *scene, int number)
     o->integrator = baum_kinematics();
     o->step = (double)NAN;
     return true;
-  case 9: /* spatial bodies with RATTLE, which does not support the mechanism with every element */
+  /* Spatial bodies with RATTLE, because RATTLE does not support the mechanism that has every
+   * element. */
+  case 9:
     scene->mechanism = spatial_make_rssr();
     o->integrator = baum_rattle();
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs for tests of saving and restoring: every integrator with each of its formulations, and every
- * solver. */
+/* Runs for tests that save and restore them. They cover every integrator with each of its
+ * formulations, and every solver. */
 #ifndef BAUM_TEST_SAVED_SCENES_H
 #define BAUM_TEST_SAVED_SCENES_H
 
@@ -22,11 +22,12 @@ struct saved_scene {
   double span; /* [s] longest interval between two saves */
   bool has_input;
   baum_input_id input;
-  /* An event occurs when the coordinate of this joint passes the value `passes`. None: no event. */
+  /* An event occurs when the coordinate of this joint passes the value `passes`. If no joint is
+   * given, there is no event. */
   baum_joint_id watched;
   double passes;
-  baum_joint_id motor; /* the driver whose law is replaced */
-  /* Replaces the law of the motor without a jump. NULL: there is no motor. */
+  baum_joint_id motor; /* the driver whose law is replaced during the run */
+  /* Replaces the law of the motor without a jump. NULL if there is no motor. */
   baum_status (*law)(baum_simulation *run, const saved_scene *scene);
 };
 
@@ -34,7 +35,7 @@ struct saved_scene {
 bool saved_scene_open(saved_scene *scene, int number);
 void saved_scene_close(saved_scene *scene);
 
-/* Creates a run of the scene. Any failure fails the test. */
+/* Creates a run of the scene. If anything fails, the test fails. */
 baum_simulation *saved_scene_start(const saved_scene *scene);
 
 /* Tells whether the status is BAUM_OK or BAUM_WARNED. */

@@ -51,7 +51,7 @@ static void swing_on(const swing *s, double h, double y[2])
   y[1] += h * sum[1];
 }
 
-/* Computes the samples of th. With 4000 steps between two samples the errors are about 1e-13
+/* Computes the angle th at all samples. 4000 steps between two samples give errors of about 1e-13
  * rad. */
 static void know(singular_scene *scene, const swing *s, double angle, double rate)
 {
@@ -103,11 +103,12 @@ static void parallelogram(singular_scene *scene, model_parallelogram which, doub
   know(scene, &s, 1.0 + off, 2.0);
 }
 
-/* The crank has the angle th, the rod -th. The data are those of tests/models/slider_crank.c. */
+/* The angle of the crank is th, and the angle of the rod is -th. The data are taken from
+ * tests/models/slider_crank.c. */
 static void slider_crank(singular_scene *scene, double off)
 {
   static const double L = 0.153;
-  static const double MASS = 0.038;   /* [kg] of the crank, and of the rod */
+  static const double MASS = 0.038;   /* [kg] of the crank, and also of the rod */
   static const double SLIDER = 0.076; /* kg */
   model_slider_crank data = {.centric = true, .rod = L, .angle = off, .moving = true};
   must(model_slider_crank_build(data, &scene->m));
@@ -121,8 +122,8 @@ static void slider_crank(singular_scene *scene, double off)
   know(scene, &s, off, 150.0);
 }
 
-/* Two cranks of 1 m with feet at (0, 0) and (2, 0). The coupler of 2.0001 m determines the angle of
- * the second crank. */
+/* Makes two cranks of 1 m, whose feet are at (0, 0) and (2, 0). The length of the coupler, 2.0001
+ * m, determines the angle of the second crank. */
 static void near_parallelogram(singular_scene *scene, double off)
 {
   static const double COUPLER = 2.0001;
@@ -130,7 +131,7 @@ static void near_parallelogram(singular_scene *scene, double off)
   baum_i_parts_gravity(&parts, GRAVITY);
   double first = 1.0 + off;
   double second = first;
-  for (int k = 0; k < 50; k++) { /* Newton: distance of the tips = COUPLER */
+  for (int k = 0; k < 50; k++) { /* Newton's method until the distance of the tips is COUPLER */
     double x = 2.0 + cos(second) - cos(first);
     double y = sin(second) - sin(first);
     second -= (x * x + y * y - COUPLER * COUPLER) / (2.0 * (y * cos(second) - x * sin(second)));
@@ -170,8 +171,8 @@ static void near_parallelogram(singular_scene *scene, double off)
 }
 
 /* Computes the reference by rk4 with projection and steps of 2e-5 s. Near the singularity, the
- * second crank reverses within a hundredth of a radian of the first, which is hundreds of steps.
- * With half the step the final angles change by less than 1e-7 rad. */
+ * second crank reverses while the first one rotates by a hundredth of a radian. This takes hundreds
+ * of steps. If the step is halved, the final angles change by less than 1e-7 rad. */
 static void compute_reference(singular_scene *scene)
 {
   int nq = 3 * scene->m.body_count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose motion passes through singular configurations and is known, and settings to run
- * them with. On the right branch, one angle th describes the motion:
+/* Mechanisms whose motion is known and passes through singular configurations, and settings with
+ * which they are run. If the motion stays on the right branch, one angle th describes it:
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  */
@@ -17,24 +17,27 @@ typedef enum singular_kind {
   SINGULAR_N_FOUR_BAR,
   SINGULAR_PARALLELOGRAM,
   SINGULAR_THREE_CRANKS,
-  SINGULAR_SLIDER_CRANK,       /* rod and crank of the same length */
-  SINGULAR_NEAR_PARALLELOGRAM, /* coupler longer by 1e-4 m: only nearly singular */
+  SINGULAR_SLIDER_CRANK, /* rod and crank have the same length */
+  /* The coupler is 1e-4 m longer, so it becomes only nearly singular. */
+  SINGULAR_NEAR_PARALLELOGRAM,
   SINGULAR_KINDS
 } singular_kind;
 
 typedef struct singular_scene {
   model m;
-  double end;                        /* [s] */
-  double unit;                       /* [s] for steps and gains; th changes by about 5 rad in it */
-  double want[SINGULAR_SAMPLES + 1]; /* [rad] th at k end / SINGULAR_SAMPLES */
-  int count;                         /* number of angles in q that are th or -th */
-  int angle[SINGULAR_ANGLES];        /* their indices */
+  double end; /* [s] */
+  /* [s] unit of steps and gains; in this time th changes by about 5 rad. */
+  double unit;
+  double want[SINGULAR_SAMPLES + 1]; /* [rad] th at the times k end / SINGULAR_SAMPLES */
+  int count;                         /* how many angles in q are th or -th */
+  int angle[SINGULAR_ANGLES];        /* the indices of these angles */
   double sign[SINGULAR_ANGLES];
-  double *reference; /* ((SINGULAR_SAMPLES + 1) x nq) if there is no equation for th, else NULL */
+  /* ((SINGULAR_SAMPLES + 1) x nq) if there is no equation for th, otherwise NULL. */
+  double *reference;
 } singular_scene;
 
-/* `loops` is N of the N-four-bar. `seed` is for the random start, up to 0.1 rad from the usual
- * one. */
+/* `loops` is the number N of the N-four-bar. `seed` determines the random start, which differs from
+ * the usual start by up to 0.1 rad. */
 singular_scene singular_open(singular_kind kind, int loops, uint64_t *seed);
 void singular_close(singular_scene *scene);
 
@@ -43,14 +46,15 @@ typedef struct singular_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  double step; /* [unit]; 0: variable step with rtol */
+  double step; /* [unit] fixed step, or 0 for a variable step with rtol */
   double rtol;
-  double alpha; /* [1/unit] alpha = beta of BAUMGARTE */
+  double alpha; /* [1/unit] alpha = beta of Baumgarte's formulation */
 } singular_setting;
 
 typedef struct singular_result {
   baum_status status; /* < 0: failed */
-  double error;       /* [rad or m] largest error at a sample, up to a failure */
+  /* [rad or m] largest error at a sample; if the run failed, up to the failure. */
+  double error;
   int64_t intervals;
   int64_t branch_warnings;
   int64_t warnings;
@@ -60,7 +64,7 @@ typedef struct singular_result {
 
 singular_result singular_run(const singular_scene *scene, const singular_setting *setting);
 
-/* All settings to test. The last one has a NULL name. */
+/* The settings that are tested. The name of the last one is NULL. */
 extern const singular_setting SINGULAR_SETTINGS[];
 
 #endif

@@ -10,12 +10,13 @@
 
 #include <cmocka.h>
 
-/* Permitted violation after a projection by the library. Velocities are about 3 m/s. */
+/* The largest violation that is permitted after a projection by the library. Velocities are about 3
+ * m/s. */
 static const double ON_CONSTRAINTS = 1e-9;
 
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
 
-/* A configuration to test. */
+/* A configuration in which a mechanism is tested. */
 typedef struct scene {
   const random_spatial *random;
   spatial_tally *tally;
@@ -31,8 +32,8 @@ typedef struct scene {
   oracle_answer want;
 } scene;
 
-/* Relative errors of the library, or those of the oracle that are due to rounding of the
- * positions. */
+/* Relative errors. They are either the errors of the library, or errors of the oracle that are
+ * caused by rounding of the positions. */
 typedef struct errors {
   double acceleration;
   double reaction;
@@ -65,11 +66,11 @@ static double largest_reaction(const scene *s)
 
 static double more(double most, double apart)
 {
-  return apart <= most ? most : apart; /* keeps NaN */
+  return apart <= most ? most : apart; /* this keeps NaN */
 }
 
-/* Returns errors relative to s->want: those of the library's results, if `from` is &s->want, else
- * those of the results in `from`. */
+/* Returns errors relative to s->want. If `from` is &s->want, these are the errors of the library's
+ * results. Otherwise they are the errors of the results in `from`. */
 static errors errors_of(const scene *s, const oracle_answer *from)
 {
   const spatial_oracle *o = &s->random->oracle;
@@ -90,7 +91,8 @@ static errors errors_of(const scene *s, const oracle_answer *from)
   return e;
 }
 
-/* Returns by how much the oracle's results change if positions and inertias change by rounding. */
+/* Returns how much the results of the oracle change if positions and inertias change by rounding
+ * errors. */
 static errors sensitivity(const scene *s)
 {
   chance c = chance_of(s->seed);
@@ -129,14 +131,15 @@ static void print(const scene *s, const char *verdict, const errors *e, const er
 static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const errors *own)
 {
   if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
-    /* library and oracle may omit different rows; the results then differ by the conflict of the
-     * rows */
+    /* The library and the oracle may omit different rows. Their results then differ by the conflict
+     * of these rows. */
     return e->acceleration <= rows->conflict / rows->kept ? SPATIAL_CONFLICT : SPATIAL_ACCELERATED;
   }
   if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
     return SPATIAL_REACTION;
   }
-  /* errors of accelerations (times masses) and of reactions both cause an imbalance */
+  /* Two kinds of errors cause an imbalance: errors of reactions, and errors of accelerations times
+   * masses. */
   double allowed = SPATIAL_ERROR + 100.0 * (own->acceleration + own->reaction);
   return e->imbalance <= allowed ? SPATIAL_MET : SPATIAL_BALANCE;
 }

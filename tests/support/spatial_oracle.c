@@ -7,12 +7,13 @@
 
 #include "oracle_motion.h"
 
-/* A row whose entries are all smaller is zero except for rounding. An example is a row that holds a
- * planar body in its plane. Other rows have entries of size 1. */
+/* If all entries of a row are smaller than this, the row is zero except for rounding errors. An
+ * example is a row that holds a planar body in its plane. All other rows have entries of about
+ * 1. */
 static const double NO_ROW = 1e-13;
 
-/* The reaction of a joint is unique if, in every linear combination of rows that is zero, the
- * reaction due to its rows is smaller than this. */
+/* A reaction of a joint is unique if the following holds for every linear combination of rows that
+ * is zero: the reaction caused by the joint's rows in it is smaller than this. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)
@@ -71,7 +72,7 @@ static void inertia_times(const oracle_body *body, const wide x[3], wide out[3])
   out[2] = i[4] * x[0] + i[5] * x[1] + i[2] * x[2];
 }
 
-/* Adds a force, which acts at a point, and a moment to the six forces of a body. All arguments are
+/* Adds a force at a point, and a moment, to the six generalized forces of a body. All arguments are
  * in ground axes. */
 static void add_wrench(const motion *body, const wide point[3], const wide force[3],
                        const wide moment[3], wide six[6])
@@ -207,7 +208,7 @@ typedef struct row_list {
   wide (*j)[ORACLE_COLUMNS];
 } row_list;
 
-/* Returns the joint itself or, for a driver, the driven joint. */
+/* Returns the joint itself. For a driver, returns the driven joint. */
 static const oracle_joint *pair_of(const spatial_oracle *o, const oracle_joint *joint)
 {
   return joint->kind == ORACLE_DRIVER ? &o->joints[joint->of] : joint;
@@ -298,8 +299,8 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
-/* Writes the reaction -J^T lambda of a joint on body_b, as a force and a moment at body_b's
- * point. */
+/* Computes the reaction -J^T lambda of a joint on body_b, as a force and a moment at the point of
+ * body_b. */
 static void reaction_of(const instant *now, const row_list *list, int n, const wide *lambda,
                         wide out[6])
 {

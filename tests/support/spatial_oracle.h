@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluates spatial mechanisms in quadruple precision, with formulas that differ from the
- * library's. Only Phi defines a joint, as a function of the positions and axes of its bodies. J v
- * and gamma follow from the first and second time derivatives of Phi along motions, which are
- * computed by truncated Taylor series. Coordinates of joints are treated likewise. Rows may be
- * dependent: for example, z_a - z_b = 0 for parallel axes has three rows of rank 2. Every body has
- * six velocities: r' in ground axes and the angular velocity in body axes. Planar bodies and
- * particles use only some of them. */
+/* Evaluates spatial mechanisms in quadruple precision. Its formulas differ from those of the
+ * library. A joint is defined only by Phi, which is a function of the positions and axes of its
+ * bodies. J v and gamma follow from the first and second time derivatives of Phi along motions.
+ * These derivatives are computed with truncated Taylor series. Coordinates of joints are computed
+ * in the same way. Rows may be dependent. For example, z_a - z_b = 0 for parallel axes has three
+ * rows, but their rank is 2. Every body has six velocities, which are r' in ground axes and the
+ * angular velocity in body axes. Planar bodies and particles use only some of them. */
 #ifndef BAUM_TEST_SPATIAL_ORACLE_H
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
@@ -16,7 +16,7 @@
 #include "quad_rows.h"
 
 enum {
-  ORACLE_BODIES = 9, /* including ground, body 0 */
+  ORACLE_BODIES = 9, /* includes ground, which is body 0 */
   ORACLE_JOINTS = 32,
   ORACLE_FORCES = 8,
   ORACLE_ROWS = 12, /* of one joint */
@@ -57,9 +57,9 @@ typedef struct oracle_joint {
   wide s[2][3];    /* points in body axes */
   wide axes[2][9]; /* x, y and z axis of the joint, in body axes */
   wide length;
-  int of;          /* joint of a driver */
-  int coordinate;  /* number of the driven coordinate, in the order of the library */
-  double start[2]; /* of a driver: a time [s], and the value that it prescribes then */
+  int of;          /* the joint that a driver moves */
+  int coordinate;  /* number of the coordinate that it moves, in the order of the library */
+  double start[2]; /* of a driver: a time [s], and the value that it prescribes at this time */
 } oracle_joint;
 
 typedef enum oracle_force_kind {
@@ -71,11 +71,11 @@ typedef enum oracle_force_kind {
 typedef struct oracle_force {
   oracle_force_kind kind;
   int a, b;           /* a load acts on b */
-  int of, coordinate; /* of a joint spring */
+  int of, coordinate; /* the joint and the coordinate of a joint spring */
   double s[2][3];
   double stiffness;
   double damping;
-  wide free_length; /* or free value of a joint */
+  wide free_length; /* free length, or free value of a joint's coordinate */
   double force[3];
   double moment[3];
   bool follows_body;
@@ -93,42 +93,44 @@ typedef struct spatial_oracle {
   oracle_force forces[ORACLE_FORCES];
 } spatial_oracle;
 
-/* One evaluation. */
+/* The results of one evaluation. */
 typedef struct oracle_answer {
   double phi;  /* largest |Phi| of all rows */
-  double rate; /* largest |Phi'| of all rows relative to the largest velocity */
+  double rate; /* largest |Phi'| of all rows, relative to the largest velocity */
   wide a[ORACLE_COLUMNS];
   wide reaction[ORACLE_JOINTS][6]; /* force and moment on body_b at its point, in ground axes */
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
 } oracle_answer;
 
-/* Computes the points and axes of a joint in body axes, from a point on each body and an axis, all
- * in ground axes of the design configuration. */
+/* Computes the points and axes of a joint in body axes. A point on each body and an axis are given
+ * in ground axes, in the design configuration. */
 void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
                   const wide point_b[3], const wide z[3]);
 
-/* Convert a point of the design configuration to body axes, s = A^T (point - r), and back; and an
- * axis to body axes. */
+/* The first two functions convert a point of the design configuration to body axes, s = A^T
+ * (point - r), and back. The third function converts an axis to body axes. */
 void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3]);
 void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3]);
 void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3]);
 void oracle_axis_to_ground(const oracle_body *body, const wide s[3], wide axis[3]);
 
-/* The law of the drivers, for the library. `user` points to `start` of an oracle_joint. */
+/* The law of the drivers, which the library calls. `user` points to the member `start` of an
+ * oracle_joint. */
 int oracle_law(double t, double s[3], void *user);
 
-/* Return the number of coordinates of a joint, and one of them in the design configuration. */
+/* The first function returns the number of coordinates of a joint. The second one returns one of
+ * these coordinates in the design configuration. */
 int oracle_coordinate_count(oracle_kind kind);
 wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint, int number);
 
-/* Evaluates at q (nq) and v (nv), which have the order of the bodies. Returns false if memory is
- * missing. */
+/* Evaluates the mechanism at q (nq) and v (nv). Their entries are in the order of the bodies.
+ * Returns false if there is not enough memory. */
 bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const double *v,
                       oracle_answer *out);
 
-/* Returns the largest element of M a - g - reactions for the given accelerations and reactions,
- * relative to the largest term. */
+/* Returns the largest element of M a - g - reactions, for the given accelerations and reactions. It
+ * is relative to the largest term. */
 double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v, const double *a,
                         double (*reactions)[6]);
 

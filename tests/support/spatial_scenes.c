@@ -52,7 +52,7 @@ void spatial_build_planar_four_bar(baum_mechanism *m)
   }
 }
 
-/* Builds the four-bar with spatial revolute joints, in a tilted plane. */
+/* Builds a four-bar in a tilted plane. Its joints are spatial revolute joints. */
 void spatial_build_four_bar(baum_mechanism *m)
 {
   baum_mechanism *planar = NULL;
@@ -71,8 +71,8 @@ void spatial_translate_four_bar(const double *twin_q, double *q)
 
 /* ---- a four-bar in space ---- */
 
-/* Adds a rod between two points. Its moment of inertia about its axis is a hundredth of that about
- * its transverse axes. */
+/* Adds a rod between two points. The moment of inertia about its axis is a hundredth of that about
+ * the transverse axes. */
 static baum_body_id add_rod(baum_mechanism *m, double mass, const double a[3], const double b[3],
                             double spin)
 {
@@ -148,14 +148,14 @@ static const double MASS = 2.0;        /* [kg] of the nut */
 static const double MOMENT = 0.5;      /* [kg m^2] */
 static const double WHEEL = 0.3;       /* [kg m^2] */
 static const double PITCH = 0.2;       /* [m/rad] */
-static const double RATIO = -1.5;      /* angle of the wheel / angle of the nut */
+static const double RATIO = -1.5;      /* angle of the wheel divided by the angle of the nut */
 static const double STIFFNESS = 4.0;   /* [N m/rad] of the spring on the wheel */
 static const double FREE_ANGLE = 0.7;  /* [rad] */
-static const double COMPRESSION = 9.0; /* [N/m] of its spring along the axis */
+static const double COMPRESSION = 9.0; /* [N/m] of the spring along the axis of the screw */
 static const double WEIGHT = 6.0;      /* [N] along the axis */
 static const double SPEED = 7.0;       /* [rad/s] of the nut at the start */
 
-/* Adds a ball with its centre at (x, 0, 0), which rotates about the z axis. */
+/* Adds a ball that rotates about the z axis. Its centre is at (x, 0, 0). */
 static baum_body_id add_ball(baum_mechanism *m, double mass, double moment, double x, double speed)
 {
   baum_body_id id;
@@ -209,7 +209,8 @@ void spatial_build_screw(baum_mechanism *m)
   check(baum_mechanism_add_joint_spring(m, &spring, NULL));
 }
 
-/* Computes q from the solution of moment a'' = -torque - stiffness a for the angle a of the nut. */
+/* The angle a of the nut satisfies moment a'' = -torque - stiffness a. Computes q from the solution
+ * of this equation. */
 void spatial_solve_screw(double t, double *q)
 {
   double moment = MOMENT + MASS * PITCH * PITCH + WHEEL * RATIO * RATIO;

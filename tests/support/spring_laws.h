@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A user law of a spring, right or with a chosen fault, and checks of how the library reports the
- * fault. */
+/* A user's law of a spring. It is right or has a fault that a test chooses. The functions below
+ * check how the library reports the fault. */
 #ifndef BAUM_TEST_SPRING_LAWS_H
 #define BAUM_TEST_SPRING_LAWS_H
 
@@ -8,17 +8,17 @@
 
 #include "point.h"
 
-/* The `user` of the law. If all fields are zero there is no fault. */
+/* The law receives this struct as its `user`. If all fields are zero, the law has no fault. */
 typedef struct spring_law {
-  int answer; /* return value */
+  int answer; /* return value of the law */
   int spoil;  /* if > 0, element spoil - 1 of out is NaN */
   int wrong;  /* if 1 or 2, this element of out is 1 too large */
 } spring_law;
 
 extern spring_law spring_law_good;
 
-/* The tension T = 2 + 3 l^3 + 0.4 l' + 0.1 l l'^2. Fails unless the caller has set `out` to
- * zero. */
+/* The tension T = 2 + 3 l^3 + 0.4 l' + 0.1 l l'^2. The test fails unless the caller has set `out`
+ * to zero. */
 int spring_law_cubic(double length, double rate, double out[3], void *user);
 
 /* Computes the value and the derivatives of the law. */
@@ -27,8 +27,8 @@ void spring_law_cubic_at(double length, double rate, double out[3]);
 /* Checks that force() and linearize() fail with this status and message. */
 void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *message);
 
-/* Checks that the check of derivatives reports element `entry` of the law of force 1, or nothing if
- * `entry` is 0. Destroys the mechanism. */
+/* Checks what the check of derivatives reports: element `entry` of the law of force 1, or nothing
+ * if `entry` is 0. The mechanism is destroyed. */
 void check_spring_law_verdict(baum_mechanism *mechanism, const char *name, int entry);
 
 #endif

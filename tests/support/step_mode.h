@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists every integrator with each kind of step that it has, fixed and variable. Include after
- * cmocka.h. */
+/* Lists every integrator with each kind of step that it has, which is fixed or variable. Include
+ * after cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
 
@@ -11,12 +11,12 @@
 #include <baum/baum.h>
 
 typedef struct step_mode {
-  const baum_integrator *integrator; /* NULL if k is too large */
+  const baum_integrator *integrator; /* NULL if k is larger than the last pair */
   bool fixed;
 } step_mode;
 
-/* Returns the k-th pair of integrator and kind of step in this build, for mechanisms with degrees
- * of freedom. */
+/* Returns pair number k of an integrator and a kind of step. The list contains the integrators of
+ * this build for mechanisms with degrees of freedom. */
 static inline step_mode step_mode_at(int k)
 {
   for (int32_t i = 0; baum_integrator_at(i); i++) {
@@ -25,7 +25,7 @@ static inline step_mode step_mode_at(int k)
     if (fixed && k-- == 0) {
       return (step_mode){integrator, true};
     }
-    /* Variable-step integrators that have no fixed step need SUNDIALS. */
+    /* An integrator that has only variable steps needs SUNDIALS. */
     bool variable = baum_integrator_has_variable_step(integrator);
     if (variable && (fixed || baum_has("sundials")) && k-- == 0) {
       return (step_mode){integrator, false};
@@ -40,16 +40,16 @@ static inline bool step_mode_is_adams(step_mode mode)
   return strncmp(baum_integrator_name(mode.integrator), "ab", 2) == 0;
 }
 
-/* Tells whether the method uses data of earlier steps, so that it restarts if the motion changes:
- * variable steps, multistep methods and generalized-alpha. */
+/* Tells whether the method uses data of earlier steps. Such a method restarts if the motion
+ * changes. This applies to variable steps, multistep methods and the generalized-alpha method. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
   return !mode.fixed || step_mode_is_adams(mode) || alpha;
 }
 
-/* Advances to t. Accepts warnings of first-order methods, because the tests allow for their
- * errors. */
+/* Advances to t. Warnings of first-order methods are accepted, because the tests allow for the
+ * errors of these methods. */
 static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run, double t)
 {
   baum_status status = baum_simulation_advance_to(run, t);
@@ -57,7 +57,7 @@ static inline baum_status step_mode_advance(step_mode mode, baum_simulation *run
   return status == BAUM_WARNED && may_warn ? BAUM_OK : status;
 }
 
-/* Returns options with the step for fixed steps, otherwise with the tolerance. */
+/* Returns options with a fixed step or with a tolerance, depending on the kind of step. */
 static inline baum_simulation_options step_mode_options(step_mode mode, double step, double rtol)
 {
   baum_simulation_options options = baum_simulation_options_default();

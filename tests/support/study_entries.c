@@ -38,7 +38,7 @@ baum_study_entry study_entry(const baum_study *study, int32_t k)
   return entry;
 }
 
-/* Compares bits, so that NaNs are equal. */
+/* Bits are compared, so that NaNs are equal to each other. */
 #define ASSERT_SAME(type, name, known, unit, meaning) \
   assert_memory_equal(&a.name, &b.name, sizeof a.name);
 

@@ -7,18 +7,20 @@
 
 baum_mechanism *user_make_empty(void);
 
-/* Freeze the mechanism, check its derivatives and destroy it. user_check_right() requires that no
- * error is found, user_check_wrong() that `message` reports one. */
+/* These functions freeze the mechanism, check its derivatives and destroy it. user_check_right()
+ * requires that the check finds no error. user_check_wrong() requires that it finds an error and
+ * gives this message. */
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
-/* Two coordinates with the design values (0.6, -0.8), and one row named "circle". Its functions
- * receive no `user`. */
+/* Makes a mechanism with two coordinates, whose design values are (0.6, -0.8), and one row named
+ * "circle". The functions of this row receive no `user`. */
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,
                                      baum_qv_fn *gamma, double scale);
 
-/* Two coordinates with the design values (0, 0), and a force named "spring". */
+/* Makes a mechanism with two coordinates, whose design values are (0, 0), and a force named
+ * "spring". */
 baum_mechanism *user_make_force(baum_force_fn *force, baum_force_fn *force_q,
                                 baum_force_fn *force_v, void *user);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints and coordinates by user functions, with all their derivatives in closed form.
+/* User constraints on user coordinates. All their derivatives are known in closed form.
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
  *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
@@ -12,13 +12,13 @@
 
 #include <baum/mechanism.h>
 
-/* The `user` of all functions of these constraints. */
+/* All functions of these constraints receive a pointer to this struct as their `user`. */
 typedef struct user_model {
   double length; /* l */
   double rate;   /* w */
 } user_model;
 
-/* The derivatives of a constraint that are given, to be combined with |. */
+/* Tells which derivatives of a constraint are given. The values are combined with |. */
 enum { GIVE_NOTHING = 0, GIVE_JACOBIAN = 1, GIVE_NU = 2, GIVE_GAMMA = 4, GIVE_ALL = 7 };
 
 /* Second derivatives, as in baum_i_joint_blocks. */
@@ -34,7 +34,7 @@ typedef struct user_kind {
   const char *name;
   int size; /* number of coordinates */
   int rows;
-  bool angles; /* coordinates are angles, not lengths */
+  bool angles; /* whether the coordinates are angles; otherwise they are lengths */
   baum_q_fn *phi;
   baum_q_fn *jacobian;
   baum_q_fn *nu;
@@ -47,24 +47,25 @@ extern const user_kind user_circle;
 extern const user_kind user_loop;
 extern const user_kind user_swing;
 
-/* The mass is 1 for the first coordinate and 0 for the others. */
+/* The mass of the first coordinate is 1, and the masses of the others are 0. */
 int user_mass_of_first(double t, const double *q, double *out, void *user);
 
-/* A zero force. */
+/* A force that is zero. */
 int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user);
 
-/* Both functions fail the test if they are called. */
+/* If either of these functions is called, the test fails. */
 int user_never_asked(double t, const double *q, double *out, void *user);
 int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
                       void *user);
 
-/* Adds `size` coordinates (2 or 3) with unit mass, the design values q and one common scale. */
+/* Adds 2 or 3 coordinates (`size`) with unit masses. Their design values are q, and they have one
+ * common scale. */
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,
                                   double scale);
 
-/* Makes a mechanism, not frozen, of one body and the constraint on it. The design coordinates are
- * of size l, or of size 1 for angles. */
+/* Makes a mechanism with one body and the constraint on it. The mechanism is not frozen. The design
+ * coordinates are about l, or about 1 if they are angles. */
 baum_mechanism *user_make(const user_kind *kind, user_model *model, int given);
 
 #endif

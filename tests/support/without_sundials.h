@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The main() of a test that needs SUNDIALS, for builds without it. Include after cmocka.h. */
+/* The main() of a test that needs SUNDIALS, for builds that do not have it. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_WITHOUT_SUNDIALS_H
 #define BAUM_TEST_WITHOUT_SUNDIALS_H
 

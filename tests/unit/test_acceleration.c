@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations, multipliers, energy and reactions: compared with a dense LU solution and checked
- * by the laws of mechanics. */
+/* Tests accelerations, multipliers, energy and reactions. They are compared with a dense LU
+ * solution, and checked by the laws of mechanics. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,8 +21,8 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* Builds the stabilized equations (7) as one dense system, from M, J, g, gamma, Phi and Phi' at a
- * state. */
+/* Builds the stabilized equations (7) as one dense system. It consists of M, J, g, gamma, Phi and
+ * Phi' at a state. */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
 {
@@ -88,7 +88,7 @@ static void check_against_lu(model *m, double gain)
     largest = fmax(largest, fabs(want[i]));
   }
   for (size_t i = 0; i < n; i++) {
-    ASSERT_NEAR(got[i], want[i], 1e-9, 1e-10 * largest); /* condition number <= 1e5 */
+    ASSERT_NEAR(got[i], want[i], 1e-9, 1e-10 * largest); /* the condition number is at most 1e5 */
   }
   baum_workspace_destroy(w);
   model_destroy(m);
@@ -150,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* The weight of the slider-crank's rod and the reactions of both its pins fulfil Newton's and
- * Euler's equations. */
+/* For each moving body of the slider-crank, checks Newton's and Euler's equations: weight and the
+ * reactions of both pins must give the acceleration. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;
@@ -216,7 +216,8 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12); /* the weight, and its moment */
+  /* The reaction carries the weight, and its moment about the pin. */
+  ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12);
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);
   baum_workspace_destroy(w);
@@ -234,7 +235,8 @@ static void stabilization_pulls_a_violated_pendulum_back(void **state)
   const double v[2] = {0.0, -0.2};
   double a[2];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 10.0, 10.0, a, NULL), BAUM_OK);
-  /* Phi = (r^2 - 1)/2, Phi' = r r', Phi'' = r'^2 + r r'' = -2 alpha Phi' - beta^2 Phi; y = -r */
+  /* With y = -r: Phi = (r^2 - 1) / 2, Phi' = r r', and Phi'' = r'^2 + r r'' = -2 alpha
+   * Phi' - beta^2 Phi. */
   double phi = 0.5 * (1.21 - 1.0);
   double rate = 1.1 * 0.2;
   ASSERT_NEAR(a[1], -(-20.0 * rate - 100.0 * phi - 0.04) / 1.1, 1e-13, 0.0);
@@ -262,8 +264,8 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* The block solver divides by the square root of the mass. It leaves a negative mass to the solver
- * of the whole system. No solver accepts a zero mass. */
+/* The block solver divides by the square root of the mass. If a mass is negative, the solver of the
+ * whole system is used instead. No solver accepts a zero mass. */
 static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **state)
 {
   (void)state;

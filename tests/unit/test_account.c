@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account of motions that are known in closed form: first each kind of work alone, then
- * how the account starts and continues in a run. */
+/* Tests the energy account with motions that are known in closed form. The first tests have only
+ * one kind of work each. The others test how the account starts and continues in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,7 +48,7 @@ static double residual_in_counters(baum_simulation *run)
   return out.energy_residual;
 }
 
-/* Runs a frozen mechanism to t = 1 and destroys run and mechanism. */
+/* Runs a frozen mechanism to t = 1 s, then destroys the run and the mechanism. */
 static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options options)
 {
   baum_simulation *run = NULL;
@@ -63,7 +63,7 @@ static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options o
   return out;
 }
 
-/* Makes a particle of 1 kg at (1, 0) with velocity v along x, without gravity. */
+/* Makes a particle of 1 kg at (1, 0). It has the velocity v along x, and there is no gravity. */
 static baum_mechanism *make(double v, baum_body_id *id)
 {
   baum_mechanism *m = NULL;
@@ -76,7 +76,7 @@ static baum_mechanism *make(double v, baum_body_id *id)
   return m;
 }
 
-/* ---- classes ---- */
+/* ---- classes of work ---- */
 
 /* From rest, a force of 2 N moves 1 kg by 1 m in 1 s: the work is 2 J. */
 static void loads_do_work(void **state)
@@ -132,7 +132,7 @@ static void dampers_take_energy(void **state)
 }
 
 /* The length is l = |2 cos 2t|. The spring force 4 l has done the work 8 - 2 l^2. The account lists
- * it under `springs`, because the library knows no potential of a user law. */
+ * this work under `springs`, because the library knows no potential of a user's law. */
 static void a_law_works_as_a_spring(void **state)
 {
   (void)state;
@@ -175,8 +175,9 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* M v' = 0 with M = 1 + q^2 is not a Lagrange equation. v = 1 stays constant, so the change v^2 q^2
- * / 2 of the energy comes from M' alone; the account lists it under `bodies`. */
+/* M v' = 0 with M = 1 + q^2 is not a Lagrange equation. The velocity v = 1 stays constant. The
+ * energy thus changes by v^2 q^2 / 2 because of M' alone, and the account lists this change under
+ * `bodies`. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
   (void)state;
@@ -192,7 +193,8 @@ static void a_varying_mass_is_in_the_account(void **state)
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }
 
-/* A driver accelerates a wheel of 2 kg m^2 from rest at 3 rad/s^2: 9 J after 1 s. */
+/* A driver accelerates a wheel of 2 kg m^2 from rest by 3 rad/s^2. After 1 s it has done a work of
+ * 9 J. */
 static void drivers_do_work(void **state)
 {
   (void)state;
@@ -235,8 +237,8 @@ static int wall_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The constraint x = 1 on a particle that starts at x = 1 m with 1 m/s along x, which violates it.
- * `gravity` acts along x. */
+/* A particle starts at x = 1 m with a velocity of 1 m/s along x. The constraint is x = 1, which
+ * this velocity violates. `gravity` acts along x. */
 static baum_energy_account run_wall(double gravity, baum_simulation_options options)
 {
   baum_body_id body;
@@ -252,7 +254,7 @@ static baum_energy_account run_wall(double gravity, baum_simulation_options opti
   return run_to_1(m, options);
 }
 
-/* The constraint force balances the weight of 5 N, but without stabilization x grows by 1 m in 1 s:
+/* The constraint force balances the weight of 5 N. Without stabilization, x grows by 1 m in 1 s, so
  * the constraint force does the work -5 J. */
 static void violation_does_work(void **state)
 {
@@ -262,8 +264,8 @@ static void violation_does_work(void **state)
   ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
 }
 
-/* With alpha = beta = 2 the exact motion is x - 1 = t exp(-2 t), v = (1 - 2 t) exp(-2 t). `gains`
- * excludes, and `violation` includes, the work of the force that balances the weight. */
+/* With alpha = beta = 2 the exact motion is x - 1 = t exp(-2 t), v = (1 - 2 t) exp(-2 t).
+ * `violation` includes the work of the force that balances the weight, and `gains` excludes it. */
 static void gains_are_a_part_of_the_violation(void **state)
 {
   (void)state;
@@ -276,7 +278,7 @@ static void gains_are_a_part_of_the_violation(void **state)
   ASSERT_NEAR(a.violation, a.gains - 5.0 * exp(-2.0), 0.0, CLOSE);
 }
 
-/* Projection at the end of the first step sets the velocity to zero, which takes 0.5 J. */
+/* Projection at the end of the first step sets the velocity to zero. This removes 0.5 J. */
 static void projection_takes_energy(void **state)
 {
   (void)state;
@@ -306,8 +308,8 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* 2 N for 1 s, then 4 N for 1 s accelerate 1 kg to 2 m/s and 6 m/s. A new input continues the
- * account; set_state() restarts it. */
+/* A force of 2 N for 1 s and then of 4 N for 1 s accelerates 1 kg to 2 m/s and to 6 m/s. A new
+ * input continues the account, but set_state() restarts it. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;
@@ -315,7 +317,7 @@ static void inputs_continue_and_states_restart(void **state)
   baum_mechanism *m = make_pushed(&input);
   baum_simulation *run = NULL;
   baum_simulation_options o = account_options();
-  o.max_step = 0.3; /* no step ends at 1 s */
+  o.max_step = 0.3; /* so that no step ends at 1 s */
   check(baum_simulation_create(m, &o, &run));
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_set_input(run, input, 4.0));

@@ -38,8 +38,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
 
 /* ---- formulas ---- */
 
-/* A method of order k and the Runge-Kutta method that starts it integrate the force t^p exactly for
- * all p < k. */
+/* A method of order k integrates the force t^p exactly if p < k. The same is true for the
+ * Runge-Kutta method with which it starts. */
 static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
 {
   (void)state;
@@ -58,7 +58,7 @@ static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
   }
 }
 
-/* For the force t^p with p = k, the error of one step of the velocity is C k! h^(k+1), where C is
+/* For the force t^p with p = k, the error of one step of the velocity is C k! h^(k+1). Here C is
  * the error constant of the method. */
 static void a_force_of_the_next_power_shows_the_error_constant(void **state)
 {
@@ -83,8 +83,8 @@ static void a_force_of_the_next_power_shows_the_error_constant(void **state)
   }
 }
 
-/* Steps are x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise for v. The b_j are those from which the
- * library computes stability. */
+/* A step is x_{n+1} = x_n + h sum b_j x'_{n-j}, and the same formula applies to v. The coefficients
+ * b_j must be those from which the library computes stability. */
 static void steps_are_those_whose_stability_is_known(void **state)
 {
   (void)state;
@@ -119,7 +119,8 @@ static void steps_are_those_whose_stability_is_known(void **state)
   }
 }
 
-/* The first k - 1 steps are Runge-Kutta steps with four evaluations; each later step needs one. */
+/* The first k - 1 steps are Runge-Kutta steps with four evaluations. Each later step needs only
+ * one. */
 static void a_step_costs_one_evaluation_once_there_is_a_past(void **state)
 {
   (void)state;
@@ -153,8 +154,8 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
 /* Runs with a fixed step and returns the error at the end. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* Computes the order from the errors at two steps that differ by a factor of 2^3. Error terms of
- * higher order change the result by less than 0.2. */
+/* Computes the order of a method from its errors with two steps, of which one is 2^3 times as long
+ * as the other. Error terms of higher order change the result by less than 0.2. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -168,8 +169,8 @@ static void demand_order(error_fn *error)
   }
 }
 
-/* An input jumps at t = 1. If the method used derivatives from before the jump, its order would
- * fall to one. */
+/* An input jumps at t = 1. If the method continued to use derivatives from before the jump, its
+ * order would fall to one. */
 static double error_with_jump(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -194,8 +195,8 @@ static void a_jump_of_an_input_does_not_cost_the_order(void **state)
   demand_order(error_with_jump);
 }
 
-/* Two of the target times are not grid points: the last step to each of them is shortened, and the
- * method restarts there. */
+/* Two of the target times are between grid points. The last step before each of them is shortened,
+ * and the method restarts there. */
 static double error_with_short_steps(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -239,7 +240,7 @@ static void reversing_does_not_cost_the_order(void **state)
   demand_order(error_there_and_back);
 }
 
-/* Jumps to a later state of the same motion during the run. */
+/* During the run, sets a later state of the same motion. */
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -262,8 +263,8 @@ static void another_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples at one and at two thirds of every step do not change the motion in any digit, and are as
- * accurate as the results at grid points. */
+/* Samples at one third and at two thirds of every step do not change any digit of the motion. They
+ * are as accurate as the results at grid points. */
 static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
 {
   (void)state;
@@ -292,7 +293,7 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
       *most = fmax(*most, error);
     }
     assert_true(on_grid > 0.0);
-    assert_true(beside <= 1.1 * on_grid); /* one shortened step adds little */
+    assert_true(beside <= 1.1 * on_grid); /* one shortened step adds only a little error */
     baum_simulation_destroy(sampled);
     baum_simulation_destroy(plain);
     baum_mechanism_destroy(mechanism);

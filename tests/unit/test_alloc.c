@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Allocation: zero bytes give a valid block, too many bytes give NULL. */
+/* Tests allocation. A request for zero bytes gives a valid block, and a request for too many bytes
+ * gives NULL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,9 +17,10 @@ static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
   double *old = baum_i_alloc(1, sizeof *old);
   assert_non_null(old);
   *old = 3.0;
-  assert_null(baum_i_grow(old, SIZE_MAX, 1)); /* the next power of two overflows */
+  /* Overflows, because the size is rounded up to a power of two. */
+  assert_null(baum_i_grow(old, SIZE_MAX, 1));
   assert_null(baum_i_grow(old, SIZE_MAX / 4, sizeof *old));
-  assert_true(*old == 3.0); /* the old block is kept */
+  assert_true(*old == 3.0); /* a failure keeps the old block */
   baum_i_free(old);
 }
 

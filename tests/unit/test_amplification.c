@@ -84,8 +84,9 @@ static void edges_of_the_triangles_are_marginal(void **state)
   }
 }
 
-/* At (A, B) = (2, 4) explicit Euler has the double root z = -1, which is marginal. Rounding of A
- * and B separates the roots by 1e-8; this must not be reported as unstable. */
+/* At (A, B) = (2, 4), explicit Euler has the double root z = -1, which is on the unit circle.
+ * Rounding of A and B splits it into two roots at a distance of 1e-8. The library must not report
+ * this as unstable. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;
@@ -128,21 +129,23 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
     is_class(m, 1e-11, 1e-22, BAUM_STABLE);
     is_class(m, 1e-13, 1e-26, BAUM_MARGINAL);
-    /* The roots of semi-implicit Euler differ by sqrt(A B). */
+    /* The two roots of semi-implicit Euler differ by sqrt(A B). */
     ASSERT_NEAR(baum_i_amplification_growth(&methods[m], 1e-13, 1e-26), -1e-13, 1e-6, 0.0);
   }
 }
 
-/* Published spectral radii at (A, B) = (1, 1) and at (1, 2), the point of the Taylor gains. */
+/* The spectral radii published for the points (1, 1) and (1, 2). The second point belongs to the
+ * Taylor gains. */
 static void radii_are_those_of_the_table(void **state)
 {
   (void)state;
   static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {0.0, 1.0},
-    [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951}, /* golden ratio; 1 + sqrt 2 */
+    /* Golden ratio, and 1 + sqrt 2. */
+    [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951},
     [RK2] = {0.5, 0.0},
-    [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* R(-1); |1 + i|/3 */
-    [RK4] = {0.375, 0.37267799624996495},     /* 9/24; sqrt(5)/6 */
+    [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* R(-1), and |1 + i| / 3 */
+    [RK4] = {0.375, 0.37267799624996495},     /* 9/24, and sqrt(5) / 6 */
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
     ASSERT_NEAR(amplification_at(m, 1.0, 1.0).spectral_radius, want[m][0], 1e-14, 0.0);
@@ -177,7 +180,7 @@ static void semi_implicit_step(const oscillator *o, double y[2])
   y[0] += y[1];
 }
 
-/* f = rate(y + weight k) */
+/* Set f to the rate of the state y + weight k. */
 static void stage(const oscillator *o, const double y[2], double weight, const double k[2],
                   double f[2])
 {
@@ -194,7 +197,7 @@ static void midpoint_step(const oscillator *o, double y[2])
   y[1] += k2[1];
 }
 
-/* Heun's third-order method. */
+/* Makes a step of Heun's third-order method. */
 static void heun_step(const oscillator *o, double y[2])
 {
   double k1[2];
@@ -228,7 +231,8 @@ typedef void step_function(const oscillator *o, double y[2]);
 static step_function *const steps[ONE_STEP_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
                                                      heun_step, classical_step};
 
-/* Mean growth of log |y| per step over steps 200 to 2000. |y| is scaled to 1 after every step. */
+/* Returns by how much log |y| grows per step, as a mean over steps 200 to 2000. After every step,
+ * |y| is scaled to 1. */
 static double observed_log_radius(int method, const oscillator *o)
 {
   double y[2] = {1.0, 0.3};
@@ -267,7 +271,8 @@ static void radius_is_the_growth_of_the_method_itself(void **state)
     for (int m = 0; m < ONE_STEP_COUNT; m++) {
       agrees_with_the_step_matrix(m, &o);
       double radius = amplification_at(m, o.A, o.B).spectral_radius;
-      /* for complex roots log |y| oscillates about its mean growth; 1800 steps average this out */
+      /* If the roots are complex, log |y| oscillates about its mean growth. In 1800 steps this
+       * averages out. */
       ASSERT_NEAR(observed_log_radius(m, &o), log(radius), 0.0, 5e-3);
     }
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly and projection fulfil the constraints, keep held bodies in place, and change the other
- * bodies as little as possible, measured by the mass matrix M. */
+/* Tests assembly and projection. They must satisfy the constraints, keep held bodies in place, and
+ * change the other bodies as little as possible. Changes are measured with the mass matrix M. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,8 +24,8 @@ typedef struct scene {
   double v[NV];
 } scene;
 
-/* The slider-crank without a driver, with a design configuration that is only roughly assembled.
- * The definition of its crank sets `held` and gives the angular velocity 150 rad/s. */
+/* The slider-crank without a driver. Its design configuration is only roughly assembled. The
+ * definition of its crank sets `held` and gives the angular velocity 150 rad/s. */
 static scene open_scene(void)
 {
   scene s;
@@ -41,7 +41,8 @@ static void close_scene(scene *s)
   model_destroy(&s->m);
 }
 
-/* Phi and Phi' must be zero up to rounding, for lengths of 0.5 m and speeds of 25 m/s. */
+/* Checks that Phi and Phi' are zero up to rounding. Lengths are about 0.5 m, and speeds about 25
+ * m/s. */
 static void check_consistent(const scene *s)
 {
   double phi[NC];
@@ -72,7 +73,7 @@ static void a_rough_design_is_assembled_and_held_bodies_stay_exactly(void **stat
     assert_true(s.q[i] == design[i]);
   }
   assert_true(s.v[2] == 150.0);
-  /* closed form: angle = asin(e / l2), x = l1 + l2 cos(angle) */
+  /* The closed form is angle = asin(e / l2) and x = l1 + l2 cos(angle). */
   double angle = asin(0.05 / 0.306);
   ASSERT_NEAR(s.q[5], angle, 1e-14, 0.0);
   ASSERT_NEAR(s.q[6], 0.153 + 0.306 * cos(angle), 1e-14, 0.0);
@@ -109,8 +110,8 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   close_scene(&s);
 }
 
-/* Velocities that a program computes for a structure at rest are rounding errors, which must not be
- * refused as contradictory. */
+/* If a program computes velocities of a structure at rest, they are rounding errors. The library
+ * must not refuse them as contradictory. */
 static void given_velocities_that_are_rounding_errors_contradict_nothing(void **state)
 {
   (void)state;
@@ -138,8 +139,8 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   void **state)
 {
   (void)state;
-  /* A rod of length 1 between particles of 1 kg and 3 kg whose design distance is 1.3 m: each
-   * particle moves in proportion to the other's mass. */
+  /* A rod of length 1 m connects particles of 1 kg and 3 kg, which are 1.3 m apart in the design.
+   * Assembly moves each particle in proportion to the mass of the other one. */
   baum_mechanism *m = NULL;
   baum_body_id ids[2];
   baum_workspace *w = NULL;
@@ -177,8 +178,8 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The second coordinate has neither mass nor constraint. KLU cannot determine its change and
- * refuses; least squares leave it unchanged. */
+/* The second coordinate has no mass and no constraint. KLU cannot determine how it changes, and
+ * refuses. Least squares leave it unchanged. */
 static void a_coordinate_without_mass_and_joint_stays_or_is_refused(void **state)
 {
   (void)state;
@@ -242,7 +243,7 @@ static void projection_moves_a_consistent_state_by_rounding_only(void **state)
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   for (int i = 0; i < NV; i++) {
     ASSERT_NEAR(s.q[i], q[i], 0.0, 1e-14);
-    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* rounding at 150 rad/s */
+    ASSERT_NEAR(s.v[i], v[i], 0.0, 1e-11); /* rounding, at speeds of 150 rad/s */
   }
   close_scene(&s);
 }
@@ -262,7 +263,8 @@ static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void *
   }
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   assert_int_equal(baum_workspace_mass(s.w, 0.0, s.q, mass), BAUM_OK);
-  /* The change is M-orthogonal to every velocity that J allows, such as the exact one. */
+  /* The change is M-orthogonal to every velocity that J allows. The exact velocity is such a
+   * velocity. */
   double product = 0.0;
   double size = 0.0;
   for (int i = 0; i < NV; i++) {
@@ -287,7 +289,8 @@ static void contradicting_constraints_are_not_projected_and_the_state_stays(void
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  for (int k = 0; k < 2; k++) { /* two rods of 1 m from ground points 5 m apart */
+  /* Cannot be assembled: two rods of 1 m, from ground points 5 m apart. */
+  for (int k = 0; k < 2; k++) {
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;
     rod.point_a[1] = 0.0;

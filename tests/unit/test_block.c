@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The block solver alone, compared with quadruple precision, with the plain version of its loops
- * and with that for this processor. test_block_structure.c tests its structure,
- * tests/physics/test_random_mechanisms.c random mechanisms. */
+/* Tests the block solver alone. Its results are compared with quadruple precision. Both versions of
+ * its loops are tested: the plain one, and the one for this processor. test_block_structure.c tests
+ * its structure, and tests/physics/test_random_mechanisms.c tests it in random mechanisms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 
 enum { MOST_UNKNOWNS = 400, MOST_BODIES = 60 };
 
-/* The function tables of the block solver, except the table for pins. */
+/* The function tables of the block solver. The table for pins is not among them. */
 typedef struct tables {
   const baum_i_block_sides_kernel *sides;
   const baum_i_block_kernel *solution;
@@ -68,7 +68,7 @@ static void unmake(equations *x)
   free(x);
 }
 
-/* Gives every body with three velocities the mass matrix of a planar body. */
+/* Gives every body that has three velocities the mass matrix of a planar body. */
 static void make_planar(equations *x)
 {
   for (int i = 0; i < x->s.structure.mass_block_count; i++) {
@@ -146,8 +146,8 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* The tolerance is relative to the largest acceleration for accelerations, to the largest
- * multiplier for multipliers. */
+/* Compares a solution. For accelerations, the tolerance is relative to the largest acceleration,
+ * and for multipliers to the largest multiplier. */
 static void assert_solution(const equations *x, const double *want, double tolerance)
 {
   int nv = x->s.structure.nv;
@@ -159,9 +159,9 @@ static void assert_solution(const equations *x, const double *want, double toler
   }
 }
 
-/* Tests without iterative refinement, as in most evaluations, and with two steps of it. The
- * condition number of the Schur complement J M^-1 J^T is the square of that of its factors, which
- * is up to 1e5 here. */
+/* Tests the solver twice: without iterative refinement, as in most evaluations, and with two steps
+ * of refinement. The condition number of the Schur complement J M^-1 J^T is the square of the
+ * condition number of its factors. The latter is up to 1e5 here. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -199,8 +199,8 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
   }
 }
 
-/* Omits every fourth row, which changes the pairs of rows and leaves some nodes without a row; then
- * omits all rows. */
+/* First omits every fourth row. This changes the pairs of rows, and leaves some nodes without a
+ * row. Then omits all rows. */
 static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
@@ -209,7 +209,7 @@ static void omitted_rows_have_no_influence(void **state)
     saddle_use_omitted(&x->s);
     for (int i = 0; i < x->s.structure.nc; i += 4) {
       x->s.omitted[i] = 1;
-      x->s.r[i] = 1e30; /* is never read */
+      x->s.r[i] = 1e30; /* must never be read */
     }
     assert_solved(x);
     memset(x->s.omitted, 1, (size_t)x->s.structure.nc);
@@ -218,8 +218,8 @@ static void omitted_rows_have_no_influence(void **state)
   }
 }
 
-/* The solver treats a fixed body as ground: setting its columns of J and its force to zero does not
- * change the result. */
+/* The solver treats a fixed body as ground. The result must not change if the columns of such a
+ * body in J, and its force, are set to zero. */
 static void bodies_at_rest_are_ground(void **state)
 {
   (void)state;
@@ -284,7 +284,8 @@ static void both_builds_agree(void **state)
 
 /* ---- pivots ---- */
 
-/* One body with two rows of J that are equal except for one entry, which differs by `apart`. */
+/* Makes one body with two rows of J. The rows are equal except for one entry, which differs by
+ * `apart`. */
 static equations *make_close_rows(double apart)
 {
   equations *x = calloc(1, sizeof *x);
@@ -330,7 +331,7 @@ static void refinement_brings_back_what_weak_pivots_lose(void **state)
   solve(x, &plain, 0);
   double lost = fabs(x->s.lambda[0] - want[3]) / fabs(want[3]);
   solve(x, &plain, 2);
-  assert_true(lost > 1e-12); /* otherwise the test shows nothing */
+  assert_true(lost > 1e-12); /* otherwise the test would show nothing */
   assert_solution(x, want, 1e-14);
   unmake(x);
 }
@@ -343,7 +344,7 @@ static void masses_that_are_not_positive_are_reported(void **state)
   const baum_i_mass_block *body = &x->s.structure.mass_blocks[1];
   assert_int_equal(create(x, NULL, &b), BAUM_OK);
   assert_true(baum_i_block_factor_dense(b, x->s.mass));
-  x->s.mass[body->value + body->size + 1] = 0.0; /* changes the diagonal entry only */
+  x->s.mass[body->value + body->size + 1] = 0.0; /* changes only the entry on the diagonal */
   assert_false(baum_i_block_factor_dense(b, x->s.mass));
   baum_i_block_destroy(b);
   unmake(x);
@@ -367,8 +368,8 @@ static void use_plain(baum_workspace *w)
   w->point.kernel = &baum_i_frames_kernel_plain;
 }
 
-/* The tolerance is relative to the largest of `want`, or to `scale` if that is larger: the size of
- * the terms whose sum gives `want`. */
+/* The tolerance is relative to the largest number in `want`, or to `scale` if that is larger.
+ * `scale` is the size of the terms whose sum gives `want`. */
 static void assert_near_all(const double *got, const double *want, int count, double tolerance,
                             double scale)
 {
@@ -378,8 +379,8 @@ static void assert_near_all(const double *got, const double *want, int count, do
   }
 }
 
-/* Compares the results for a mechanism in its design configuration: both versions of the loops and
- * the solver of the whole system. */
+/* Compares three results for a mechanism in its design configuration: both versions of the loops,
+ * and the solver of the whole system. */
 static void compare(const baum_mechanism *m, double tolerance)
 {
   baum_workspace *w[3];
@@ -401,7 +402,7 @@ static void compare(const baum_mechanism *m, double tolerance)
   for (int k = 0; k < 3; k++) {
     assert_int_equal(baum_i_acceleration(w[k], 0.0, q, v, 5.0, 7.0), BAUM_OK);
     assert_near_all(w[k]->a, w[0]->a, m->nv, tolerance, 0.0);
-    /* If the mechanism is at rest, multipliers may be rounding errors of the forces. */
+    /* If the mechanism is at rest, the multipliers may be mere rounding errors of the forces. */
     double force = largest_of(w[0]->force, m->nv);
     assert_near_all(w[k]->lambda, w[0]->lambda, m->nc, tolerance, force);
   }
@@ -466,8 +467,8 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
 }
 
-/* Two pins between the same bodies have one redundant row. It is omitted, so the other row of that
- * pin has no partner. Both rows of a third pin are redundant. */
+/* Two pins between the same bodies have one redundant row. It is omitted, so that the other row of
+ * its pin has no partner. Both rows of a third pin are redundant. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;

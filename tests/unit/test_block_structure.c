@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The couplings that the block solver stores, and structures that it refuses. */
+/* Tests which couplings the block solver stores, and which structures it refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,8 @@
 
 /* ---- nets ---- */
 
-/* A structure of bodies with three velocities and of joints with two rows between two bodies. */
+/* A structure of bodies and joints. Bodies have three velocities, and each joint has two rows
+ * between two bodies. */
 typedef struct net {
   baum_i_kkt_structure structure;
   baum_i_mass_block *masses;
@@ -79,7 +80,7 @@ static net make_star(int arms)
 {
   net n = make_net(arms + 1, arms);
   for (int k = 0; k < arms; k++) {
-    join(&n, 3, k < 3 ? k : k + 1); /* body 3, the hub, is in every joint */
+    join(&n, 3, k < 3 ? k : k + 1); /* body 3, the hub, is part of every joint */
   }
   return n;
 }
@@ -97,10 +98,10 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  assert_int_equal(b->first_count, BODIES - 2); /* all pairs, as there are no pins */
+  assert_int_equal(b->first_count, BODIES - 2); /* all of them are pairs, as there are no pins */
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
-  assert_int_equal(b->entry_count, 0); /* all are read from J directly */
+  assert_int_equal(b->entry_count, 0); /* none are stored, because all are read directly from J */
   for (int i = 0; i < b->side_count; i++) {
     assert_int_equal(b->side_from[2 * i], 12 * (i / 2) + 3 * (i % 2));
   }
@@ -108,7 +109,7 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   free_net(&n);
 }
 
-/* Two joints that share both bodies have two couplings, which add up in one block. */
+/* Two joints between the same bodies have two couplings. Both are added in one block. */
 static void two_joints_of_the_same_bodies_share_a_block(void **state)
 {
   (void)state;
@@ -139,7 +140,7 @@ static void hubs_are_refused_and_named(void **state)
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_null(b);
   assert_int_equal(hub, 3);
-  many.diagonal[1] = 0; /* changes the numbering of body_blocks */
+  many.diagonal[1] = 0; /* changes how body_blocks are numbered */
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_int_equal(hub, 3);
   many.diagonal[3] = 0;
@@ -154,8 +155,8 @@ static void hubs_are_refused_and_named(void **state)
   free_net(&many);
 }
 
-/* A cubic grid of bodies. Each body has at most six joints, but elimination couples all joints of a
- * whole plane with each other. */
+/* A cubic grid of bodies. Each body has at most six joints. During elimination, however, all joints
+ * of a whole plane become coupled with each other. */
 static void dense_nets_are_refused(void **state)
 {
   (void)state;

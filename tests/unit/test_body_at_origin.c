@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body whose design position is the origin has coordinates that are small compared with the arms
- * of its joints. The arms then determine the size of rounding errors. */
+/* If the design position of a body is the origin, its coordinates are small compared with the arms
+ * of its joints. In this case the arms determine the size of rounding errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-/* A body at rest whose pin is 0.3 m from its centre. */
+/* Makes a body at rest whose pin is 0.3 m from its centre. */
 static baum_mechanism *make_swing(double gravity)
 {
   baum_mechanism *m = NULL;
@@ -44,7 +44,7 @@ static void swing(const baum_integrator *integrator, double gravity, double step
              baum_message());
   }
   assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  assert_true(counters.max_phi <= 4e-16); /* rounding of the arm */
+  assert_true(counters.max_phi <= 4e-16); /* rounding error of the arm */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts and numbers in reports: escaping, and numbers that are read back without change. */
+/* Tests texts and numbers of reports: the escaping of texts, and numbers that must be read back
+ * without change. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -53,10 +54,11 @@ static void bytes_that_are_not_utf8_are_replaced(void **state)
   }
   check_put(BAUM_I_JSON, "\xff", "\xef\xbf\xbd");
   check_put(BAUM_I_JSON, "\x80z", "\xef\xbf\xbdz");
-  check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd");                 /* incomplete */
-  check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/" in an overlong encoding */
-  check_put(BAUM_I_JSON, "\xed\xa0\x80", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
-  check_put(BAUM_I_JSON, "\xf4\x90\x80\x80", /* beyond Unicode */
+  check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd"); /* incomplete character */
+  /* The character "/" in an overlong encoding. */
+  check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd");
+  check_put(BAUM_I_JSON, "\xed\xa0\x80", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* a surrogate */
+  check_put(BAUM_I_JSON, "\xf4\x90\x80\x80", /* a number beyond Unicode */
             "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of user-supplied derivatives: its message names the wrong derivative. */
+/* Tests the check of derivatives that user functions return. Its message must name the wrong
+ * derivative. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +17,8 @@
 
 /* A model in which one entry of one derivative has a relative error of 1e-4. */
 typedef struct spoiled {
-  user_model model; /* first member, because the model's functions expect it */
+  /* Must be the first member, because the model's functions receive a pointer to it. */
+  user_model model;
   const user_kind *kind;
   int entry;
 } spoiled;
@@ -88,7 +90,7 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The Jacobian of the unit circle, but with a constant second entry, which is right only in the
+/* A Jacobian of the unit circle whose second entry is wrongly constant. It is right only in the
  * design configuration, where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
@@ -214,8 +216,8 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
                  -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
-  /* Second differences have seven correct digits here, so the last digits of the message are not
-   * compared. */
+  /* Second differences have only seven correct digits here. The last digits of the message are
+   * therefore not compared. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,
@@ -334,8 +336,9 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
-/* A mass of q + *user. If *user is -2, it is negative in the design configuration, which is
- * refused; if *user is 0.01, it is negative only for q < -0.01, which is accepted. */
+/* Returns the mass q + *user. If *user is -2, the mass is negative in the design configuration, and
+ * the check refuses it. If *user is 0.01, the mass is negative only for q < -0.01, and the check
+ * accepts it. */
 static int linear_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -365,7 +368,7 @@ static void a_mass_below_zero_in_the_design_configuration_is_refused(void **stat
   }
 }
 
-/* A constraint that is defined for t >= 0 only, so that the check cannot use central differences at
+/* A constraint that is defined only for t >= 0. The check thus cannot use central differences at
  * t = 0. */
 static int late_phi(double t, const double *q, double *out, void *user)
 {
@@ -386,7 +389,7 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
                    message);
 }
 
-/* Law 0 is right, law 1 has a wrong s', law 2 a wrong s'', and law 3 fails at t = 0. */
+/* Law 0 is right. Law 1 has a wrong s', law 2 has a wrong s'', and law 3 fails at t = 0. */
 static int driver_law(double t, double s[3], void *user)
 {
   int which = *(const int *)user;
@@ -425,7 +428,7 @@ static void wrong_derivatives_of_a_law_of_a_driver_are_named(void **state)
   user_check_right(make_driven(which + 3));
 }
 
-/* ---- calls ---- */
+/* ---- how the check may be called ---- */
 
 static void the_mechanism_must_be_there_and_frozen(void **state)
 {

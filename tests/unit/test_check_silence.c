@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of derivatives that the user gives reports nothing if they are right, or if rounding or
- * a kink prevents a judgement. */
+/* The check of user derivatives must report nothing if they are right. It must also report nothing
+ * if rounding or a kink makes a judgement impossible. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@ static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
   }
 }
 
-/* A lever with an arm of 1e-6 m, and its angle. Both coordinates have the scale 1, which for the
- * lever is too large by a factor of a million. */
+/* A lever with an arm of 1e-6 m, and its angle. Both coordinates have the scale 1. For the lever,
+ * this scale is a million times too large. */
 static int lever_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -52,8 +52,8 @@ static void a_scale_that_is_wrong_by_a_million_raises_no_alarm(void **state)
   user_check_right(user_make_constraint(lever_phi, lever_jacobian, NULL, NULL, 1.0));
 }
 
-/* Sums near 1e12 are rounded to 1e-4, so differences cannot determine the second entry of the
- * Jacobian, 1e-3 cos q1. */
+/* Sums near 1e12 are rounded to 1e-4. Differences therefore cannot determine the second entry of
+ * the Jacobian, which is 1e-3 cos q1. */
 static int faint_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -104,8 +104,8 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
   return 0;
 }
 
-/* Projection leaves such rounding errors as the velocities of a mechanism at rest. They are too
- * small to change q in any time step. */
+/* Velocities like these are rounding errors, which projection leaves in a mechanism at rest. They
+ * are too small to change q, whatever the time step. */
 static void velocities_that_are_rounding_raise_no_alarm(void **state)
 {
   (void)state;
@@ -119,8 +119,8 @@ static void velocities_that_are_rounding_raise_no_alarm(void **state)
   user_check_right(m);
 }
 
-/* A contact that just touches, and dry friction at rest: in this state neither force is
- * differentiable. */
+/* The force of a contact that just touches, and dry friction at rest. Neither is differentiable in
+ * this state. */
 static int kinked_force(double t, const double *q, const double *v, const double *inputs,
                         double *out, void *user)
 {

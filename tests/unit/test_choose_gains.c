@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The gains of whole runs: the pilot run of the rule `auto`, the limit of the step, and what the
- * counters report. */
+/* Tests the gains that whole runs use: the pilot run of the rule `auto`, the limit of the step, and
+ * what the counters report. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,9 @@
 #include "assert_near.h"
 #include "models.h"
 
-enum { PILOT_EVALUATIONS = 14 }; /* 5 steps x 3 - 1 known before */
+/* A pilot makes 5 steps with 3 evaluations each. One of these evaluations has already been made
+ * before. */
+enum { PILOT_EVALUATIONS = 14 };
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
                               double step, baum_gains gains)
@@ -77,9 +79,9 @@ static void auto_uses_the_rate_after_the_start_too(void **state)
   (void)state;
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
-  /* A torque of 0.033 N m accelerates the crank from rest. The rate max(|v|/L, sqrt(|a|/L)) is 119
-   * 1/s at the start; its mean over the first 3.75 rad of the exact motion is 336 1/s. The five
-   * steps of the pilot run give this mean within 20 %. */
+  /* A torque of 0.033 N m accelerates the crank from rest. At the start, the rate max(|v|/L,
+   * sqrt(|a|/L)) is 119 1/s. Its mean over the first 3.75 rad of the exact motion is 336 1/s. The
+   * pilot run has five steps, which give this mean to within 20 %. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
@@ -123,7 +125,8 @@ static void auto_does_not_depend_on_units(void **state)
   model milli;
   assert_int_equal(model_four_bar(&si), BAUM_OK);
   assert_int_equal(model_four_bar_in(&MODEL_MILLI, &milli), BAUM_OK);
-  /* The two differ by the rounding of the data in other units, amplified in 5 steps. */
+  /* The data in other units are rounded differently. Five steps amplify these rounding errors, so
+   * the results are not exactly equal. */
   ASSERT_NEAR(auto_alpha(milli.mechanism, baum_rk8()) * MODEL_MILLI.time,
               auto_alpha(si.mechanism, baum_rk8()), 1e-9, 0.0);
   model_destroy(&si);
@@ -151,7 +154,7 @@ static int fail_later(double t, const double *q, const double *v, const double *
   return t > *(const double *)user ? -1 : 0;
 }
 
-/* A force that fails only in the pilot run does not make the creation of the run fail. */
+/* A force fails only in the pilot run. This must not prevent the creation of the run. */
 static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
 {
   (void)state;
@@ -182,7 +185,7 @@ static void drivers_that_take_all_degrees_of_freedom_allow_more(void **state)
   model_destroy(&m);
 }
 
-/* ---- steps ---- */
+/* ---- length of steps ---- */
 
 static void steps_of_explicit_methods_stay_inside_of_the_region(void **state)
 {
@@ -211,8 +214,8 @@ static void counters_tell_the_effective_damping(void **state)
   baum_mechanism *m = pendulum_at(1.6, NULL);
   baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
   baum_counters c = count(run);
-  /* alpha = beta gives the double root s = -alpha. A step of rk4 multiplies by exp(-alpha h), with
-   * an error of (alpha h)^5 / 120. */
+  /* If alpha = beta, the characteristic equation has the double root s = -alpha. A step of rk4
+   * multiplies by exp(-alpha h), with an error of about (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
@@ -229,8 +232,8 @@ static void counters_tell_the_effective_damping(void **state)
 
 /* ---- rows with gains of their own ---- */
 
-/* Two particles at rest 1.1 m from the origin on rods of 1 m, one along x, one along y, without
- * gravity. */
+/* Makes two particles at rest, at 1.1 m from the origin, on rods that are 1 m long. One rod is
+ * along x and the other along y. There is no gravity. */
 static baum_mechanism *two_long_rods(void)
 {
   baum_mechanism *m = NULL;
@@ -275,21 +278,21 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     baum_simulation_options o = with_factors(factors, 2, solvers[k]);
     baum_simulation *run = NULL;
     assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-    /* Along each rod a = -(beta f)^2 Phi, where f is the factor of its row. Phi depends on the
-     * scale of the rows, so the test compares only the ratio of the two velocities. Across the rods
-     * the velocities are zero. */
+    /* The acceleration along each rod is a = -(beta f)^2 Phi, where f is the factor of its row. Phi
+     * depends on how the rows are scaled, so the test compares only the ratio of the two
+     * velocities. Across the rods the velocities are zero. */
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     const double *v = baum_simulation_v(run);
     assert_true(v[0] < 0.0);
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
-    /* In the second step a = -2 alpha f Phi' - (beta f)^2 Phi: now the damping terms are present
-     * too, with the ratio 3 x 9 = 27. */
+    /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. Now the damping terms contribute as
+     * well, with the ratio 3 x 9 = 27. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);
-    /* Phi has hardly changed, because the first step of Euler's method leaves q unchanged and the
-     * second moves it by h v only. */
+    /* Phi has hardly changed. The first step of Euler's method leaves q unchanged, and the second
+     * one moves it only by h v. */
     for (int i = 0; i < 2; i++) {
       double damped = v[3 * i] - 2.0 * first[i];
       double want = -2.0 * 10.0 * factors[i] * 1e-3 * first[i];
@@ -302,7 +305,7 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
 }
 
 /* The block solver computes the rows of pins from their arms, but reads the rows of a guide from J.
- * Both must apply the factors. */
+ * In both cases it must apply the factors. */
 static void solvers_agree_on_factors(void **state)
 {
   (void)state;
@@ -322,7 +325,7 @@ static void solvers_agree_on_factors(void **state)
     baum_simulation_destroy(run);
   }
   for (int i = 0; i < 9; i++) {
-    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* velocities up to 150 rad/s */
+    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* at velocities of up to 150 rad/s */
   }
   model_destroy(&m);
 }
@@ -340,7 +343,7 @@ static void refused(const baum_mechanism *m, const baum_simulation_options *o, b
 static void factors_that_make_no_sense_are_refused(void **state)
 {
   (void)state;
-  double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 = 4: unstable */
+  double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 = 4 is unstable */
   baum_mechanism *m = two_long_rods();
   baum_simulation_options o = with_factors(factors, 2, BAUM_SOLVER_AUTO);
   refused(m, &o, BAUM_ERR_UNSTABLE, "row_gains[1] = 400, of joint");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Corrections of q along the constraint forces of another configuration, whose factorization is
- * kept (chord iteration). Tests every solver, and what is refused. */
+/* Tests chord iterations. They correct q with the constraint forces of another configuration, so
+ * that its factorization can be used again. The tests cover every solver, and the calls that are
+ * refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +20,8 @@
 
 static const baum_i_kkt_choice CHOICES[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR};
 
-/* A bob of 2 kg at (1, 0) on one or two rods of 1 m: the first from (0, 0), the second from (2,
- * 0). */
+/* Makes a bob of 2 kg at (1, 0) on one or two rods of 1 m. The first rod starts at (0, 0), and the
+ * second at (2, 0). */
 static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
 {
   baum_mechanism *m = NULL;
@@ -46,8 +47,8 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* The change is -J^T Phi, with J = (0.6, 0.8) of the configuration `from` and Phi = (|q|^2 - 1) / 2
- * = 0.15 of q. */
+/* The change must be -J^T Phi. Here J = (0.6, 0.8) belongs to the configuration `from`, and
+ * Phi = (|q|^2 - 1) / 2 = 0.15 belongs to q. */
 static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
 {
   (void)state;
@@ -65,8 +66,8 @@ static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **
   }
 }
 
-/* With the gain 10 1/s the acceleration along the rod is -10 1/s times the velocity along it.
- * Across the rod it is due to the weight alone. */
+/* With the gain 10 1/s, the acceleration along the rod is the velocity along it times -10 1/s. The
+ * acceleration across the rod comes from the weight alone. */
 static void rates_are_held_and_the_rest_is_free(void **state)
 {
   (void)state;
@@ -81,8 +82,8 @@ static void rates_are_held_and_the_rest_is_free(void **state)
   }
 }
 
-/* Two rods in line have the same direction, so no change across them is possible, and Phi of
- * another configuration cannot be removed. */
+/* If both rods are in line, no change across them is possible. Phi of another configuration thus
+ * cannot be removed. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;
@@ -92,7 +93,7 @@ static void rods_in_line_are_singular(void **state)
     baum_workspace *w = bob_on_rods(2, CHOICES[k]);
     baum_i_chord chord;
     baum_status status = baum_i_chord_begin(w, 0.25, in_line, &chord);
-    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* the other solvers find the singularity here */
+    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* all other solvers find the singularity here */
       check(status);
       status = baum_i_chord_change(w, &chord, 0.25, beside);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The companion of a run, a second integration that estimates the error: its estimates, its
- * warnings, when it is not needed, and when the run gives it up. */
+/* The companion of a run is a second integration that estimates the error. The tests cover its
+ * estimates and its warnings, runs that do not need it, and runs that abandon it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 
 static const double SPAN = 2.0; /* [s] about one swing of the pendulum A01 */
 
-/* Counts the warnings that the step is too long. `advised` receives the step that the last of them
- * recommends. */
+/* Counts the warnings that the step is too long. `advised` is set to the step that the last of
+ * these warnings recommends. */
 static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
 {
   model m;
@@ -44,8 +44,8 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
   return found;
 }
 
-/* A step of 0.1 s, about half a radian, is too long for methods of order 1 but suits order 4 and
- * higher. 0.4 s is too long for rk4. */
+/* In a step of 0.1 s the pendulum moves by about half a radian. This is too long for methods of
+ * order 1, but suitable for order 4 and higher. 0.4 s is too long for rk4. */
 static void steps_are_judged_by_the_order(void **state)
 {
   (void)state;
@@ -66,15 +66,15 @@ static void the_advised_step_is_not_too_long(void **state)
     double again = 0.0;
     assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
     assert_true(advised > 0.0 && advised < 0.2);
-    /* The step was recommended early in the run, and later parts need a smaller one: a tenth
-     * suffices. */
+    /* The warning recommended this step early in the run. Later parts of the motion need a smaller
+     * one, and a tenth suffices. */
     assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
   }
 }
 
 /* ---- accuracy of the estimate ---- */
 
-/* Runs the pendulum, a particle on a rod, to SPAN; *error receives the largest position error at 40
+/* Runs the pendulum, a particle on a rod, to SPAN. Sets *error to the largest position error at 40
  * times. */
 static baum_counters run_pendulum(baum_simulation_options o, double *error)
 {
@@ -119,7 +119,7 @@ static void estimates_are_the_error(void **state)
     o.step = steps[k];
     o.error_check = true;
     baum_counters c = run_pendulum(o, &error);
-    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* 2e-4: tolerance of the companion */
+    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* the companion's tolerance is 2e-4 */
     assert_int_equal(c.doubts, c.error_estimate > 0.03);
   }
 }
@@ -153,7 +153,7 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
-/* The run reverses its direction of time inside a step. It restarts there, and so does its
+/* The run reverses the direction of time inside a step. It restarts at this point, and so does its
  * companion. */
 static void estimates_continue_after_a_restart_inside_a_step(void **state)
 {
@@ -186,8 +186,8 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
 /* ---- events between steps ---- */
 
 /* A light rod joins a bob to a slider on the x axis. When the rod becomes perpendicular to the
- * axis, it stops the bob within a time that is shorter than a step. With rk4 at 1 ms the final
- * position is wrong by 0.64 m, and the energy grows from 2.2 J by 2.9 J. */
+ * axis, it stops the bob in a time that is shorter than a step. With rk4 at 1 ms the final position
+ * is wrong by 0.64 m, and the energy grows from 2.2 J by 2.9 J. */
 static baum_mechanism *make_taut_rod(void)
 {
   const double mass = 0.0014776077955897843;
@@ -252,7 +252,7 @@ static void runs_that_miss_a_short_event_warn(void **state)
 
 /* ---- drivers with corners ---- */
 
-/* The law of a driver that rotates by 3 rad in 0.3 s, then rests. */
+/* The law of a driver that rotates by 3 rad in 0.3 s and then rests. */
 static int ramp(double t, double s[3], void *user)
 {
   (void)user;
@@ -262,8 +262,8 @@ static int ramp(double t, double s[3], void *user)
   return 0;
 }
 
-/* The driver prescribes a velocity that jumps at 0.3 s. The acceleration contains no impulse, but
- * the estimate must not count this jump as an error. */
+/* The driver prescribes a velocity with a jump at 0.3 s. The acceleration does not contain the
+ * impulse that this jump requires. The estimate must not count the jump as an error. */
 static void corners_of_drivers_are_no_error(void **state)
 {
   (void)state;
@@ -297,10 +297,10 @@ static void corners_of_drivers_are_no_error(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- given up ---- */
+/* ---- runs that abandon their companion ---- */
 
-/* A damper with the decay rate 1e6 1/s would force the companion, an rk8 run, to steps of a
- * microsecond. */
+/* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force it to steps of
+ * a microsecond. */
 static void stiff_runs_give_their_companion_up(void **state)
 {
   (void)state;

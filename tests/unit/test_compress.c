@@ -17,7 +17,7 @@ static int32_t any_index(uint64_t *seed)
   return (int32_t)((saddle_random(seed) + 1.0) / 2.0 * (SIZE - 1e-9)); /* 0 .. SIZE - 1 */
 }
 
-/* Makes the same random places as a list and as two arrays of rows and columns. */
+/* Makes random places in two forms: as a list, and as two arrays of rows and columns. */
 static baum_i_places random_places(size_t count, uint64_t seed, int32_t *rows, int32_t *columns)
 {
   baum_i_places places = {0};
@@ -39,7 +39,7 @@ static void assert_ascending(const baum_i_compressed *c)
   }
 }
 
-/* Every listed entry is where its slot says, and there are no other entries. */
+/* Checks that every listed entry is where its slot says, and that there are no other entries. */
 static void assert_same_places(size_t count, const int32_t *rows, const int32_t *columns,
                                const baum_i_compressed *c)
 {

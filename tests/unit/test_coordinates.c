@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies with user coordinates. The example is, with c = cos t:
+/* Tests bodies with user coordinates. With c = cos t, the example has the mass matrix M and the
+ * force g:
  *
  *   M = [ 4 + cos q1   sin q0  ]      g = ( -q0^3 + q1 v1 + c,  -sin(q0 q1) - v0^2 )
  *       [ sin q0       3 + q0^2]
@@ -20,10 +21,10 @@
 
 /* ---- the example ---- */
 
-/* What the functions of the example return, and an error to add. */
+/* What the functions of the example return, and an error that is added to their results. */
 typedef struct arm {
   int answer;
-  double spoil; /* added to mass()[0][1] and force()[1] */
+  double spoil; /* is added to mass()[0][1] and to force()[1] */
 } arm;
 
 static int arm_mass(double t, const double *q, double *out, void *user)
@@ -110,7 +111,7 @@ static baum_mechanism *empty(void)
   return mechanism;
 }
 
-/* Adds the body after another one, so that its columns do not start at 0. */
+/* Adds the body of the example after another body, so that its columns do not start at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};
@@ -226,7 +227,8 @@ static void check_blocks(const baum_coordinates_def *def, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of order 6 replace derivatives that are not given. Their measured error is 1e-12. */
+/* Derivatives that are not given are replaced by differences of order 6. The error that was
+ * measured for them is 1e-12. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;

@@ -27,7 +27,7 @@ static int cam(double x, double f[3], void *user)
   return 0;
 }
 
-/* An error that is added to one entry of the law, or another return value. */
+/* An error that is added to one entry of the law, or a return value other than 0. */
 typedef struct fault {
   int entry;
   double error;
@@ -42,7 +42,7 @@ static int faulty(double x, double f[3], void *user)
   return wrong->answer;
 }
 
-/* Sets nothing. Fails unless the caller has set `f` to zero. */
+/* A law that sets nothing. The test fails unless the caller has set `f` to zero. */
 static int nothing(double x, double f[3], void *user)
 {
   (void)x;
@@ -166,7 +166,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_on_a_chain, false, check_rows_balance);
 }
 
-/* No column occurs twice in a joint. The sparse matrices rely on this. */
+/* Checks that no column occurs twice in a joint. The sparse matrices rely on this. */
 static void check_columns(test_point *p)
 {
   for (int k = 0; k < p->mechanism->joint_count; k++) {
@@ -233,7 +233,7 @@ static void the_offset_follows_from_the_design_unless_given(void **state)
   test_point_close(&p);
 }
 
-/* All functions that call the law fail with the same status and message. */
+/* Checks that all functions that call the law fail with the same status and the same message. */
 static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[3 * 6 + 6];

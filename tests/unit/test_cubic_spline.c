@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic splines compared with those of GSL. */
+/* Compares cubic splines with those of GSL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,8 @@
 
 enum { MOST = 200 };
 
-/* Draws intervals between 0.01 and 1 and values of about 1, so second derivatives may reach 1e5. */
+/* Draws random intervals between 0.01 and 1, and values of about 1. Second derivatives may
+ * therefore reach 1e5. */
 static void draw_places(int32_t count, uint64_t *seed, double *times, double *values)
 {
   for (int32_t i = 0; i < count; i++) {
@@ -24,7 +25,7 @@ static void draw_places(int32_t count, uint64_t *seed, double *times, double *va
   }
 }
 
-/* Compares both splines over the whole range and at the knots. */
+/* Compares both splines over the whole range, and at the given points. */
 static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *want)
 {
   double length = spline->times[spline->count - 1] - spline->times[0];
@@ -39,7 +40,8 @@ static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *w
     assert_int_equal(gsl_interp_eval_e(want, x, y, t, NULL, &s_want[0]), 0);
     assert_int_equal(gsl_interp_eval_deriv_e(want, x, y, t, NULL, &s_want[1]), 0);
     assert_int_equal(gsl_interp_eval_deriv2_e(want, x, y, t, NULL, &s_want[2]), 0);
-    /* Slopes of up to about 100, divided by intervals of 0.01, amplify rounding. */
+    /* Rounding errors are amplified, because slopes of up to about 100 are divided by intervals of
+     * 0.01. */
     ASSERT_NEAR(s[0], s_want[0], 0.0, 1e-13);
     ASSERT_NEAR(s[1], s_want[1], 0.0, 1e-11);
     ASSERT_NEAR(s[2], s_want[2], 0.0, 1e-9);

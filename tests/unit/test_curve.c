@@ -35,7 +35,7 @@ static int bent(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* An error that is added to one entry of the curve, or another return value. */
+/* An error that is added to one entry of the curve function, or a return value other than 0. */
 typedef struct fault {
   int entry;
   double error;
@@ -50,7 +50,7 @@ static int faulty(const double xy[2], double out[6], void *user)
   return f->answer;
 }
 
-/* Sets nothing. Fails unless the caller has set `out` to zero. */
+/* A curve function that sets nothing. The test fails unless the caller has set `out` to zero. */
 static int nothing(const double xy[2], double out[6], void *user)
 {
   (void)xy;
@@ -63,7 +63,7 @@ static int nothing(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* Distance from the unit circle; undefined at its centre. */
+/* The distance from the unit circle, which is not differentiable at the centre. */
 static int circle(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -86,8 +86,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* Adds a point on a curve. The curve belongs to body a; if that is a particle, to body b, or to the
- * link if both are particles. */
+/* Adds a joint that keeps a point on a curve. The curve belongs to body a. If a is a particle, it
+ * belongs to body b, and if both are particles, to the link. */
 static void add_curve(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_curve_def def = baum_planar_curve_def_default();
@@ -152,8 +152,8 @@ static void a_circle_is_a_rod(void **state)
   assert_int_equal(baum_mechanism_add_planar_distance(scene.mechanism, &rod, NULL), BAUM_OK);
   test_point p;
   test_point_open(&p, scene.mechanism);
-  /* The link is at (1, 0.5) with the angle 0.4 rad. The bead is at the length of the rod, 1 m, from
-   * the rod's point on the link. */
+  /* The link is at (1, 0.5) with the angle 0.4 rad. The bead is 1 m, which is the length of the
+   * rod, from the point of the rod on the link. */
   double *bead = p.q + p.mechanism->bodies[scene.bead.index1]->q;
   bead[0] = 1.0 + 0.3 * cos(0.4) + 0.2 * sin(0.4) + 0.6;
   bead[1] = 0.5 + 0.3 * sin(0.4) - 0.2 * cos(0.4) - 0.8;
@@ -170,8 +170,8 @@ static void a_circle_is_a_rod(void **state)
   for (int i = 0; i < 5; i++) {
     ASSERT_NEAR(blocks[i], blocks[5 + i], 0.0, 1e-15);
   }
-  /* On the circle the rod's Phi = (r^2 - 1) / 2 has the same J as Phi = r - 1 of the curve, but
-   * gamma differs by -r'^2. */
+  /* On the circle, Phi = (r^2 - 1) / 2 of the rod has the same J as Phi = r - 1 of the curve. The
+   * two gamma differ by -r'^2. */
   assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
   double rate = 0.0;
   const baum_i_span *span = &p.mechanism->joints[0]->span;
@@ -198,7 +198,8 @@ static void a_function_that_sets_nothing_is_zero(void **state)
   test_point_close(&p);
 }
 
-/* All functions that call the curve fail with the same status and message. */
+/* Checks that all functions that call the curve function fail with the same status and the same
+ * message. */
 static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[6];
@@ -242,7 +243,7 @@ static void right_derivatives_raise_no_alarm(void **state)
   user_check_right(make_with(nothing, NULL));
 }
 
-/* The message names the wrong entry of curve(). */
+/* The message must name the wrong entry of curve(). */
 static void wrong_derivatives_are_named(void **state)
 {
   (void)state;

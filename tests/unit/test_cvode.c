@@ -18,8 +18,9 @@
 
 /* ---- accuracy ---- */
 
-/* The error must fall by a factor of 7 per decade of rtol for Adams, whose order rises as rtol
- * falls, and by 6 for BDF, whose order is at most 5: rtol^(5/6) is a factor of 6.8 per decade. */
+/* When rtol decreases by a factor of 10, the error must fall by a factor of 7 for Adams methods,
+ * whose order rises, and by a factor of 6 for BDF. The order of BDF is at most 5, and an error
+ * proportional to rtol^(5/6) would fall by a factor of 6.8. */
 static void error_falls_with_the_tolerance(void **state)
 {
   (void)state;
@@ -37,8 +38,8 @@ static void error_falls_with_the_tolerance(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A driver rotates the slider-crank at 150 rad/s by one revolution, so the final angle of the crank
- * is known. */
+/* A driver rotates the slider-crank at 150 rad/s by one revolution. The final angle of the crank is
+ * therefore known. */
 static void a_driven_slider_crank_follows_its_driver(void **state)
 {
   (void)state;
@@ -80,8 +81,8 @@ static int64_t evaluations_of(baum_mechanism *mechanism, const baum_integrator *
   return evaluations;
 }
 
-/* A force with the decay rate 1e4 1/s limits explicit methods, and Adams with fixed-point
- * iteration, to steps of about 1e-4 s. */
+/* The force has a decay rate of 1e4 1/s. Explicit methods, and Adams methods with fixed-point
+ * iteration, therefore need steps of about 1e-4 s. */
 static void bdf_needs_few_steps_for_stiff_forces(void **state)
 {
   (void)state;
@@ -116,10 +117,10 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
   return evaluations;
 }
 
-/* Gains of 1000 1/s for a pendulum that swings at 0.4 Hz. Fixed-point iteration would limit steps
- * to 1 / gain, which takes 34000 evaluations. Newton's iteration with the derivatives of the gains'
- * terms takes about 5000. This is still more than with small gains, because large gains amplify
- * rounding errors, which then fail the error test. */
+/* The gains are 1000 1/s, for a pendulum that swings at 0.4 Hz. With fixed-point iteration, steps
+ * could not be longer than 1 / gain, which would take 34000 evaluations. Newton's iteration uses
+ * the derivatives of the terms with gains, and takes about 5000 evaluations. Small gains need still
+ * fewer. Large gains amplify rounding errors, which then fail the error test. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
   (void)state;
@@ -139,8 +140,8 @@ static void high_gains_do_not_bind_the_steps(void **state)
 /* ---- projection ---- */
 
 typedef struct projected {
-  double phi;      /* [m] largest at the ends of steps */
-  double phi_rate; /* [m/s] likewise */
+  double phi;      /* [m] largest at the end of a step */
+  double phi_rate; /* [m/s] largest at the end of a step */
 } projected;
 
 static projected swing(baum_mechanism *mechanism, baum_formulation formulation, double direction)
@@ -161,8 +162,8 @@ static projected swing(baum_mechanism *mechanism, baum_formulation formulation, 
   return out;
 }
 
-/* Every step ends on the constraints: |Phi| is at most 1e-13 of the length, |Phi'| at most 1e-13 of
- * |J| |v|, with |v| <= 4.43 m/s. */
+/* Every step ends on the constraints. |Phi| is at most 1e-13 of the length, and |Phi'| is at most
+ * 1e-13 of |J| |v|, where |v| <= 4.43 m/s. */
 static void projected_steps_end_on_the_constraints(void **state)
 {
   (void)state;
@@ -174,12 +175,13 @@ static void projected_steps_end_on_the_constraints(void **state)
     print_message("projected: %.1e m, %.1e m/s; not stabilized: %.1e m, %.1e m/s\n", p.phi,
                   p.phi_rate, u.phi, u.phi_rate);
     assert_true(p.phi <= 1e-13 && p.phi_rate <= 4.5e-13);
-    assert_true(u.phi > 1e-9); /* confirms that projection has an effect */
+    assert_true(u.phi > 1e-9); /* shows that projection has an effect */
   }
   baum_mechanism_destroy(mechanism);
 }
 
-/* Geometric mean of the errors after 10 s (about 4 swings) with 21 tolerances from 1e-4 to 1e-9. */
+/* Returns the geometric mean of the errors after 10 s, which is about 4 swings. The mean is taken
+ * over 21 tolerances from 1e-4 to 1e-9. */
 static double mean_error(baum_mechanism *mechanism, baum_formulation formulation, double gain)
 {
   integrator_setup setup = integrator_setup_make(mechanism, baum_cvode_bdf(), formulation);
@@ -200,9 +202,10 @@ static double mean_error(baum_mechanism *mechanism, baum_formulation formulation
   return exp(sum / count);
 }
 
-/* Projection may have an error of at most 1.5 times that with gains of twice the pendulum's rate,
- * which are similar to those of the rule `auto`. For a single pendulum other gains may happen to be
- * better, as the printed table shows. Such means of 21 runs vary by a factor of 1.3. */
+/* The error with projection may be at most 1.5 times the error with gains. The gains are twice the
+ * pendulum's rate, which is similar to the gains of the rule `auto`. For a single pendulum, other
+ * gains may happen to be better, as the table printed by this test shows. Such means of 21 runs
+ * vary by a factor of 1.3. */
 static void projection_is_as_good_as_gains(void **state)
 {
   (void)state;
@@ -219,7 +222,8 @@ static void projection_is_as_good_as_gains(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The constraint x = 0; from 0.5 s on e^x = 0, which is differentiable but has no solution. */
+/* The constraint is x = 0 at first. From 0.5 s on it is e^x = 0, which is differentiable but has no
+ * solution. */
 static int vanish(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -274,8 +278,8 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
   baum_simulation_destroy(run);
 }
 
-/* Near 1e9 s, double precision rounds a time to 1e-7 s, a thousandth of a step. The mechanism does
- * not depend on time, so the result must be the same as for a start at 0. */
+/* Near 1e9 s, double precision rounds a time to 1e-7 s. This is a thousandth of a step. The
+ * mechanism does not depend on time, so the result must be the same as that of a start at 0. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -322,8 +326,8 @@ static void statistics_add_up(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The force 2 / (0.1 - t)^3 on 1 kg causes the motion x = 1 / (0.1 - t), which becomes infinite at
- * 0.1 s. */
+/* The force 2 / (0.1 - t)^3 moves a mass of 1 kg by x = 1 / (0.1 - t). The motion becomes infinite
+ * at 0.1 s. */
 static int burst(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -380,7 +384,7 @@ static void a_motion_that_ends_is_reported_with_time_and_step(void **state)
   }
 }
 
-/* Redirects stderr to a file during a run that fails. The file must stay empty. */
+/* Redirects stderr to a file while a run fails. The file must stay empty. */
 static void sundials_never_prints(void **state)
 {
   need_sundials();

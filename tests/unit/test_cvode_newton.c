@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a). Each test solves with
- * the sparse matrix for a random right side r and checks that x fulfils the system, where central
- * differences of f replace df/dy x. */
+/* Tests the linear systems of CVODE BDF. They are (I - gamma df/dy) x = r with f = (v, a). Each
+ * test chooses a random right side r and solves the system with the sparse matrix. It then checks
+ * the solution x in the system, with central differences of f in place of df/dy x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +30,7 @@ typedef struct solver {
   baum_i_sundials sundials;
   baum_i_cvode_newton newton;
   int n;             /* nv */
-  double unit[SIZE]; /* of displacements (scale) and of velocities (scale per second) */
+  double unit[SIZE]; /* units of displacements (scale) and of velocities (scale per second) */
 } solver;
 
 static void open_solver(solver *s, const baum_mechanism *m, baum_formulation formulation)
@@ -74,8 +74,8 @@ static void to_tangent(const solver *s, const double *q, const double *y, double
   memcpy(out + s->n, y + m->nq, (size_t)s->n * sizeof *out);
 }
 
-/* Solves (I - gamma df/dy) x = r at y = (q, v) as CVODE BDF does. x and r are displacements and
- * velocities. */
+/* Solves (I - gamma df/dy) x = r at y = (q, v) as CVODE BDF does. Both x and r consist of
+ * displacements and velocities. */
 static baum_status solve_newton(solver *s, double t, const double *y, double gamma, const double *r,
                                 double *x)
 {
@@ -92,8 +92,8 @@ static baum_status solve_newton(solver *s, double t, const double *y, double gam
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Evaluates f at y, as a displacement from q and accelerations. Returns false if the configuration
- * is singular or nearly so. */
+/* Evaluates f at y. The result consists of a displacement from q and of accelerations. Returns
+ * false if the configuration is singular or nearly so. */
 static bool evaluate(const solver *s, double t, const double *q, const double *y, double *f)
 {
   const baum_mechanism *m = s->workspace->mechanism;
@@ -107,7 +107,7 @@ static bool evaluate(const solver *s, double t, const double *q, const double *y
   return status == BAUM_OK && s->workspace->near_singular == before;
 }
 
-/* Returns the largest component of x, each divided by its unit. */
+/* Returns the largest component of x, where each component is divided by its unit. */
 static double size_of(const solver *s, const double *x)
 {
   double largest = 0.0;
@@ -142,8 +142,8 @@ static bool differentiate(const solver *s, double t, const double *y, const doub
   return regular;
 }
 
-/* Returns |x - gamma (df/dy) x - r| relative to the largest of these three vectors, or NaN near a
- * singular configuration. */
+/* Returns |x - gamma (df/dy) x - r| as a fraction of the largest of these three vectors. Returns
+ * NaN near a singular configuration. */
 static double defect_of(solver *s, double t, const double *y, double gamma, const double *r)
 {
   double x[SIZE];
@@ -162,14 +162,15 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
   return regular ? size_of(s, defect) / size : (double)NAN;
 }
 
-/* Limits of this defect. A wrong or missing term causes at least 1e-3. Correct terms have a median
- * of 4e-12 and at most 4e-8 if all derivatives are given. If the matrix contains differences of
- * user functions, up to 1e-5 were measured near singular configurations. */
+/* The largest values that this defect may have. A wrong or missing term causes at least 1e-3. If
+ * all derivatives are given, correct terms have a median of 4e-12 and a maximum of 4e-8. If the
+ * matrix contains differences of user functions, the defect may reach 1e-5 near singular
+ * configurations, as measurements show. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
-/* Checks random states near the design configuration; they need not fulfil the constraints. Returns
- * the number of states that are not near a singular configuration. */
+/* Checks random states near the design configuration. These states need not satisfy the
+ * constraints. Returns the number of states that are not near a singular configuration. */
 static int check_states(solver *s, double tolerance, chance *c)
 {
   const double gammas[] = {1e-3, -1e-2, 0.1};
@@ -198,8 +199,8 @@ static int check_states(solver *s, double tolerance, chance *c)
   return checked;
 }
 
-/* Checks without and with factors on the gains: every second row has a factor between 0.1 and
- * 10. */
+/* Checks a mechanism without factors on the gains and with them. The factors are between 0.1 and
+ * 10, for every second row. */
 static int check_mechanism(const baum_mechanism *mechanism, baum_formulation formulation,
                            double tolerance, chance *c)
 {
@@ -248,8 +249,8 @@ static void models_by_functions_with_and_without_derivatives(void **state)
   check_model(model_car_axis(false, &m), BY_DIFFERENCES, &m);
 }
 
-/* The mechanism contains springs and dampers with constants and with laws, drivers, inputs, user
- * constraints and user forces. */
+/* The mechanism contains springs and dampers, both with constants and with laws. It also contains
+ * drivers, inputs, user constraints and user forces. */
 static void one_of_every_element(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The residuals F(t, y, y') that IDA solves: their Jacobians agree with differences, and they are
- * zero at the solution of the stabilized equations (7). */
+/* Tests the residuals F(t, y, y') that IDA solves. Their Jacobians must agree with differences, and
+ * the residuals must be zero at the solution of the stabilized equations (7). */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -31,20 +31,21 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* The arguments y and y' of a residual. The columns of its Jacobian belong to displacements of q,
- * to v and to the multipliers. */
+/* The arguments y and y' of a residual. The columns of its Jacobian belong to the displacements of
+ * q, to v and to the multipliers. */
 typedef struct point {
   const baum_mechanism *mechanism;
   double y[SIZE_MAX_DAE];
   double dy[SIZE_MAX_DAE];
-  double scale[SIZE_MAX_DAE]; /* of columns */
+  double scale[SIZE_MAX_DAE]; /* scales of the columns */
   int size;                   /* number of columns */
-  int shift;                  /* nq - nv: index in y of an unknown after q, minus its column */
+  int shift;                  /* nq - nv; for an unknown after q, its index in y minus its column */
 } point;
 
-/* Sets the scales of the columns, so that results do not depend on units. Coordinates have their
- * own scales, velocities the same per second. A lambda has the largest m scale^2 / s^2 of all
- * coordinates, divided by the displacement of its row; a mu the same times one second. */
+/* Sets the scales of the columns. With these scales, the results of the tests do not depend on
+ * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
+ * divided by one second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates,
+ * divided by the displacement of its row. The scale of a mu is the same times one second. */
 static void take_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
@@ -62,8 +63,8 @@ static void take_scales(baum_workspace *w, point *p)
   }
 }
 
-/* A state near the design configuration whose velocities, accelerations and multipliers have the
- * size of their scales. */
+/* Returns a random state near the design configuration. Its velocities, accelerations and
+ * multipliers are as large as their scales. */
 static point random_point(baum_workspace *w, baum_residual index, int seed)
 {
   const baum_mechanism *m = w->mechanism;
@@ -86,7 +87,7 @@ static point random_point(baum_workspace *w, baum_residual index, int seed)
   return p;
 }
 
-/* Changes y by `step` along column j, and y' by c times that. */
+/* Changes y by `step` along column j, and y' by c times this change. */
 static void move_along(point *p, double c, int j, double step)
 {
   const baum_mechanism *m = p->mechanism;
@@ -156,7 +157,7 @@ static void spread(const baum_i_residual_matrix *matrix, const double *values, i
   }
 }
 
-/* Returns the largest difference of two scaled entries, relative to the largest entry in their
+/* Returns the largest difference of two scaled entries, as a fraction of the largest entry in their
  * row. */
 static double largest_difference(const square *got, const square *want, const point *p)
 {
@@ -198,9 +199,9 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10 and
- * rounding errors. Where a user function gives no Jacobian, the matrix itself contains differences.
- * A wrong term causes 1e-3 or more. */
+/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10, and in
+ * addition rounding errors. If a user function gives no Jacobian, the matrix itself also contains
+ * differences. A wrong term causes 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
   for (int f = 0; f < FORM_COUNT; f++) {
@@ -215,7 +216,8 @@ static void check_all_forms(const char *name, const baum_mechanism *mechanism)
   }
 }
 
-/* Checks the residual of index 1 with factors from 0.1 to 10 on the gains of the rows. */
+/* Checks the residual of index 1 with factors on the gains of the rows. The factors are from 0.1 to
+ * 10. */
 static void check_row_gains(const char *name, const baum_mechanism *mechanism)
 {
   double factors[SIZE_MAX_DAE];
@@ -226,7 +228,7 @@ static void check_row_gains(const char *name, const baum_mechanism *mechanism)
   }
   w->row_gains = factors;
   double worst = check_jacobian(w, BAUM_RESIDUAL_INDEX1);
-  if (!(worst <= 2e-7)) { /* as above */
+  if (!(worst <= 2e-7)) { /* the tolerance is explained above */
     fail_msg("%s, gains of rows: %g", name, worst);
   }
   baum_workspace_destroy(w);
@@ -259,7 +261,7 @@ static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **
               model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m), &m);
 }
 
-/* One body has no mass, so its entry of the metric W of GGL is the lower bound. */
+/* One body has no mass. Its entry in the metric W of GGL is therefore the lower bound. */
 static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **state)
 {
   (void)state;
@@ -332,7 +334,7 @@ static void check_index_1_at_the_solution(const double *row_gains)
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < 2 * nv + nc; i++) {
-    /* rounding of sums with terms of this size */
+    /* The tolerance is the rounding error of sums whose terms have this size. */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   baum_workspace_destroy(w);
@@ -350,8 +352,8 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   check_index_1_at_the_solution(factors);
 }
 
-/* At a state on the constraints, the accelerations and multipliers of (5) and mu = 0 give a zero
- * residual. A nonzero mu changes only the first nv rows, by W^-1 J^T mu. */
+/* At a state on the constraints, the residual is zero for the accelerations and multipliers of (5)
+ * and for mu = 0. A mu that is not zero changes only the first nv rows, by W^-1 J^T mu. */
 static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **state)
 {
   (void)state;
@@ -377,7 +379,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < p.size; i++) {
-    /* rounding of sums with terms of this size */
+    /* The tolerance is the rounding error of sums whose terms have this size. */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   p.y[2 * nv + nc] = 0.5;
@@ -385,7 +387,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   assert_int_equal(baum_workspace_jacobian(w, 0.0, p.y, jacobian), BAUM_OK);
   assert_int_equal(baum_workspace_mass(w, 0.0, p.y, mass), BAUM_OK);
   for (int i = 0; i < nv; i++) {
-    /* here W is the diagonal of M: no entry is at the lower bound */
+    /* Here W is the diagonal of M, because no entry is at the lower bound. */
     ASSERT_NEAR(residual[i], 0.5 * jacobian[i] / mass[i * nv + i], 1e-13, 1e-13 * size);
   }
   baum_workspace_destroy(w);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE names the elements that it does not support: velocity-dependent forces and variable
- * masses. */
+/* RATTLE does not support forces that depend on velocity, nor variable masses. It must name the
+ * elements that have them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "manifold_scenes.h"
 #include "message.h"
 
-/* ---- a bar on a pin, and what acts on it ---- */
+/* ---- a bar on a pin, and the elements that act on it ---- */
 
 typedef struct scene {
   baum_mechanism *mechanism;
@@ -152,12 +152,12 @@ static void springs_are_supported_and_dampers_are_refused(void **state)
   expect_refusal(&s, "force 1 \"coil\"");
 }
 
-/* ---- functions of the user ---- */
+/* ---- user functions ---- */
 
 typedef struct behaviour {
   double drag;    /* the force is -drag v */
   bool by_time;   /* the force depends on cos t */
-  bool claims;    /* declares that force and mass are independent of velocity and position */
+  bool claims;    /* declares that force and mass depend on neither velocity nor position */
   double inertia; /* the mass is 1 + inertia x^2 */
 } behaviour;
 
@@ -207,8 +207,8 @@ static void add_coordinate(const scene *s, behaviour *b)
   check(baum_mechanism_add_coordinates(s->mechanism, &def, NULL));
 }
 
-/* In space the gyroscopic moments of rigid bodies depend on velocities too. RATTLE supports these,
- * and refuses only the damper. */
+/* In space, the gyroscopic moments of rigid bodies also depend on velocities. RATTLE supports these
+ * moments, and refuses only the damper. */
 static void a_damper_in_space_is_refused(void **state)
 {
   (void)state;
@@ -237,8 +237,8 @@ static void a_damper_in_space_is_refused(void **state)
   }
 }
 
-/* RATTLE knows how momenta change on SO(3) for rigid bodies, but not on a manifold that the user
- * defines. */
+/* RATTLE knows how the momenta of rigid bodies change on SO(3). It does not know this for a
+ * manifold that the user defines. */
 static void gyroscopic_moments_of_the_user_are_refused(void **state)
 {
   (void)state;
@@ -273,7 +273,7 @@ static void functions_without_a_declaration_are_refused_by_name(void **state)
   expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
-/* Expects that the check of derivatives refuses the mechanism. This check does not depend on the
+/* Checks that the check of derivatives refuses the mechanism. This check does not depend on the
  * integrator. */
 static void expect_denial(const scene *s, const char *parts)
 {

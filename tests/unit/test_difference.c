@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences compared with known derivatives. Errors are relative to the change of the function
- * over one scale of the coordinate, which is about 1 in most tests. */
+/* Compares differences with known derivatives. Errors are relative to the change of the function
+ * over one scale of the coordinate. In most tests this change is about 1. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,12 +15,12 @@
 #include "point.h"
 #include "user_models.h"
 
-/* A function of the coordinate q[0] that counts its calls. */
+/* A function of the coordinate q[0], which counts how often it is called. */
 typedef struct curve {
   double (*value)(double x);
   int calls;
-  double edge; /* q[0] below this is refused */
-  int answer;  /* what a user function returns to refuse: > 0 asks for a retry */
+  double edge; /* the function fails for q[0] below this */
+  int answer;  /* what the function returns when it fails; > 0 asks for a retry */
   double noise;
 } curve;
 
@@ -120,7 +120,8 @@ static double constant(double x)
   return 12345.678;
 }
 
-/* Its slope changes from -1 to 1 within 1e-6, so with larger steps it cannot be told from |x|. */
+/* The slope of this function changes from -1 to 1 within 1e-6. With larger steps it cannot be
+ * distinguished from |x|. */
 static double tiny_circle(double x)
 {
   return sqrt(x * x + 1e-12);
@@ -147,7 +148,8 @@ static void second_derivatives_are_good_to_2e_11(void **state)
     ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
     ASSERT_NEAR(derivative_at(exp, x, 1.0, 2), exp(x), 2e-11, 0.0);
     ASSERT_NEAR(derivative_at(fifth_power, x, 1.0, 2), 20.0 * x * x * x, 2e-11, 2e-11);
-    /* The truncation error is of order 6, so it is 3^6 = 729 times that of sin(x). */
+    /* The truncation error is of order 6. It is therefore 3^6 = 729 times the truncation error for
+     * sin(x). */
     ASSERT_NEAR(derivative_at(three_times_as_fast, x, 1.0, 2), -9.0 * sin(3.0 * x), 0.0, 4e-10);
   }
 }
@@ -174,8 +176,8 @@ static void a_scale_a_million_times_too_large_costs_time_but_no_accuracy(void **
   }
 }
 
-/* The step is a thousand times too small, so differences amplify rounding of 1e-16 a thousand times
- * more. */
+/* The step is a thousand times too small. Differences therefore amplify the rounding error of 1e-16
+ * a thousand times more. */
 static void a_scale_a_thousand_times_too_small_costs_three_digits(void **state)
 {
   (void)state;
@@ -203,8 +205,9 @@ static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolution
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* q is rounded to 7e-12, so a step's direction is wrong by 7e-12 / (v / 64), about 1e-9. If steps
-   * were not rounded to representable ones, the error would be 1e-7. */
+  /* q is rounded to 7e-12, so the direction of a step is wrong by 7e-12 / (v / 64), which is about
+   * 1e-9. If steps were not chosen so that they can be represented exactly, the error would be
+   * 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }
@@ -245,7 +248,7 @@ static void a_noisy_function_is_not_asked_again_and_again(void **state)
   assert_in_range(calls_of(&noisy, 0.4, 2), 7, 14);
 }
 
-/* ---- edges ---- */
+/* ---- edges of where a function is defined ---- */
 
 static void steps_shrink_near_the_edge_of_where_a_function_is_defined(void **state)
 {

@@ -65,7 +65,7 @@ static void the_row_is_the_change_of_length_to_first_order(void **state)
   test_point_update(&p);
   double phi;
   assert_int_equal(baum_i_mechanism_phi(&p.point, &phi), BAUM_OK);
-  /* With L = 5 and an extension x = 5e-4: Phi = x + x^2 / (2 L). */
+  /* If L = 5 and the extension is x = 5e-4, then Phi = x + x^2 / (2 L). */
   ASSERT_NEAR(phi, 5e-4 + 25e-8 / 10.0, 0.0, 1e-14);
   test_point_close(&p);
 }

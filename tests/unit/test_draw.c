@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shapes of drawings: every kind of element has its symbol, and the outline of a body follows from
- * its joints. test_page.c tests what is made of them. */
+/* Tests the shapes of drawings. Every kind of element has its symbol, and the outline of a body
+ * follows from its joints. test_page.c tests the pages that are made of these shapes. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -52,7 +52,7 @@ static void every_element_with_a_place_is_drawn(void **state)
   check(every_element_build(&parts));
   const baum_mechanism *m = parts.mechanism;
   baum_i_drawing drawing;
-  draw_design(m, &drawing); /* not frozen */
+  draw_design(m, &drawing); /* the mechanism is not frozen */
   assert_true(drawing.spatial);
   for (int k = 1; k <= m->body_count; k++) {
     assert_int_equal(is_drawn(&drawing, &m->bodies[k]->element),
@@ -68,7 +68,8 @@ static void every_element_with_a_place_is_drawn(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Fails if a kind is added without a symbol, or without an element in every_element.c. */
+/* This test fails if somebody adds a kind of element without a symbol, or without an element in
+ * every_element.c. */
 static void every_kind_of_the_library_is_drawn(void **state)
 {
   (void)state;
@@ -83,7 +84,7 @@ static void every_kind_of_the_library_is_drawn(void **state)
   baum_i_drawing drawing;
   draw_design(parts.mechanism, &drawing);
   for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-    bool drawn = strcmp(kinds[k].name, "coordinates") == 0; /* which have no place */
+    bool drawn = strcmp(kinds[k].name, "coordinates") == 0; /* user coordinates have no place */
     for (int i = 0; i < drawing.shape_count; i++) {
       drawn = drawn || drawing.shapes[i].element->definition == *kinds[k].definition;
     }
@@ -125,11 +126,13 @@ static void bodies_look_as_their_joints_make_them(void **state)
   draw_design(m, &drawing);
   assert_false(drawing.spatial);
   ASSERT_NEAR(drawing.unit, 0.02 * 3.0, 1e-14, 0.0);
-  assert_int_equal(shapes_of(&drawing, "crank", BAUM_I_BODY, BAUM_I_LINE), 1); /* a bar */
-  assert_int_equal(shapes_of(&drawing, "rod", BAUM_I_BODY, BAUM_I_AREA), 1);   /* a triangle */
+  assert_int_equal(shapes_of(&drawing, "crank", BAUM_I_BODY, BAUM_I_LINE), 1); /* a single bar */
+  /* A single triangle. */
+  assert_int_equal(shapes_of(&drawing, "rod", BAUM_I_BODY, BAUM_I_AREA), 1);
   assert_int_equal(shapes_of(&drawing, "block", BAUM_I_BODY, BAUM_I_AREA), 1);
   assert_int_equal(shapes_of(&drawing, DRAWN_HOSTILE, BAUM_I_WHEEL, BAUM_I_DISC), 1);
-  assert_int_equal(shapes_of(&drawing, "O", BAUM_I_GROUND, BAUM_I_LINE), 2); /* a foot, hatches */
+  /* A foot and hatches. */
+  assert_int_equal(shapes_of(&drawing, "O", BAUM_I_GROUND, BAUM_I_LINE), 2);
   assert_int_equal(shapes_of(&drawing, "A", BAUM_I_GROUND, BAUM_I_LINE), 0);
   assert_int_equal(shapes_of(&drawing, "guide", BAUM_I_GROUND, BAUM_I_LINE), 1);
   baum_i_drawing_release(&drawing);
@@ -191,7 +194,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
   def.inertia[0] = def.inertia[2] = across;
   def.inertia[Y] = mass * radius * radius / 2;
   check(baum_mechanism_add_spatial_body(m, &def, NULL));
-  def.name = "block"; /* no two moments are equal */
+  def.name = "block"; /* none of its moments of inertia are equal */
   def.inertia[0] = 0.9 * across;
   def.position[0] = 10.0;
   check(baum_mechanism_add_spatial_body(m, &def, NULL));
@@ -214,7 +217,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
 
 /* ---- the ground ---- */
 
-/* The middle of the shapes of the ground, from a pin at the origin. */
+/* Finds the middle of all shapes of the ground, relative to a pin at the origin. */
 static void find_ground(const baum_mechanism *m, double middle[2])
 {
   baum_i_drawing drawing;
@@ -235,7 +238,7 @@ static void find_ground(const baum_mechanism *m, double middle[2])
   baum_i_drawing_release(&drawing);
 }
 
-/* A bar from the origin to a point, pinned or welded to the ground at the origin. */
+/* Draws a bar from the origin to a point. It is pinned or welded to the ground at the origin. */
 static void find_ground_of_bar(double x, double y, bool weld, const double gravity[2],
                                double middle[2])
 {
@@ -271,11 +274,11 @@ static void the_ground_is_below_a_joint_unless_the_body_hangs_there(void **state
   assert_true(middle[0] < -1.0);
   find_ground_of_bar(1.0, 0.0, false, none, middle);
   assert_true(middle[1] < -1.0);
-  find_ground_of_bar(1.0, 0.0, true, down, middle); /* a wall on the left */
+  find_ground_of_bar(1.0, 0.0, true, down, middle); /* the ground is a wall on the left */
   assert_true(middle[0] < -0.2);
   find_ground_of_bar(-1.0, 0.1, true, down, middle);
   assert_true(middle[0] > 0.2);
-  find_ground_of_bar(0.1, -1.0, true, down, middle); /* a ceiling */
+  find_ground_of_bar(0.1, -1.0, true, down, middle); /* the ground is a ceiling */
   assert_true(middle[1] > 0.2);
 }
 

@@ -45,7 +45,7 @@ static int copy(double t, double s[3], void *user)
   return 0;
 }
 
-/* Sets nothing. Fails unless the caller has set `s` to zero. */
+/* A law that sets nothing. The test fails unless the caller has set `s` to zero. */
 static int nothing(double t, double s[3], void *user)
 {
   (void)t;
@@ -103,8 +103,8 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_driver(mechanism, def, NULL);
 }
 
-/* Opens a test point at the design configuration of a pin with the driver "motor", which is joint
- * 2. */
+/* Makes a pin with the driver "motor", which is joint 2. Opens a test point at the design
+ * configuration. */
 static void open_motor(test_point *p, baum_law_fn *law, void *user, bool slider)
 {
   planar_scene scene = planar_scene_make();
@@ -180,7 +180,8 @@ static void a_law_that_sets_nothing_is_zero(void **state)
   test_point_close(&p);
 }
 
-/* All three functions that call the law fail with the same status and message. */
+/* Checks that all three functions that call the law fail with the same status and the same
+ * message. */
 static void check_law_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[4];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Orders of elimination, compared with an elimination on the full adjacency matrix of the graph. */
+/* Compares orders of elimination with an elimination on the full adjacency matrix of the graph. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "linear/elimination.h"
-#include "saddle.h" /* random numbers */
+#include "saddle.h" /* for random numbers */
 
 enum { MOST = 60, MOST_EDGES = MOST * MOST };
 
@@ -97,8 +97,8 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Computes the order of elimination. Passes neighbours in decreasing order, because their order
- * must not matter. */
+/* Computes the order of elimination. It gets the neighbours in decreasing order, because their
+ * order must not matter. */
 static baum_status order(graph *g, int most, baum_i_elimination *out)
 {
   int32_t at = 0;
@@ -148,8 +148,8 @@ static int take_out(graph *g, int node)
   return degree;
 }
 
-/* Checks that each step of the elimination lists exactly the remaining neighbours of the node that
- * it eliminates. */
+/* Checks each step of the elimination. It must list exactly the remaining neighbours of the node
+ * that it eliminates. */
 static void assert_elimination(const graph *given, const baum_i_elimination *found)
 {
   graph g = *given;
@@ -182,7 +182,8 @@ static int couplings_in_order(const graph *given)
   return sum;
 }
 
-/* Returns the number of couplings if every step eliminates a node with the fewest neighbours. */
+/* Returns the number of couplings that arise if every step eliminates a node with the fewest
+ * neighbours. */
 static int couplings_by_greed(const graph *given)
 {
   graph g = *given;
@@ -233,7 +234,7 @@ static void graphs_without_rings_have_no_fill(void **state)
   }
 }
 
-/* Elimination alternates between the two ends, so that a step does not have to wait for the result
+/* The elimination alternates between the two ends. A step thus does not have to wait for the result
  * of the step before. */
 static void chains_are_eliminated_from_both_ends_in_turn(void **state)
 {
@@ -313,8 +314,9 @@ static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
   assert_int_equal(check(&alone), 0);
 }
 
-/* The library eliminates several nodes per round. This may cause a few more couplings than the
- * greedy order, one node at a time, but far fewer than an arbitrary order. */
+/* The library eliminates several nodes in each round. This may cause a few more couplings than the
+ * greedy order, which eliminates one node at a time. It causes far fewer than an arbitrary
+ * order. */
 static void random_graphs_have_little_more_fill_than_by_greed(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Overflow is reported with the joint or the body in which it occurs. Infinite results are never
- * returned with BAUM_OK. */
+/* If a number overflows, the error must name the joint or the body in which this happens. The
+ * library must never return infinite results with BAUM_OK. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,7 +14,8 @@
 
 #include "message.h"
 
-/* A rigid body "big" that the rod "rod" connects to the origin, and a wheel without a joint. */
+/* A mechanism and its workspace. The mechanism has a rigid body "big", which the rod "rod" connects
+ * to the origin, and a wheel that has no joint. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_workspace *workspace;
@@ -53,7 +54,8 @@ static void close_scene(scene *s)
   baum_mechanism_destroy(s->mechanism);
 }
 
-/* A body with the largest finite mass, whose weight and kinetic energy overflow. */
+/* The mass of the body is the largest finite number, so its weight and its kinetic energy
+ * overflow. */
 static void forces_and_energies_that_overflow_are_refused(void **state)
 {
   (void)state;
@@ -81,8 +83,8 @@ static void gamma_that_overflows_is_refused(void **state)
   close_scene(&s);
 }
 
-/* An arm of 1e200 m and an inertia of 1e-300 kg m^2: both are finite, but arm / sqrt(inertia), the
- * size of the row, overflows. */
+/* The arm is 1e200 m, and the inertia is 1e-300 kg m^2. Both are finite, but the size of the row,
+ * arm / sqrt(inertia), overflows. */
 static void rows_whose_size_overflows_are_refused(void **state)
 {
   (void)state;

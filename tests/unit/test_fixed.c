@@ -55,7 +55,7 @@ static void the_design_angle_is_kept_and_a_given_angle_too(void **state)
   double phi[6];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
   for (int i = 0; i < 5; i++) {
-    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding of two rotations */
+    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding errors of two rotations */
   }
   ASSERT_NEAR(phi[5], -1.1 - 0.4 - 0.5, 1e-15, 0.0);
   double at[3];

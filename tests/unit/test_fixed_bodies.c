@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fixed bodies are welded to ground, directly or through other bodies. The equations of motion omit
- * them. */
+/* Fixed bodies are welded to ground, either directly or through other bodies. The equations of
+ * motion do not contain them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -66,8 +66,8 @@ static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
   return id;
 }
 
-/* Two frames that carry a double pendulum. The first frame is welded to ground, the second to the
- * first. */
+/* Two frames that carry a double pendulum. The first frame is welded to ground, and the second
+ * frame to the first. */
 enum { FRAMES = 2, BODIES = 4 };
 
 typedef struct mounted {
@@ -129,7 +129,8 @@ static void assert_same(const baum_simulation *run, const baum_simulation *want,
   }
 }
 
-/* Runs for 0.5 s with and without omitting fixed bodies, and compares. */
+/* Makes a run of 0.5 s in which fixed bodies are omitted, and one in which they are not, and
+ * compares both. */
 static void assert_same_motion(const baum_mechanism *m, int count)
 {
   baum_simulation_options o = fixed_step();
@@ -139,7 +140,7 @@ static void assert_same_motion(const baum_mechanism *m, int count)
   assert_int_equal(left_out(whole), 0);
   check(baum_simulation_advance_to(run, 0.5));
   check(baum_simulation_advance_to(whole, 0.5));
-  assert_same(run, whole, 1e-11); /* rounding of 500 steps */
+  assert_same(run, whole, 1e-11); /* rounding errors of 500 steps */
   baum_simulation_destroy(run);
   baum_simulation_destroy(whole);
 }
@@ -159,8 +160,8 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* Two bodies and ground, joined by three pins, form a rigid triangle. No body is welded, so none is
- * omitted. */
+/* Two bodies and ground, joined by three pins, form a rigid triangle. No body is welded, so no body
+ * is omitted. */
 static void rigid_islands_are_solved_for(void **state)
 {
   (void)state;
@@ -182,7 +183,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
 {
   (void)state;
   enum { CHAIN = 7 };
-  for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime: all bodies are joined */
+  for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime, so this joins all bodies */
     baum_mechanism *m = begin();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {
@@ -201,7 +202,8 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   }
 }
 
-/* The limit on the number of joints of a body in the block solver does not concern fixed bodies. */
+/* The block solver limits the number of joints of a body. This limit does not concern fixed
+ * bodies. */
 static void a_fixed_body_may_have_any_number_of_joints(void **state)
 {
   (void)state;
@@ -249,9 +251,9 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame. One row is redundant. A row of the frame's weld,
- * the last joint, could be omitted, but rows that fix a body never are: a row of a crank is
- * omitted. */
+/* Three parallel cranks, one of them on a frame. One row is redundant. The weld of the frame is the
+ * last joint, so one of its rows could be omitted. Rows that fix a body must never be omitted, so a
+ * row of a crank is omitted instead. */
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
@@ -333,10 +335,10 @@ static void reactions_of_fixed_bodies_are_right(void **state)
   check(baum_simulation_get(run, channels, 6, got));
   check(baum_simulation_get(whole, channels, 6, want));
   for (int i = 0; i < width; i++) {
-    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions differ by 1e-12, forces reach 1e2 N */
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions differ by 1e-12, and forces reach 1e2 N */
   }
-  assert_true(want[1] > 10.0);                 /* the foot carries a load */
-  check(baum_simulation_advance_to(run, 0.4)); /* reading results changes nothing */
+  assert_true(want[1] > 10.0);                 /* shows that the foot carries a load */
+  check(baum_simulation_advance_to(run, 0.4)); /* reading results must change nothing */
   check(baum_simulation_advance_to(whole, 0.4));
   assert_same(run, whole, 1e-11);
   baum_simulation_destroy(run);
@@ -352,7 +354,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
   baum_simulation *run = start(it.mechanism, &o);
   check(baum_simulation_advance_to(run, 0.2));
   for (int i = 0; i < 3 * FRAMES; i++) {
-    /* Assembly leaves rounding errors of lengths of about 1 m. */
+    /* Assembly leaves rounding errors of lengths that are about 1 m. */
     assert_true(fabs(run->workspace->phi[i]) < 1e-14);
     assert_true(run->workspace->phi_rate[i] == 0.0);
     assert_true(run->workspace->gamma[i] == 0.0);
@@ -361,7 +363,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* ---- states with other positions of fixed bodies ---- */
+/* ---- states in which fixed bodies are elsewhere ---- */
 
 static void frames_out_of_place_are_put_back(void **state)
 {
@@ -425,7 +427,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   q[0] -= 1e-3;
   v[0] = 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
-  /* The violations of the refused state are not counted in the next step. */
+  /* The next step must not count the violations of the refused state. */
   check(baum_simulation_step(run, 1));
   baum_counters counters;
   check(baum_simulation_counters(run, &counters, sizeof counters));

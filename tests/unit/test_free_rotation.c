@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step of the torque-free rotation of a rigid body, and the principal axes that it uses. */
+/* Tests one step of the torque-free rotation of a rigid body, and the principal axes that this step
+ * uses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,8 +18,8 @@
 static const double TILT[4] = {0.7, -0.1, 0.5, 0.5};
 static const double MOMENTUM[3] = {0.9, -0.4, 0.6};
 
-/* All kinds of principal moments, in any order: general, slender and flat bodies, symmetric bodies
- * whose third moment is larger or smaller than the other two, and a sphere. */
+/* Principal moments of all kinds, in any order. There are general, slender and flat bodies, a
+ * sphere, and symmetric bodies whose third moment is larger or smaller than the other two. */
 static const double MOMENTS[][3] = {{1.0, 2.0, 2.7},   {2.0, 0.2, 2.1}, {2.9, 1.4, 1.5},
                                     {2.0, 2.0, 0.5},   {1.0, 1.6, 1.0}, {2.0, 1e-3, 2.0},
                                     {1.0, 2.0, 2.999}, {1.5, 1.5, 1.5}};
@@ -65,7 +66,7 @@ static void principal_axes_are_sorted_and_give_the_tensor(void **state)
   }
 }
 
-/* Orientation p (unit quaternion) and angular momentum m in body axes. */
+/* The orientation p (unit quaternion), and the angular momentum m in body axes. */
 typedef struct motion {
   double p[4];
   double m[3];
@@ -118,8 +119,8 @@ static void check_momentum_in_space(const motion *a, const motion *b)
   }
 }
 
-/* Compares the errors of steps of h and h / 2. The reference uses steps of h / 64; for symmetric
- * bodies the method is exact. */
+/* Compares the error of a step h with the error of a step h / 2. The reference uses steps of
+ * h / 64. For symmetric bodies the method is exact. */
 static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
 {
   (void)state;
@@ -138,7 +139,8 @@ static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
     bool symmetric =
       moments[0] == moments[1] || moments[1] == moments[2] || moments[0] == moments[2];
     if (symmetric) {
-      assert_true(error[0] <= 1e-11); /* rounding of 1e-14, divided by the smallest moment, 1e-3 */
+      /* A rounding error of 1e-14, divided by the smallest moment, which is 1e-3. */
+      assert_true(error[0] <= 1e-11);
     } else {
       assert_true(error[0] >= 1e-7);
       ASSERT_NEAR(error[0] / error[1], 4.0, 0.02, 0.0);

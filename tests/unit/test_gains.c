@@ -63,7 +63,7 @@ static void has(const char *text, const char *part)
   assert_non_null(strstr(text, part));
 }
 
-/* Expects a refusal whose message contains both parts and which leaves the result unchanged. */
+/* Checks a refusal. The message must contain both parts, and the result must not change. */
 static void refused(baum_gains gains, baum_i_gain_context context, baum_status want,
                     const char *part, const char *other_part)
 {
@@ -161,7 +161,7 @@ static void best_damping_is_nowhere_worse_than_its_neighbours(void **state)
     double B = (c.beta * H) * (c.beta * H);
     for (int k = 0; k < 4; k++) {
       double beside = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
-      /* AB2 has a line of equally good points, along which only B changes */
+      /* AB2 has a line of equally good points. Along this line, only B changes. */
       assert_true(beside > c.amplification.spectral_radius - 1e-9);
     }
   }
@@ -249,7 +249,7 @@ static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
   has(c.why, "(40 x 40 1/s, a rate; no freedom is left); variable step");
 }
 
-/* Returns alpha / rate of the rule `auto` with a fixed step. */
+/* Returns alpha / rate that the rule `auto` chooses for a fixed step. */
 static double share_of(const baum_i_method *method)
 {
   if (method->kind != BAUM_I_METHOD_ONE_STEP || method->degree == 1) {
@@ -274,7 +274,7 @@ static void auto_is_capped_and_always_stable(void **state)
   }
 }
 
-/* Explicit Euler with five times the step: stable up to alpha h = beta h = 0.4. */
+/* Explicit Euler with a step five times as long is stable up to alpha h = beta h = 0.4. */
 static void auto_keeps_inside_a_small_region(void **state)
 {
   (void)state;
@@ -291,7 +291,7 @@ static void auto_keeps_inside_a_small_region(void **state)
 static void auto_falls_back_when_nothing_moves(void **state)
 {
   (void)state;
-  static const double nothing[] = {0.0, 1e-8}; /* 1e-8 1/s counts as rounding */
+  static const double nothing[] = {0.0, 1e-8}; /* 1e-8 1/s is considered rounding */
   for (int k = 0; k < 2; k++) {
     baum_i_gain_context context = fixed_step(SEMI_IMPLICIT_EULER);
     context.rate = nothing[k];
@@ -323,7 +323,7 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 static void stable_pairs_near_the_edge_are_warned_of(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* the limit is (2, 4) */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* the limit is at (2, 4) */
                                    {EULER, 1e-3, 1.9e-3},      /* the limit of B is 2 alpha h */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
@@ -337,7 +337,7 @@ static void stable_pairs_near_the_edge_are_warned_of(void **state)
   }
 }
 
-/* Small gains damp weakly too, but only weak damping near the edge is a reason for a warning. */
+/* Small gains also damp weakly. Only weak damping near the edge is a reason for a warning. */
 static void small_or_usual_gains_are_not_warned_of(void **state)
 {
   (void)state;
@@ -366,7 +366,7 @@ static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
     double alpha = pairs[k][0];
     double beta = pairs[k][1];
     double h = chosen(baum_gains_fixed(alpha, beta), rk4).max_step;
-    /* The step is 0.9 of the stability limit, so it is stable, and h / 0.89 is not. */
+    /* h is 0.9 of the stability limit. It is therefore stable, and h / 0.89 is not. */
     double in = amplification_at(RK4, alpha * h, beta * h * beta * h).spectral_radius;
     double out =
       amplification_at(RK4, alpha * h / 0.89, beta * h * beta * h / (0.89 * 0.89)).spectral_radius;
@@ -419,7 +419,7 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
   has(chosen(baum_gains_fixed(2.0, 0.0), variable_step()).why, "warning: beta = 0");
 }
 
-/* No warning: the error test of explicit and Adams methods lets violations decay. */
+/* No warning is needed: the error test of explicit and Adams methods lets violations decay. */
 static void weak_damping_is_a_matter_of_bdf(void **state)
 {
   (void)state;
@@ -533,7 +533,7 @@ static void the_pair_that_a_refusal_offers_is_accepted(void **state)
                             "that is alpha = %lf 1/s, beta = %lf 1/s", &alpha, &beta),
                      2);
     baum_i_gain_choice c = chosen(baum_gains_fixed(alpha, beta), fixed_step(m));
-    ASSERT_NEAR(c.amplification.spectral_radius, 0.9, 0.0, 5e-3); /* printed with four digits */
+    ASSERT_NEAR(c.amplification.spectral_radius, 0.9, 0.0, 5e-3); /* four digits are printed */
   }
 }
 

@@ -22,7 +22,8 @@ static baum_body_id add_arm(planar_scene *scene, double angle)
   return id;
 }
 
-/* Adds gears on an arm and, if neither wheel is ground, gears whose arm is ground. */
+/* Adds gears whose carrier is an arm. If neither wheel is ground, also adds gears whose carrier is
+ * ground. */
 static void add_gears(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_gear_def def = baum_planar_gear_def_default();
@@ -67,9 +68,9 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_gears, false, check_rows_balance);
 }
 
-/* A sun wheel with 20 teeth, a planet with 35, and a fixed ring with 90. By Willis' equation the
- * sun rotates 1 + 90 / 20 times as fast as the arm. Relative to the arm, the planet rotates -20 /
- * 35 times as fast as the sun. */
+/* A sun wheel with 20 teeth, a planet wheel with 35 teeth, and a fixed ring with 90 teeth. By
+ * Willis' equation the sun rotates 1 + 90 / 20 times as fast as the arm. Relative to the arm, the
+ * planet rotates -20 / 35 times as fast as the sun. */
 static void a_planetary_gear_follows_willis(void **state)
 {
   (void)state;
@@ -77,13 +78,13 @@ static void a_planetary_gear_follows_willis(void **state)
   baum_body_id arm = add_arm(&scene, 0.0);
   baum_planar_gear_def def = baum_planar_gear_def_default();
   def.carrier = arm;
-  def.body_a = scene.link;  /* sun */
-  def.body_b = scene.crank; /* planet */
+  def.body_a = scene.link;  /* the sun wheel */
+  def.body_b = scene.crank; /* the planet wheel */
   def.radius_a = 20.0;
   def.radius_b = 35.0;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
   def.body_a = scene.crank;
-  def.body_b = BAUM_GROUND; /* ring */
+  def.body_b = BAUM_GROUND; /* the ring */
   def.radius_a = 35.0;
   def.radius_b = -90.0;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
@@ -91,7 +92,7 @@ static void a_planetary_gear_follows_willis(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* terms of about 50 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* the sum of terms of about 50 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-13);
   double sun = 11.0;
   double turned = sun / (1.0 + 90.0 / 20.0);
@@ -100,7 +101,7 @@ static void a_planetary_gear_follows_willis(void **state)
   p.q[p.mechanism->bodies[scene.crank.index1]->q + 2] += turned - 20.0 / 35.0 * (sun - turned);
   test_point_update(&p);
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-12); /* terms of about 500 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-12); /* the sum of terms of about 500 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-12);
   test_point_close(&p);
 }

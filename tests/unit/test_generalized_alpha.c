@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized-alpha method: order of all unknowns, damping of fast modes, stiff forces, redundant
- * rows, and shortened steps. */
+/* Tests the generalized-alpha method: the order of all unknowns, the damping of fast modes, stiff
+ * forces, redundant rows, and shortened steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -71,8 +71,8 @@ static baum_mechanism *make_oscillating(oscillator *o)
   return one_coordinate(1.0, 0.0, pull, o, NULL);
 }
 
-/* With w h = 1e4 the method's three roots are nearly equal, within about 1e-4 of -rho = -0.8. So
- * the amplitude after k steps is about k^2 rho^k. */
+/* If w h = 1e4, the three roots of the method are nearly equal. They differ from -rho = -0.8 by
+ * about 1e-4. The amplitude after k steps is therefore about k^2 rho^k. */
 static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
 {
   (void)state;
@@ -83,16 +83,17 @@ static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
   check(baum_simulation_step(run, 100));
   double before = baum_simulation_q(run)[0];
   check(baum_simulation_step(run, 1));
-  /* (101 / 100)^2 = 1 + 2 / 100 + ...; 2e-3 allows for the rest and for the roots */
+  /* (101 / 100)^2 = 1 + 2 / 100 + ... The tolerance 2e-3 allows for the other terms and for the
+   * differences of the roots. */
   ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 2e-3, 0.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Damping of 1e4 1/s with steps of 10 ms, for which explicit methods are unstable. The slow motion,
- * x = exp(-w t / (2 d)) for d >> 1, is accurate. The error comes from the first steps, which do not
- * resolve the transition from rest to the slow motion: 3e-4 was measured, a fraction of (w h)^2 =
- * 1e-2. */
+/* The damping is 1e4 1/s and the steps are 10 ms. Explicit methods are unstable with such steps.
+ * The slow motion, which is x = exp(-w t / (2 d)) for d >> 1, is accurate. The error comes from the
+ * first steps, because they do not resolve the transition from rest to the slow motion. It was
+ * measured to be 3e-4, which is a fraction of (w h)^2 = 1e-2. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
@@ -150,7 +151,7 @@ static void positions_velocities_and_multipliers_are_of_order_2(void **state)
 }
 
 /* Compares multipliers after five steps. If the method used the acceleration at the start as its
- * auxiliary acceleration, they would have order 1 at first. */
+ * auxiliary acceleration, the multipliers would have order 1 at first. */
 static void multipliers_are_of_order_2_from_the_start(void **state)
 {
   (void)state;
@@ -189,9 +190,9 @@ static void positions_fulfil_the_constraints_to_rounding(void **state)
   baum_simulation *run = start(m.mechanism, &options);
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
-  assert_true(c.max_phi <= 1e-14);     /* rounding of lengths of 1 m and of angles */
-  assert_true(c.max_phi_rate > 1e-9);  /* O(h^2) */
-  assert_true(c.max_phi_rate <= 1e-2); /* at speeds of up to 45 m/s */
+  assert_true(c.max_phi <= 1e-14);     /* rounding errors of lengths of 1 m and of angles */
+  assert_true(c.max_phi_rate > 1e-9);  /* the velocity error is O(h^2) */
+  assert_true(c.max_phi_rate <= 1e-2); /* speeds are up to 45 m/s */
   assert_int_equal(c.rejected, 0);
   assert_int_equal(c.warnings, 0);
   assert_true(c.nonlinear_iterations >= 1000 && c.nonlinear_iterations <= 4000);
@@ -208,8 +209,8 @@ static void end_of(const model *m, baum_simulation_options *options, double *q)
   baum_simulation_destroy(run);
 }
 
-/* The doubled guide changes only the matrix of the iteration, so the motions differ by no more than
- * its tolerance. */
+/* The doubled guide changes only the matrix of the iteration. The two motions therefore differ by
+ * at most the tolerance of the iteration. */
 static void redundant_rows_alter_nothing(void **state)
 {
   (void)state;
@@ -228,7 +229,7 @@ static void redundant_rows_alter_nothing(void **state)
 }
 
 /* The start is 0.01 m off the circle and has a velocity component along the rod. The first step
- * removes both errors and keeps the velocity component along the circle. */
+ * removes both errors, but keeps the velocity component along the circle. */
 static void a_start_off_the_constraints_is_projected(void **state)
 {
   (void)state;
@@ -241,14 +242,14 @@ static void a_start_off_the_constraints_is_projected(void **state)
   check(baum_simulation_set_state(run, 0.0, q, v));
   check(baum_simulation_step(run, 1));
   assert_true(fabs(hypot(baum_simulation_q(run)[0], baum_simulation_q(run)[1]) - 1.0) <= 1e-14);
-  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* O(h^2) */
+  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* an error of O(h^2) */
   ASSERT_NEAR(baum_simulation_v(run)[0], -1e-4, 0.0, 1e-6);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Samples at one and at two thirds of every step do not change the motion and are as accurate as
- * the results at grid points. */
+/* Samples at one third and at two thirds of every step do not change the motion. They are as
+ * accurate as the results at grid points. */
 static void samples_beside_the_grid_alter_nothing(void **state)
 {
   (void)state;
@@ -279,8 +280,8 @@ static void samples_beside_the_grid_alter_nothing(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A force that changes its sign at x = 0.5 and is so large that the iteration jumps back and forth
- * by thousands of metres. */
+/* This force changes its sign at x = 0.5. It is so large that the iteration jumps back and forth by
+ * thousands of metres. */
 static int jump(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -342,7 +343,7 @@ static void only_index_3_without_gains_is_offered(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* ---- a small stiff coordinate on a large one ---- */
+/* ---- a small and stiff coordinate that measures a large one ---- */
 
 /* The coordinate u = x - 0.4 of unit mass measures the position x of a link. A spring of stiffness
  * k acts on u. */
@@ -409,8 +410,8 @@ static baum_mechanism *link_with_gauge(double *k)
   return m;
 }
 
-/* The scale of u is 1e-5, so the rounding of x is 1e-11 of it, at any step. The iteration must
- * accept this error. */
+/* The scale of u is 1e-5. The rounding error of x is therefore 1e-11 of this scale, whatever the
+ * step. The iteration must accept this error. */
 static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **state)
 {
   (void)state;
@@ -422,7 +423,7 @@ static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **sta
       check(baum_simulation_step(run, 100));
       assert_true(counters_of(run).max_phi < 1e-14);
       assert_true(counters_of(run).nonlinear_iterations <= 600);
-      /* u oscillates about the equilibrium of the spring and the weight */
+      /* u oscillates about the position at which the spring and the weight are in equilibrium. */
       assert_true(fabs(baum_simulation_q(run)[3]) < 100.0 / k);
       baum_simulation_destroy(run);
     }

@@ -34,8 +34,9 @@ static void error_falls_with_the_tolerance(void **state)
     setup.formulation = FORMS[f];
     double factor = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
     print_message("%-10s %.2f\n", baum_formulation_name(FORMS[f]), factor);
-    /* The error should fall by 10^(5/6) = 6.8 per decade of rtol, because IDA has at most order 5.
-     * One motion may deviate; index 3 may deviate more, because its error test omits velocities. */
+    /* The order of IDA is at most 5. When rtol decreases by a factor of 10, the error should
+     * therefore fall by 10^(5/6) = 6.8. Only one motion is tested, so a factor of 6 is accepted.
+     * Index 3 may deviate more, because its error test omits velocities. */
     if (!(factor >= (FORMS[f] == BAUM_FORMULATION_INDEX3 ? 4.0 : 6.0))) {
       fail_msg("%s: factor %.2f", baum_formulation_name(FORMS[f]), factor);
     }
@@ -68,9 +69,9 @@ static violation largest_violation(baum_formulation formulation, double t)
   return largest;
 }
 
-/* The equations contain Phi = 0 at index 3, Phi' = 0 at index 2, and both with GGL. These hold
- * within the tolerance of Newton's iteration. At index 2 Phi drifts, but more slowly than at index
- * 1, where Phi' drifts too. */
+/* At index 3, the equations contain Phi = 0. At index 2 they contain Phi' = 0, and GGL contains
+ * both. These hold within the tolerance of Newton's iteration. At index 2, Phi drifts. The drift is
+ * slower than at index 1, where Phi' drifts too. */
 static void violation_is_as_the_formulation_says(void **state)
 {
   (void)state;
@@ -132,9 +133,10 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* With the exact Jacobian a run must not need more steps or iterations than with IDA's own dense
- * difference Jacobian. Rounding causes deviations, up to 15 % so far; 30 % are allowed. A missing
- * term or a wrong sign needs 2 to 40 times as much work. */
+/* Two runs are compared: one with the exact Jacobian, and one with the dense difference Jacobian
+ * that IDA computes itself. The first must not need more steps or iterations. Rounding causes
+ * deviations. They have been at most 15 % so far, and 30 % are allowed. A missing term or a wrong
+ * sign needs 2 to 40 times as much work. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {
@@ -188,8 +190,8 @@ static void the_exact_jacobian_is_as_good_as_differences(void **state)
 
 /* ---- multipliers ---- */
 
-/* Returns the largest error of IDA's multipliers at the ends of steps up to t, relative to the
- * largest exact multiplier at that time. */
+/* Returns the largest error of IDA's multipliers at the ends of steps up to t. Each error is
+ * relative to the largest exact multiplier at its time. */
 static double multiplier_error(const model *scene, baum_formulation formulation, double gain,
                                double rtol, double t)
 {
@@ -217,10 +219,10 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
   return worst;
 }
 
-/* Requires errors of at most 0.1. The error test excludes multipliers; only Newton's iteration
- * controls them. Its tolerance is 1e-2 of the largest multiplier, with the sizes of the rows as
- * weights (they differ by less than a factor of 10). Without this control the errors would grow to
- * 1e14 times the multipliers. */
+/* Checks that the errors are at most 0.1. The error test excludes multipliers, so that only
+ * Newton's iteration controls them. The tolerance of this iteration is 1e-2 of the largest
+ * multiplier. The sizes of the rows are its weights, and they differ by less than a factor of 10.
+ * Without this control the errors would grow to 1e14 times the multipliers. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -274,8 +276,8 @@ static baum_mechanism *make_sledge(void)
   return mechanism;
 }
 
-/* A body slides freely on a rail, so its exact multipliers are zero. The computed ones are rounding
- * errors, which must not make the run fail. */
+/* A body slides freely on a rail, so that its exact multipliers are zero. The computed ones are
+ * rounding errors, which must not make the run fail. */
 static void multipliers_may_vanish(void **state)
 {
   (void)state;
@@ -288,9 +290,10 @@ static void multipliers_may_vanish(void **state)
       setup.rtol = pow(10.0, -k);
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
       assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
-      /* No step has an error, so IDA doubles every step. The first one is sqrt(rtol) s. */
+      /* No step has an error, so IDA doubles the length of every step. The first one is sqrt(rtol)
+       * s. */
       assert_true(run.steps < 100);
-      for (int i = 0; i < 2; i++) { /* rounding at 10 m in each step */
+      for (int i = 0; i < 2; i++) { /* rounding errors at 10 m, one in each step */
         ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
       }
       integrator_run_close(&run);
@@ -301,8 +304,9 @@ static void multipliers_may_vanish(void **state)
 
 /* ---- units ---- */
 
-/* Returns the number of steps for a pendulum of `mass`. Multipliers are proportional to the mass,
- * but the motion is the same, so the steps must be the same too. */
+/* Returns how many steps IDA needs for a pendulum whose mass is `mass`. The multipliers are
+ * proportional to the mass, but the motion does not depend on it. The number of steps must
+ * therefore be the same. */
 static int64_t steps_with_mass(baum_formulation formulation, double mass)
 {
   baum_mechanism *mechanism = NULL;
@@ -374,8 +378,9 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
 }
 
 /* If the error test excludes multipliers, their error is arbitrary. If it includes them, their
- * error is at most 10 times their tolerance, as for other unknowns (3.5 was measured). Since the
- * order is at least 2, the number of steps rises less than fivefold per decade. */
+ * error is at most 10 times their tolerance, as it is for other unknowns. The value measured was
+ * 3.5. If the tolerance decreases by a factor of 10, the number of steps rises less than fivefold,
+ * because the order is at least 2. */
 static void multipliers_are_tested_as_their_factor_says(void **state)
 {
   (void)state;
@@ -406,9 +411,9 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* The start violates Phi by 1e-2 m and Phi' by 0.3 m/s. The first step must remove the violations
- * that the formulation contains as equations: both with GGL and at index 3, only Phi' at index
- * 2. */
+/* The state at the start has Phi = 1e-2 m and Phi' = 0.3 m/s. The first step must remove those
+ * violations that are zero by the equations of the formulation. With GGL and at index 3 these are
+ * both, and at index 2 only Phi'. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
@@ -427,19 +432,20 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
     const double *end = run.state_q;
     double length = hypot(end[0], end[1]);
     double rate = (end[0] * run.state_v[0] + end[1] * run.state_v[1]) / length;
-    /* The tolerance of lengths is 1e-6 m, that of velocities the same per time constant of the
-     * pendulum. */
+    /* The tolerance of lengths is 1e-6 m. The tolerance of velocities is 1e-6 m per time constant
+     * of the pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05); /* tangential part of v */
+    /* The tangential part of v. */
+    ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05);
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
   }
 }
 
-/* From a consistent start and with the first step that the library chooses, none of the first ten
- * steps is rejected, at any tolerance. Exceptions are one at index 2, by chance, and two at index
- * 3, where a shorter first step would cause more rejections. */
+/* The start is consistent, and the library chooses the first step. At any tolerance, none of the
+ * first ten steps should be rejected. There are exceptions. At index 2 one step is rejected by
+ * chance, and at index 3 two are. A shorter first step would cause more rejections at index 3. */
 static void the_start_is_smooth(void **state)
 {
   (void)state;
@@ -471,9 +477,9 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line adds two redundant rows, which are replaced by lambda_i = 0 and
- * mu_i = 0. The motions with one and two guides differ by their global errors, about 100 rtol after
- * one revolution. */
+/* A second guide on the same line adds two redundant rows. They are replaced by the equations
+ * lambda_i = 0 and mu_i = 0. The motions with one and with two guides differ by their global
+ * errors, which are about 100 rtol after one revolution. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;
@@ -497,9 +503,9 @@ static void redundant_rows_make_no_difference(void **state)
   }
 }
 
-/* The mechanism does not depend on time, and IDA measures time from the start. So a start at 1e9 s,
- * where a double is rounded to 1e-7 s, changes no digit at the ends of steps. Only results inside a
- * step differ, because t itself is rounded. */
+/* The mechanism does not depend on time, and IDA measures time from the start of the run. At 1e9 s,
+ * a double is rounded to 1e-7 s. Even so, a start at this time must change no digit at the ends of
+ * steps. Only results inside a step may differ, because t itself is rounded. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -525,15 +531,15 @@ static void a_late_start_costs_no_digits(void **state)
     double *v = runs[k].v;
     baum_ida()->interpolate(runs[k].self, &runs[k].problem, runs[k].state.t, q, v);
     for (int i = 0; i < 2; i++) {
-      ASSERT_NEAR(q[i], runs[k].state_q[i], 0.0, 1.2e-7 * 5.0); /* speeds below 5 m/s */
+      ASSERT_NEAR(q[i], runs[k].state_q[i], 0.0, 1.2e-7 * 5.0); /* speeds are below 5 m/s */
     }
     integrator_run_close(&runs[k]);
   }
   baum_mechanism_destroy(mechanism);
 }
 
-/* The integrator evaluates the initial state when it is created. If this fails, creation reports it
- * and leaves nothing to destroy. */
+/* The integrator evaluates the initial state when it is created. If this fails, the creation of the
+ * integrator reports the failure and leaves nothing to destroy. */
 static void a_start_that_cannot_be_evaluated_is_refused(void **state)
 {
   (void)state;
@@ -551,7 +557,7 @@ static void a_start_that_cannot_be_evaluated_is_refused(void **state)
   assert_non_null(strstr(baum_message(), "faulty"));
   assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
   run.state.t = 0.0;
-  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts by itself */
+  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* the integrator restarts by itself */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs: which functions receive them, where their values are stored, and how a change affects a
- * run. The runs move a particle of 2 kg along x by a load of 4 N times the input u, so x'' = 2
- * u. */
+/* Tests inputs: which functions receive them, where their values are stored, and how a change of an
+ * input affects a run. In the runs, a load moves a particle of 2 kg along x. The load is 4 N times
+ * the input u, so x'' = 2 u. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 
 typedef struct witness {
   int calls;
-  bool none; /* the inputs were NULL */
+  bool none; /* whether the inputs were NULL */
   double seen[2];
   double fails_at; /* value of the first input at which force() fails */
 } witness;
@@ -44,7 +44,7 @@ static int force(double t, const double *q, const double *v, const double *input
   return look(inputs, user);
 }
 
-/* Records the inputs. The derivative is zero. */
+/* Records the inputs that the function receives. The derivative that it returns is zero. */
 static int force_q(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -89,7 +89,7 @@ static scene empty_scene(bool with_inputs)
   return s;
 }
 
-/* A particle with a load. The initial value of u is 0.5. */
+/* Makes a particle with a load. The initial value of u is 0.5. */
 static scene pushed_scene(void)
 {
   scene s = empty_scene(true);
@@ -102,7 +102,7 @@ static scene pushed_scene(void)
   return s;
 }
 
-/* The same particle with a user force instead of the load. */
+/* Makes the same particle, with a user force instead of the load. */
 static scene user_scene(witness *w, bool with_inputs)
 {
   scene s = empty_scene(with_inputs);
@@ -164,7 +164,7 @@ static void copies_have_the_same_inputs_and_their_own_values(void **state)
   baum_mechanism_destroy(copy);
 }
 
-/* ---- workspaces, and what functions receive ---- */
+/* ---- values of a workspace, and the inputs that functions receive ---- */
 
 static void a_workspace_holds_values_of_its_own(void **state)
 {
@@ -211,7 +211,7 @@ static void force_functions_receive_the_present_values_in_order(void **state)
   check_seen(&seen, w, 0.5);
   assert_int_equal(baum_workspace_set_input(w, s.push, 2.0), BAUM_OK);
   check_seen(&seen, w, 2.0);
-  /* Derivatives receive inputs too; force_q() is called last. */
+  /* Functions for derivatives receive inputs too. The last one that is called is force_q(). */
   baum_sparse sparse = {NULL, NULL, NULL, 0};
   const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
   const double y[4] = {0.0, 0.0, 0.0, 0.0};
@@ -292,9 +292,10 @@ static int64_t restarts_of(baum_simulation *run)
   return c.restarts;
 }
 
-/* Returns the largest allowed error of x and v. Variable steps: 100 rtol times the size of the
- * motion. Fixed steps of order 1: h |x''| T / 2 with h = 1e-3, |x''| <= 6, T = 1. Order 2 and
- * higher: rounding, because the motion between changes of u is a parabola. */
+/* Returns the largest allowed error of x and v. For variable steps, this is 100 rtol times the size
+ * of the motion. For fixed steps of order 1, it is h |x''| T / 2 with h = 1e-3, |x''| <= 6 and
+ * T = 1. For order 2 and higher, only rounding is allowed, because the motion between changes of u
+ * is a parabola. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -303,8 +304,8 @@ static double allowed(step_mode mode)
   return baum_integrator_order(mode.integrator) == 1 ? 3e-3 : 1e-12;
 }
 
-/* Advances to t and compares with the exact motion from (x, v) after the time h with the constant
- * acceleration a. */
+/* Advances to t and compares with the exact motion. This motion starts at (x, v) at a time that is
+ * h earlier, and has the constant acceleration a. */
 static void check_motion(baum_simulation *run, double t, double h, double a, double x, double v,
                          double off)
 {
@@ -317,8 +318,8 @@ enum { CHANGES = 3 };
 
 static void check_run(step_mode mode)
 {
-  /* These times are grid points of fixed steps. Variable-step methods would otherwise cross them
-   * within one long step. */
+  /* These times are grid points of fixed steps. A method with variable steps would otherwise step
+   * over several of them at once. */
   static const double until[CHANGES + 1] = {0.25, 0.375, 0.75, 1.0};
   static const double inputs[CHANGES + 1] = {0.5, -3.0, 0.0, 1.25};
   scene s = pushed_scene();
@@ -333,8 +334,8 @@ static void check_run(step_mode mode)
     assert_true(baum_simulation_input(run, s.push) == inputs[k]);
     assert_true(baum_simulation_time(run) == t);
     assert_true(baum_simulation_q(run)[0] == before[0] && baum_simulation_v(run)[0] == before[1]);
-    /* First advances to a time that the last step before the change may have passed already: the
-     * result must not come from that step. */
+    /* The first call advances to a time shortly after the change. The last step before the change
+     * may already have passed this time, and the result must not come from that step. */
     check_motion(run, t + 1e-3, 1e-3, 2.0 * inputs[k], x, v, allowed(mode));
     double h = until[k] - t;
     check_motion(run, until[k], h, 2.0 * inputs[k], x, v, allowed(mode));
@@ -342,7 +343,7 @@ static void check_run(step_mode mode)
     v += 2.0 * h * inputs[k];
     t = until[k];
   }
-  /* The first value equals the initial one, so it causes no restart. */
+  /* The first value equals the initial value, so it causes no restart. */
   int64_t changes = step_mode_remembers(mode) ? CHANGES : 0;
   assert_true(restarts_of(run) >= changes);
   assert_true(step_mode_is_adams(mode) ||
@@ -375,7 +376,7 @@ static void each_run_has_values_of_its_own(void **state)
   assert_int_equal(baum_simulation_set_input(one, s.push, -1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(one, 1.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(two, 1.0), BAUM_OK);
-  /* The method integrates x = u t^2 exactly, up to rounding in 1000 steps. */
+  /* The method integrates x = u t^2 exactly, up to the rounding errors of 1000 steps. */
   ASSERT_NEAR(baum_simulation_q(one)[0], -1.0, 1e-12, 0.0);
   ASSERT_NEAR(baum_simulation_q(two)[0], 0.5, 1e-12, 0.0);
   assert_int_equal(baum_mechanism_get_input(s.mechanism, s.push, &initial), BAUM_OK);
@@ -396,7 +397,7 @@ static void a_state_that_is_set_keeps_the_inputs(void **state)
   assert_int_equal(baum_simulation_set_state(run, 0.0, zero, zero), BAUM_OK);
   assert_true(baum_simulation_input(run, s.push) == 3.0);
   assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_OK);
-  ASSERT_NEAR(baum_simulation_q(run)[0], 3.0, 1e-12, 0.0); /* rounding, as above */
+  ASSERT_NEAR(baum_simulation_q(run)[0], 3.0, 1e-12, 0.0); /* rounding errors, as above */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
@@ -419,8 +420,8 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
   assert_true(baum_simulation_input(run, s.push) == 0.5);
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
-  /* The run continues with the old input, also at the first times, which lie inside the last
-   * step. */
+  /* The run continues with the old input. The first times lie inside the last step, and this must
+   * be true for them as well. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Properties of integrators, and functions that all of them use. */
+/* Tests the properties of integrators, and the functions that all integrators use. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 
 typedef struct facts {
   const char *name;
-  int order; /* 0: variable */
+  int order; /* 0 if the order is variable */
   baum_formulation offered[6];
   baum_gain_rule gains;
 } facts;
@@ -171,8 +171,9 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The state violates Phi and Phi', so the acceleration along the rod depends on the gains. Only
- * Baumgarte's formulation may use them, with the sign of alpha reversed backwards in time. */
+/* The state violates Phi and Phi'. The acceleration along the rod therefore depends on the gains.
+ * Only Baumgarte's formulation may use the gains. If the run goes backwards in time, the sign of
+ * alpha is reversed. */
 static void gains_follow_formulation_and_direction(void **state)
 {
   (void)state;
@@ -206,8 +207,8 @@ static void stability_comes_from_the_integrators_own_description(void **state)
 {
   (void)state;
   baum_amplification out;
-  /* The Taylor gains A = 1, B = 2 give z^2 + 1 = 0 with explicit Euler and z^2 + 2 z - 1 = 0 with
-   * semi-implicit Euler. */
+  /* At the Taylor gains A = 1, B = 2, the roots satisfy z^2 + 1 = 0 with explicit Euler, and
+   * z^2 + 2 z - 1 = 0 with semi-implicit Euler. */
   assert_int_equal(baum_stability_at(baum_euler(), 1.0, 2.0, &out, sizeof out), BAUM_OK);
   assert_int_equal(out.stability, BAUM_MARGINAL);
   ASSERT_NEAR(out.spectral_radius, 1.0, 1e-15, 0.0);
@@ -221,7 +222,7 @@ static void stability_comes_from_the_integrators_own_description(void **state)
   assert_true(isnan(out.spectral_radius));
   double limit = 0.0;
   assert_int_equal(baum_stability_limit(baum_rk4(), 1.0, &limit), BAUM_OK);
-  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* on the real axis of mu */
+  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* the limit on the real axis of mu */
   double good[2];
   assert_int_equal(baum_stability_deadbeat(baum_semi_implicit_euler(), &good[0], &good[1]),
                    BAUM_OK);

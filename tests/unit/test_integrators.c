@@ -12,11 +12,11 @@
 
 /* ---- the common tests ---- */
 
-/* An integrator with one of its formulations and a kind of step (fixed or variable). */
+/* An integrator with one of its formulations. The step is fixed or variable. */
 typedef struct method {
   const baum_integrator *integrator;
   baum_formulation formulation;
-  bool fixed; /* false: variable step */
+  bool fixed; /* whether the step is fixed */
 } method;
 
 typedef void battery_fn(const method *m);
@@ -33,7 +33,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const method *m)
   return setup;
 }
 
-/* Calls a test for every integrator of this build with each formulation and kind of step. */
+/* Calls a test for every integrator of this build, with each of its formulations and each kind of
+ * step. */
 static void for_each(battery_fn *test)
 {
   for (int k = 0; baum_integrator_at(k); k++) {
@@ -49,7 +50,7 @@ static void for_each(battery_fn *test)
   }
 }
 
-/* Returns the error at t, or at -t if the run goes backwards in time. */
+/* Returns the error at time t. If the run goes backwards in time, returns the error at -t. */
 static double error_at(baum_mechanism *mechanism, const integrator_setup *setup, double t,
                        motion_fn *motion, double rate)
 {
@@ -67,15 +68,15 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
   return error;
 }
 
-/* Returns the largest allowed error with rtol = 1e-6 or h = 1e-3, for motions with rates of 2 to 6
- * 1/s. It is larger for index 3, whose velocities are inaccurate. */
+/* Returns the largest allowed error for rtol = 1e-6 or h = 1e-3. The motions have rates of 2 to 6
+ * 1/s. The error for index 3 may be larger, because its velocities are inaccurate. */
 static double allowed(const integrator_setup *setup)
 {
-  /* By order; index 0: variable step. From order 5 on: rounding in 2000 steps and in the
-   * reference. */
+  /* The allowed error for each order. The first entry is for variable steps. From order 5 on, the
+   * errors are rounding errors of 2000 steps and of the reference. */
   static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
-  /* Adams methods have larger error constants, 5/12, 3/8 and 251/720, than Runge-Kutta methods,
-   * about 1/k!. */
+  /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
+   * constants of Runge-Kutta methods, which are about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
            ? 3e-2
@@ -130,8 +131,8 @@ static void a_pendulum_swings_forward_and_backward_in_time(void **state)
   for_each(swing);
 }
 
-/* From 0.7 s on the force returns "stop" (-1) or asks for smaller steps (1) at every call. The run
- * must fail and keep the state of the last good step. */
+/* From 0.7 s on, the force fails at every call. It either returns "stop" (-1), or asks for smaller
+ * steps (1). The run must fail, and must keep the state at the end of the last good step. */
 static void meet_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
@@ -173,7 +174,8 @@ static void stop_at_once(const method *m)
   while (integrator_run_step(&run) == BAUM_OK) {
     fault.calls = 0;
   }
-  assert_true(fault.calls <= 16); /* calls in the failing step before and including the stop */
+  /* The calls in the failing step, up to the one that returned "stop". */
+  assert_true(fault.calls <= 16);
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
@@ -184,7 +186,7 @@ static void a_function_that_stops_is_left_alone(void **state)
   for_each(stop_at_once);
 }
 
-/* Restarts after a failure: from another time, then backwards in time. */
+/* After a failure, restarts the run at another time, and then backwards in time. */
 static void begin_anew(const method *m)
 {
   if (m->fixed || !m->integrator->restart) {
@@ -225,7 +227,7 @@ static void a_restart_works_after_a_failure_and_backwards(void **state)
   for_each(begin_anew);
 }
 
-/* After two failures the force works again, and the run continues from the last good state. */
+/* The force fails twice and then works again. The run must continue from the last good state. */
 static void go_on(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
@@ -251,7 +253,7 @@ static void a_run_goes_on_when_what_failed_is_mended(void **state)
   for_each(go_on);
 }
 
-/* Interpolates inside the last step and at its ends. Other times must be refused. */
+/* Interpolates inside the last step and at both of its ends. Other times must be refused. */
 static void look_inside(const method *m)
 {
   if (m->fixed) {
@@ -288,8 +290,8 @@ static void positions_inside_the_last_step_are_interpolated(void **state)
   for_each(look_inside);
 }
 
-/* With a tolerance below rounding the first step becomes too short. The run fails with advice to
- * raise rtol. */
+/* The tolerance is below rounding, so that the first step becomes too short. The run must fail, and
+ * its message must advise to raise rtol. */
 static void ask_too_much(const method *m)
 {
   if (m->fixed) {
@@ -313,8 +315,8 @@ static void too_small_tolerances_are_an_error_of_the_step(void **state)
   for_each(ask_too_much);
 }
 
-/* Near 1e15 s adjacent doubles are 0.125 s apart, so the ends of sufficiently short steps are not
- * representable. The run must fail. */
+/* Near 1e15 s, neighbouring doubles are 0.125 s apart. The end of a shorter step therefore cannot
+ * be represented. The run must fail. */
 static void lose_the_step(const method *m)
 {
   if (m->fixed) {
@@ -351,17 +353,17 @@ static double error_with_step(const method *m, double step)
   integrator_setup setup = setup_of(mechanism, m);
   setup.step = step;
   if (m->integrator->gains == BAUM_GAINS_DEADBEAT) {
-    setup.gain = 0.5 / step; /* stable with both Euler methods */
+    setup.gain = 0.5 / step; /* a gain that is stable with both Euler methods */
   }
   double error = error_at(mechanism, &setup, 1.6, pendulum_motion, 4.43);
   baum_mechanism_destroy(mechanism);
   return error;
 }
 
-/* Computes the order from the errors at the step COARSE and at this step halved three times. COARSE
- * is so short that the leading error term dominates, and so long that all errors are far above
- * rounding (1e-13). For orders 5 and 8 no such step exists: two halvings and a larger deviation are
- * allowed. */
+/* Computes the order of a method from two errors: with the step COARSE, and with this step halved
+ * three times. COARSE is short enough for the leading error term to dominate. It is long enough for
+ * all errors to be far above rounding (1e-13). For orders 5 and 8 there is no such step. There the
+ * step is halved only twice, and a larger deviation is allowed. */
 static void observe_order(const method *m)
 {
   static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};
@@ -387,8 +389,8 @@ static void fixed_step_methods_have_their_order(void **state)
 
 /* ---- tolerances ---- */
 
-/* BDF methods receive a fraction of rtol, but never less than 1e-13: smaller tolerances would cause
- * more steps but not smaller errors, because of rounding. */
+/* BDF methods receive a fraction of rtol, but at least 1e-13. With smaller tolerances they would
+ * need more steps, but their errors would not become smaller, because of rounding. */
 static void bdf_is_given_a_portion_of_rtol(void **state)
 {
   (void)state;

@@ -82,7 +82,7 @@ static void ground_holds_no_island_together(void **state)
   (void)state;
   baum_mechanism *m = begin();
   baum_body_id a = add_body(m, 1.0, 0.0);
-  (void)add_body(m, 5.0, 5.0); /* without joints */
+  (void)add_body(m, 5.0, 5.0); /* a body without joints */
   baum_body_id b = add_body(m, 1.0, 3.0);
   baum_body_id tip = add_body(m, 3.0, 0.5);
   pin(m, BAUM_GROUND, b, 0.0, 3.0);
@@ -92,12 +92,12 @@ static void ground_holds_no_island_together(void **state)
   assert_island(count(m, 3), 2, 3, 5);
 }
 
-/* A chain of bodies whose joints are added in a mixed order. */
+/* Makes a chain of bodies. Its joints are added in a mixed order. */
 static void joints_in_any_order_make_one_island(void **state)
 {
   (void)state;
   enum { BODIES = 41 };
-  for (int step = 1; step < BODIES; step++) { /* 41 is prime: all bodies are joined */
+  for (int step = 1; step < BODIES; step++) { /* 41 is prime, so this joins all bodies */
     baum_mechanism *m = begin();
     baum_body_id bodies[BODIES];
     for (int k = 0; k < BODIES; k++) {
@@ -119,7 +119,7 @@ static void a_welded_frame_holds_no_island_together(void **state)
   baum_body_id frame = add_body(m, 0.0, 0.0);
   baum_body_id right = add_body(m, 2.0, -1.0);
   baum_body_id plate = add_body(m, 1.0, 0.0);
-  baum_body_id hand = add_body(m, 2.0, -2.0); /* welded, but to a moving body */
+  baum_body_id hand = add_body(m, 2.0, -2.0); /* it is welded, but to a body that moves */
   pin(m, frame, left, 0.0, 0.0);
   weld(m, plate, frame);
   weld(m, frame, BAUM_GROUND);

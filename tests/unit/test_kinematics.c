@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The kinematics integrator: mechanisms without degrees of freedom stay on their branch (assembly
- * mode), and positions are accurate to rounding. */
+/* Tests the kinematics integrator. Mechanisms without degrees of freedom must stay on their branch
+ * (assembly mode), and their positions must be accurate to rounding. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +19,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Newton's iteration continues until Phi is only rounding, so errors are those of a few operations
- * with lengths up to 5 m. */
+/* Newton's iteration continues until Phi contains only rounding errors. Positions are therefore as
+ * accurate as a few operations with lengths of up to 5 m. */
 static const double EXACT = 1e-13;
 
 /* ---- runs ---- */
@@ -60,8 +60,8 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 
 /* ---- branches ---- */
 
-/* Draws a configuration on either branch, more than a few hundredths of a radian from a lock-up,
- * and a velocity of 0.01 to 100 rad/s in either direction. */
+/* Chooses a random configuration on either branch. It is at least a few hundredths of a radian from
+ * a lock-up. The velocity is 0.01 to 100 rad/s, in either direction. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -82,8 +82,8 @@ typedef struct tally {
   int64_t evaluations;
 } tally;
 
-/* Computes 20 outputs, between which the crank rotates by `gap` rad, and compares them with the
- * branch of the start. */
+/* Makes a run with 20 outputs. Between two outputs, the crank rotates by `gap` rad. The outputs are
+ * compared with the branch on which the run started. */
 static void follow(const slider_crank *data, double gap, tally *all)
 {
   baum_mechanism *mechanism = slider_crank_make(data);
@@ -103,8 +103,8 @@ static void follow(const slider_crank *data, double gap, tally *all)
   close_run(run, mechanism);
 }
 
-/* For the same crank angle the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2)
- * apart: 0.11 m, 0.011 m and 0.0011 m for the three rods. */
+/* For one crank angle, the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2) apart.
+ * For the three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;
@@ -119,13 +119,14 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
     printf("rod %.6f m: error %.1e m, Phi %.1e; per output %.1f steps, %.1f factorizations of J\n",
            rods[i], all.error, all.phi, (double)all.steps / (double)all.outputs,
            (double)all.evaluations / (double)all.outputs);
-    /* The crank's angle reaches 60 rad, with rounding of 1e-14; velocity ratios reach 200. */
+    /* The crank angle reaches 60 rad and has a rounding error of 1e-14. Velocity ratios reach
+     * 200. */
     assert_true(all.error <= 1e-11);
     assert_true(all.phi <= 1e-13);
   }
 }
 
-/* One output after 1000 revolutions: errors must not accumulate. */
+/* The only output is after 1000 revolutions. Errors must not accumulate until then. */
 static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 {
   (void)state;
@@ -143,8 +144,8 @@ static void a_thousand_revolutions_end_where_the_crank_says(void **state)
 
 enum { LOOPS = 8 };
 
-/* One mechanism of eight independent slider-cranks with random configurations, any of which may be
- * close to its other branch. */
+/* One mechanism contains eight independent slider-cranks in random configurations. Any of them may
+ * be close to its other branch. */
 static void no_loop_of_many_leaves_its_branch(void **state)
 {
   (void)state;
@@ -199,8 +200,8 @@ static void positions_velocities_accelerations_are_those_of_the_closed_form(void
   close_run(run, mechanism);
 }
 
-/* By virtual power, the torque of the motor times its angular velocity is the sum of (m a - f) v
- * over all coordinates. */
+/* By the principle of virtual power, the power of the motor's torque is the sum of (m a - f) v over
+ * all coordinates. */
 static void the_multiplier_of_the_driver_is_its_torque(void **state)
 {
   (void)state;
@@ -221,8 +222,8 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
       double weight = i % 3 == 1 ? -9.81 * mass[i] : 0.0;
       power += (mass[i] * row[SLIDER_NV + i] - weight) * row[i];
     }
-    /* The driver has J = 1 for the crank's angle, so its torque is -lambda. Powers are about 10
-     * W. */
+    /* The J of the driver is 1 for the crank's angle. The torque of the driver is therefore
+     * -lambda. Powers are about 10 W. */
     ASSERT_NEAR(-row[2 * SLIDER_NV + MOTOR_ROW], power / -20.0, 1e-11, 1e-12);
   }
   close_run(run, mechanism);
@@ -244,7 +245,7 @@ static void a_driven_four_bar_follows_its_crank_for_many_revolutions(void **stat
   close_run(run, mechanism);
 }
 
-/* The crank angle 1.55 + 1.2 sin 2 t varies from 0.35 to 2.75 rad, so it avoids the flat
+/* The crank angle is 1.55 + 1.2 sin 2 t. It varies from 0.35 to 2.75 rad, and thus avoids the flat
  * configurations at 0 and pi. */
 static int swing(double t, double s[3], void *user)
 {
@@ -268,11 +269,13 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     double t = 0.31 * k;
     double s[3];
     baum_status status = baum_simulation_advance_to(run, t);
-    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* redundant row */
+    /* Scene 1 has a redundant row, so it warns. */
+    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1));
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* error growth 1 / sin(angle) <= 3 */
+    /* Errors grow by 1 / sin(angle), which is at most 3. */
+    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);
     for (int i = 0; i < 3; i++) {
@@ -315,7 +318,8 @@ static void backward_in_time_is_the_same_motion(void **state)
     double x[3];
     advance(run, times[k]);
     slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
-    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* of 28 rad x ratio 20 */
+    /* Rounding of 28 rad, times the velocity ratio 20. */
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12);
     ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
   }
   assert_int_equal(counters_of(run).restarts, 3);
@@ -341,7 +345,7 @@ static void a_crank_at_rest_stays_for_any_time(void **state)
   close_run(run, mechanism);
 }
 
-/* The crank rotates by 2 rad and back from t = 5 s to 5.2 s, and rests otherwise. */
+/* From t = 5 s to 5.2 s, the crank rotates by 2 rad and back. At all other times it is at rest. */
 static int bump(double t, double s[3], void *user)
 {
   (void)user;
@@ -353,7 +357,7 @@ static int bump(double t, double s[3], void *user)
   return 0;
 }
 
-/* Without max_step the kinematics integrator may step over this motion; outputs inside it must be
+/* Without max_step, the kinematics integrator may step over this motion. Outputs inside it must be
  * right nevertheless. */
 static void outputs_inside_a_motion_that_steps_may_pass_over_are_right(void **state)
 {
@@ -422,7 +426,8 @@ static void units_do_not_matter(void **state)
   assert_int_equal(steps[1], steps[0]);
 }
 
-/* The other branch is equally valid: after set_state() to it the run stays on it. */
+/* The other branch is equally valid. After set_state() has set a state on it, the run must stay on
+ * it. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
   (void)state;
@@ -445,8 +450,8 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
-/* The driver is set to another velocity, then to an angle slightly ahead of the crank, then to one
- * that is too far away and is refused. */
+/* The driver is set to another velocity, and then to an angle slightly ahead of the crank. A third
+ * angle is too far away, and is refused. */
 static void a_driver_can_be_set_in_a_run(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The kinematics integrator: what it refuses, and where it stops instead of jumping to another
+/* Tests what the kinematics integrator refuses, and where it stops instead of jumping to another
  * branch. */
 #include <math.h>
 #include <setjmp.h>
@@ -74,7 +74,7 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   worst->error = fmax(worst->error, fabs(baum_simulation_q(run)[SLIDER_X] - x[0]));
   (void)snprintf(when, sizeof when, "t = %.9g s: ", t);
   assert_non_null(strstr(baum_simulation_message(run), when));
-  /* A second attempt fails too, but the run can go back in time. */
+  /* A second attempt also fails. The run can still go back in time. */
   ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR, "locks up");
   assert_true(baum_simulation_time(run) >= t);
   assert_true(baum_simulation_advance_to(run, 0.0) >= BAUM_OK);
@@ -83,8 +83,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   close_run(run, mechanism);
 }
 
-/* With a rod of 0.14 m, an offset of 0.05 m and a crank of 0.1 m no configuration exists for crank
- * angles between -64 and -116 degrees. */
+/* The rod is 0.14 m long, the offset is 0.05 m, and the crank is 0.1 m long. For crank angles
+ * between -64 and -116 degrees, no configuration exists. */
 static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
 {
   (void)state;
@@ -101,13 +101,13 @@ static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
   }
   printf("stopped at most %.1e rad from the lock-up, %.1e m off the branch\n", worst.to_lock,
          worst.error);
-  /* The crank rotates by 1e-10 rad in the shortest step. At 1e-9 rad from the lock-up, rounding of
-   * the angle is amplified 1e4 times. */
+  /* The crank rotates by 1e-10 rad in the shortest step. At a distance of 1e-9 rad from the
+   * lock-up, the rounding error of the angle is amplified 1e4 times. */
   assert_true(worst.to_lock <= 1e-6);
   assert_true(worst.error <= 1e-9);
 }
 
-/* Outputs before the lock-up are computed, although the last output is behind it. */
+/* The outputs before the lock-up must be computed, although the last output lies behind it. */
 static void outputs_up_to_the_lock_up_are_given(void **state)
 {
   (void)state;
@@ -125,13 +125,14 @@ static void outputs_up_to_the_lock_up_are_given(void **state)
   for (int k = 0; k < 3; k++) {
     double x[3];
     slider_crank_motion(&data, -times[k], x);
-    ASSERT_NEAR(q[k][SLIDER_X], x[0], 0.0, 1e-12); /* rounding is amplified 1e3 times at 1e-6 rad */
+    /* At 1e-6 rad, rounding errors are amplified 1e3 times. */
+    ASSERT_NEAR(q[k][SLIDER_X], x[0], 0.0, 1e-12);
   }
   close_run(run, mechanism);
 }
 
-/* When a parallelogram is flat it can continue as an antiparallelogram. There J is singular and the
- * driver does not determine the motion, so the run stops before. */
+/* When a parallelogram is flat it can continue as an antiparallelogram. In this configuration J is
+ * singular, and the driver does not determine the motion. The run must therefore stop before it. */
 static void where_branches_cross_a_run_stops(void **state)
 {
   (void)state;
@@ -149,7 +150,8 @@ static void where_branches_cross_a_run_stops(void **state)
   }
 }
 
-/* Rows 0 and 2 are equal until 0.5 s, so one is omitted. Later they contradict each other. */
+/* Rows 0 and 2 are equal until 0.5 s. Until then, one of them is omitted. Later they contradict
+ * each other. */
 static int part(double t, const double *q, double *out, void *user)
 {
   (void)user;
@@ -179,7 +181,8 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
   baum_simulation *run = open_run(mechanism);
   ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
               "kinematics: a row of |\"rows\" that was omitted as redundant no longer");
-  /* The run tolerates violations up to 1e-6, which is (t - 0.5)^2 after 1e-3 s. */
+  /* The run tolerates violations of up to 1e-6. The violation is (t - 0.5)^2, which reaches this
+   * limit after 1e-3 s. */
   ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
   close_run(run, mechanism);
 }
@@ -188,7 +191,7 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
 
 typedef struct fault {
   double after; /* [s] */
-  int answer;   /* 0: sets NaN; 9: the law jumps */
+  int answer;   /* 0: the law sets NaN; 9: the law jumps */
   int64_t calls;
 } fault;
 
@@ -251,7 +254,7 @@ static void a_law_that_stops_is_left_alone(void **state)
   f.after = -1.0;
   f.calls = 0;
   assert_int_equal(baum_simulation_step(run, 1), BAUM_ERR_CALLBACK);
-  assert_true(f.calls <= 3); /* one call in the step, the others for the present state */
+  assert_true(f.calls <= 3); /* one call in the step, and the others for the present state */
   close_run(run, mechanism);
 }
 
@@ -306,7 +309,7 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A start 0.01 m off the constraints is corrected; one that is 1 m off is refused. */
+/* A start that is 0.01 m off the constraints is corrected. A start that is 1 m off is refused. */
 static void a_start_off_the_constraints_is_solved_or_refused(void **state)
 {
   (void)state;
@@ -363,8 +366,8 @@ static void a_restart_that_fails_changes_nothing(void **state)
   close_run(run, mechanism);
 }
 
-/* The run is at its flat configuration at 0.8 s. This state fulfils the constraints but is refused,
- * because two branches continue from it. */
+/* The run reaches its flat configuration at 0.8 s. A state in this configuration satisfies the
+ * constraints. It is refused, because two branches continue from it. */
 static void a_singular_state_cannot_be_set(void **state)
 {
   (void)state;

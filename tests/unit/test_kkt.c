@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems: products with the matrix, solutions, and what is refused. */
+/* Tests saddle-point systems: products with the matrix, solutions, and systems that are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,8 @@ static void products_agree_with_the_dense_matrix(void **state)
     for (int j = 0; j < n; j++) {
       want += matrix[i * n + j] * (j < nv ? system.f[j] : system.r[j - nv]);
     }
-    ASSERT_NEAR(y[i], want, 0.0, 1e-14); /* rounding in sums of about 20 numbers up to 2 */
+    /* Rounding errors of sums of about 20 numbers of up to 2. */
+    ASSERT_NEAR(y[i], want, 0.0, 1e-14);
   }
   free(matrix);
   free(y);
@@ -107,7 +108,7 @@ static void omitted_rows_have_no_multiplier_and_no_influence(void **state)
     baum_i_kkt *kkt = make_solver(&system, choices[k]);
     for (int i = 0; i < system.structure.nc; i += 4) {
       system.omitted[i] = 1;
-      system.r[i] = 1e30; /* is never read */
+      system.r[i] = 1e30; /* must never be read */
     }
     solve_and_compare(kkt, &system, 1e-10);
     for (int i = 0; i < system.structure.nc; i += 4) {

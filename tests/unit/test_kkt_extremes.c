@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saddle-point systems in extreme cases: units, very different masses, bodies without mass,
- * singular configurations, contradictory rows. */
+/* Tests saddle-point systems in extreme cases: unusual units, very different masses, bodies without
+ * mass, singular configurations, and rows that contradict each other. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,8 +19,8 @@
 
 /* ---- size and units ---- */
 
-/* Changes the unit of length to 1 m / per_metre. Coordinates j with j % 3 == 2 are angles; all
- * other coordinates and all rows are lengths. */
+/* Changes the unit of length from 1 m to 1 m / per_metre. Coordinates j with j % 3 == 2 are angles.
+ * All other coordinates, and all rows, are lengths. */
 static void change_unit(saddle *system, double per_metre)
 {
   for (int b = 0; b < system->structure.mass_block_count; b++) {
@@ -54,8 +54,8 @@ static saddle make_pose(int loops, double angle)
   return system;
 }
 
-/* Solves in metres and in another unit and compares the accelerations in metres. Returns the worse
- * of the two qualities. */
+/* Solves a system in metres and in another unit, and compares the accelerations in metres. Returns
+ * the worse of the two qualities. */
 static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
 {
   baum_i_kkt_quality worst = BAUM_I_KKT_GOOD;
@@ -79,8 +79,8 @@ static baum_i_kkt_quality compare_units(double angle, double per_metre, double t
   for (int j = 0; j < 15; j++) {
     ASSERT_NEAR(a[1][j], a[0][j], 0.0, tolerance);
   }
-  /* The scale factors d_j and e_i of the solver are powers of two, so each compensates a change of
-   * unit within a factor of two. */
+  /* The scale factors d_j and e_i of the solver are powers of two. Each of them therefore
+   * compensates a change of unit to within a factor of two. */
   assert_true(rcond[0] <= 64.0 * rcond[1] && rcond[1] <= 64.0 * rcond[0]);
   return worst;
 }
@@ -91,7 +91,8 @@ static void the_unit_of_length_does_not_matter(void **state)
   const double units[] = {1e3, 1e-3, 39.37, 1e9, 1e-9};
   for (int k = 0; k < 5; k++) {
     assert_int_equal(compare_units(1.0, units[k], 1e-14), BAUM_I_KKT_GOOD);
-    /* Here rounding is divided by 1e-4 rad, the distance from the singular configuration. */
+    /* The distance from the singular configuration is 1e-4 rad here. Rounding errors are divided by
+     * it. */
     assert_int_equal(compare_units(1e-4, units[k], 1e-10), BAUM_I_KKT_GOOD);
   }
 }
@@ -99,7 +100,7 @@ static void the_unit_of_length_does_not_matter(void **state)
 static void masses_of_very_different_size_are_all_accurate(void **state)
 {
   (void)state;
-  /* Every second body is 1e-27 to 1e21 times as heavy as the others. */
+  /* Every second body is made 1e-27 to 1e21 times as heavy as the others. */
   for (int exponent = -27; exponent <= 21; exponent += 3) {
     saddle system = make_pose(3, 1.0);
     double want[MOST_UNKNOWNS];
@@ -193,7 +194,7 @@ static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
   }
 }
 
-/* A row of particles, each tied to the next one. Only the first has mass. */
+/* Makes a row of particles, each of which is tied to the next one. Only the first has mass. */
 static saddle make_massless_row(int particles)
 {
   saddle system = saddle_make_dense(particles, particles - 1);
@@ -214,7 +215,7 @@ static void scales_spread_along_bodies_without_mass(void **state)
   saddle system = make_massless_row(6);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   solve_and_compare(kkt, &system, 1e-15);
-  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* sum of the forces / mass */
+  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* the sum of the forces divided by the mass */
   assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
   baum_i_kkt_destroy(kkt);
   saddle_free(&system);
@@ -224,7 +225,7 @@ static void a_free_body_without_mass_is_singular_under_load(void **state)
 {
   (void)state;
   saddle system = make_massless_row(3);
-  system.jacobian[5] = 0.0; /* releases the last particle */
+  system.jacobian[5] = 0.0; /* the last particle is no longer tied */
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor(kkt, &system), BAUM_OK);
   assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
@@ -253,8 +254,8 @@ static void a_system_without_mass_is_solved_by_its_rows(void **state)
 
 /* ---- singular positions ---- */
 
-/* Solves for 720 angles in steps of half a degree. Skips the flat configurations, which are
- * singular. */
+/* Solves the system for 720 angles, in steps of half a degree. Skips the flat configurations, which
+ * are singular. */
 static void turn_and_solve(int loops, double start)
 {
   saddle system = make_pose(loops, start);
@@ -280,8 +281,8 @@ static void turn_and_solve(int loops, double start)
 static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere(void **state)
 {
   (void)state;
-  /* Starts at 90 and at 45 degrees, where entries are zero or equal except for rounding, and at 1
-   * rad. */
+  /* The start angles are 90 degrees, 45 degrees and 1 rad. At the first two, some entries are zero
+   * or equal except for rounding. */
   const double starts[] = {PI / 2.0, PI / 4.0, 1.0};
   for (int k = 0; k < 3; k++) {
     turn_and_solve(1, starts[k]);
@@ -292,8 +293,8 @@ static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhe
 static void pivots_that_have_become_small_are_chosen_again(void **state)
 {
   (void)state;
-  /* J is a rotation matrix, whose diagonal pivots vanish every 180 degrees. test_klu.c shows what
-   * happens if they are kept. */
+  /* J is a rotation matrix. Its diagonal entries become zero every 180 degrees, so they cannot
+   * always be the pivots. test_klu.c shows what happens if these pivots are kept. */
   saddle system = saddle_make_dense(2, 2);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_KLU);
   system.r[0] = 1.0;
@@ -323,7 +324,8 @@ static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **st
     assert_int_equal(solve(kkt, &system), BAUM_OK);
     saddle_solve(&system, want);
     for (int j = 0; j < system.structure.nv; j++) {
-      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* 5 eps / distance */
+      /* The error is 5 eps / distance. */
+      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15);
     }
     assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 0);
     baum_i_kkt_destroy(kkt);
@@ -380,7 +382,7 @@ static saddle make_repeated(double error)
     system.f[j] = saddle_random(&seed);
     double x = saddle_random(&seed);
     for (int i = 0; i < 3; i++) {
-      system.jacobian[4 * i + j] = (1.0 + i) * x; /* 1, 2 and 3 times the row */
+      system.jacobian[4 * i + j] = (1.0 + i) * x; /* the row multiplied by 1, 2 and 3 */
     }
     system.jacobian[12 + j] = saddle_random(&seed);
   }
@@ -396,7 +398,8 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* tolerated: < 1e-8 of r */
+    /* Tolerated, because it is below 1e-8 of r. */
+    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10);
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);
     assert_int_equal(solve(kkt, &system), BAUM_OK);
@@ -411,8 +414,9 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* Contradictions of both signs, from 1e-6 up to 1e12, beside which the other right sides are lost
- * in rounding. Afterwards the same factors solve the system without the contradiction. */
+/* The contradictions have both signs and sizes from 1e-6 to 1e12. Beside the largest ones, the
+ * other right sides are lost in rounding. Afterwards, the same factors must solve the system
+ * without the contradiction. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;
@@ -422,8 +426,8 @@ static void rows_that_contradict_each_other_are_singular(void **state)
       saddle system = make_repeated(errors[e]);
       baum_i_kkt *kkt = make_solver(&system, choices[k]);
       baum_status status = factor(kkt, &system);
-      /* KLU finds the rank deficiency when it factors, and refuses; least squares find the
-       * contradiction when they solve. */
+      /* KLU finds the rank deficiency when it factorizes the matrix, and refuses. The least-squares
+       * solver finds the contradiction only when it solves. */
       assert_int_equal(status, choices[k] == BAUM_I_KKT_KLU ? BAUM_ERR_SINGULAR : BAUM_OK);
       system.a[0] = 123.0;
       assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);

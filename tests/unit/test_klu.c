@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The KLU backend alone, without the checks that the solver of the whole system adds. */
+/* Tests the KLU backend alone, without the checks that the solver of the whole system adds to
+ * it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -74,7 +75,7 @@ static void kept_pivots_may_silently_give_nonsense_and_rcond_shows_it(void **sta
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_CHOOSE), BAUM_OK);
   assert_true(rcond(&klu) > 0.1);
   assert_true(solve(&klu, &system) < 1e-15);
-  turn(&system, PI / 2.0); /* the kept pivots cos(angle) are now 6e-17 */
+  turn(&system, PI / 2.0); /* the pivots that are kept, cos(angle), are now 6e-17 */
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_KEEP), BAUM_OK);
   assert_true(solve(&klu, &system) > 0.1);
   assert_true(rcond(&klu) < 1e-10);
@@ -106,8 +107,8 @@ static void a_zero_pivot_is_singular_whether_kept_or_chosen(void **state)
 static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
 {
   (void)state;
-  /* A four-bar 1e-9 rad from its flat configuration. The error with ordinary pivots grows as 1 /
-   * distance^2, with careful ones as 1 / distance. */
+  /* A four-bar at a distance of 1e-9 rad from its flat configuration. With ordinary pivots, the
+   * error grows as 1 / distance^2. With carefully chosen pivots, it grows as 1 / distance. */
   saddle system = saddle_make_four_bar(1);
   saddle_pose_four_bar(&system, 1e-9);
   saddle_make_consistent(&system, 1);
@@ -121,7 +122,8 @@ static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_CAREFUL), BAUM_OK);
   assert_true(solve(&klu, &system) < 1e-12);
   for (int j = 0; j < system.structure.nv; j++) {
-    ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-5); /* about 10 times rounding / distance */
+    /* About 10 times the rounding error divided by the distance. */
+    ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-5);
   }
   baum_i_klu_ops.destroy(klu.self);
   saddle_free(&system);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The minimum of a function of one variable, and Hermite polynomials through positions and
- * velocities. */
+/* Tests the search for the minimum of a function of one variable, and Hermite polynomials through
+ * positions and velocities. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -52,8 +52,8 @@ static double wall(void *user, double t)
   return t < 0.5 ? (double)INFINITY : (t - 0.55) * (t - 0.55) + 1.0;
 }
 
-/* Fails if the search needs more than `most` function values. Golden section search alone would
- * need 30 for 1e-6. */
+/* Fails if the search needs more than `most` evaluations of the function. The golden section search
+ * alone would need 30 of them for an accuracy of 1e-6. */
 static void assert_found(baum_i_function *function, double place, int most)
 {
   const double ends[2] = {0.0, 1.0};
@@ -98,8 +98,8 @@ static double power_at(double t, int power, double *rate)
   return pow(x, power);
 }
 
-/* Interpolates from + (t - 10.2)^power as the only coordinate. The second element of each result
- * must not change. */
+/* Interpolates a single coordinate, whose value is from + (t - 10.2)^power. The second element of
+ * each result must not change. */
 static void assert_power(int count, int power, double from, double t)
 {
   double q[KNOTS];
@@ -116,8 +116,8 @@ static void assert_power(int count, int power, double from, double t)
   double want_rate;
   double want = from + power_at(t, power, &want_rate);
   baum_i_hermite(&line, knots, count, t, got, rate, work);
-  /* The rounding of q, 1e-16 from, is amplified by the sums of the absolute weights, at 10.4 s 340
-   * for q and 12500 for q'. */
+  /* The rounding error of q is 1e-16 times `from`. It is amplified by the sum of the absolute
+   * weights, which at 10.4 s is 340 for q and 12500 for q'. */
   ASSERT_NEAR(got[0], want, 0.0, 1e-13 + 3.4e-14 * from);
   ASSERT_NEAR(rate[0], want_rate, 0.0, 1e-12 + 1.25e-12 * from);
   assert_true(got[1] == -1.0 && rate[1] == -1.0);
@@ -131,7 +131,7 @@ static void polynomials_of_their_degree_are_exact(void **state)
     for (int power = 0; power <= 2 * count - 1; power++) {
       for (size_t k = 0; k < sizeof at / sizeof at[0]; k++) {
         assert_power(count, power, 0.0, at[k]);
-        assert_power(count, power, 1e4, at[k]); /* an angle after many revolutions */
+        assert_power(count, power, 1e4, at[k]); /* like an angle after many revolutions */
       }
     }
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Positions on a manifold (nq > nv): its functions move, rate and difference, derivatives along it,
- * and the checks of definitions. */
+/* Tests positions on a manifold (nq > nv): the functions move, rate and difference, derivatives
+ * along the manifold, and the checks of definitions. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -20,8 +20,8 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* The sizes of the largest mechanism, that with every element. WIDE includes the multipliers lambda
- * and mu of GGL. */
+/* The sizes of the largest mechanism tested here, which has every element. WIDE includes the
+ * multipliers lambda and mu of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
 /* ---- a scene at some state ---- */
@@ -43,7 +43,7 @@ static void open_stage(stage *s, baum_mechanism *mechanism)
     s->v[i] = 0.3 * baum_i_golden(i + 1);
     s->a[i] = baum_i_golden(i + 7);
   }
-  check(baum_workspace_move(s->w, s->v, s->q)); /* violates the constraints */
+  check(baum_workspace_move(s->w, s->v, s->q)); /* the state violates the constraints */
   for (int i = 0; i < s->mechanism->nv; i++) {
     s->v[i] = 2.0 * baum_i_golden(i + 20);
   }
@@ -65,7 +65,7 @@ static void for_each_scene(void (*test)(stage *s, const manifold_scene *scene))
   }
 }
 
-/* Sets q to the configuration that is reached by moving the stage's q by h x. */
+/* Sets q to the configuration that is reached when q of the stage moves by h x. */
 static void move_to(const stage *s, double h, const double *x, double *q)
 {
   memcpy(q, s->q, (size_t)s->mechanism->nq * sizeof *q);
@@ -80,8 +80,8 @@ static void set_axis(const stage *s, int j, double *x)
 
 /* ---- the functions ---- */
 
-/* Checks N v by a central difference of move, and that N^+ and difference are their inverses. The
- * difference has an error of 1e-8. */
+/* Checks N v by a central difference of move. Also checks that N^+ is the inverse of N, and that
+ * difference is the inverse of move. The central difference has an error of 1e-8. */
 static void check_functions(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -109,7 +109,8 @@ static void check_functions(stage *s, const manifold_scene *scene)
   }
 }
 
-/* Checks q'' by a central difference of q' along the motion with the velocity v + h a. */
+/* Checks q'' by a central difference of q' along the motion. The velocity of this motion is v + h
+ * a. */
 static void check_second_rates(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -163,8 +164,8 @@ static void columns_of_positions_and_velocities_may_differ(void **state)
 
 /* ---- assembly ---- */
 
-/* Assembly must change displacements (nv), not q (nq), as little as possible, so that its result is
- * that of the twin. */
+/* Assembly must make displacements (nv) as small as possible, not changes of q (nq). Its result
+ * must then be the same as that of the twin mechanism. */
 static void assembly_moves_along_the_manifold(void **state)
 {
   (void)state;
@@ -205,8 +206,8 @@ static void jacobian_at(const stage *s, const double *q, double *out)
   check(baum_workspace_jacobian(s->w, 0.0, q, out));
 }
 
-/* Checks (J x)_q and (J^T lambda)_q by central differences of J along the manifold, which have
- * errors of 1e-8. On a manifold (J^T lambda)_q need not be symmetric. */
+/* Checks (J x)_q and (J^T lambda)_q by central differences of J along the manifold. These
+ * differences have errors of 1e-8. On a manifold (J^T lambda)_q need not be symmetric. */
 static void check_second_derivatives(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -341,8 +342,8 @@ static void jacobians_of_residuals_are_by_positions(void **state)
 
 /* ---- definitions ---- */
 
-/* Sets a valid definition of a coordinate (cos, sin) of one angle. Tests replace single fields of
- * it. */
+/* Sets a valid definition. Its coordinate is one angle, represented by (cos, sin). Tests replace
+ * single fields of it. */
 static void with_angle(baum_coordinates_def *def)
 {
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
@@ -424,7 +425,7 @@ static void replacing_keeps_the_manifold(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- functions that do not fit ---- */
+/* ---- functions that do not agree with each other ---- */
 
 static void wrong_rate(const double *q, const double *v, double *dq, void *user)
 {
@@ -433,7 +434,7 @@ static void wrong_rate(const double *q, const double *v, double *dq, void *user)
   dq[1] = q[0] * v[0];
 }
 
-/* Correct to first order only: the angle changes by h v + (h v)^2 / 2. */
+/* This move is correct only to first order. It changes the angle by h v + (h v)^2 / 2. */
 static void wrong_move(double h, const double *v, double *q, void *user)
 {
   (void)user;
@@ -445,10 +446,10 @@ static void wrong_move(double h, const double *v, double *q, void *user)
 static void wrong_difference(const double *from, const double *to, double *dx, void *user)
 {
   (void)user;
-  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* the chord, not the signed angle */
+  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* this is the chord and not the signed angle */
 }
 
-/* Makes c positive, which may give the opposite angle. */
+/* This function makes the cosine positive, which may give the opposite angle. */
 static void wrong_normalize(double *q, void *user)
 {
   (void)user;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With max_step, variable-step integrators do not step over a short force in a long rest. */
+/* If max_step is given, integrators with variable steps must not step over a short force in a long
+ * rest. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +13,7 @@
 
 #include "assert_near.h"
 
-/* A force of 5 N along x from 5.0 s to 5.2 s. */
+/* A force of 5 N along x, which acts from 5.0 s to 5.2 s. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -21,7 +22,7 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* A particle of 1 kg that hangs at rest on a rod of 1 m. */
+/* Makes a particle of 1 kg that hangs at rest on a rod of 1 m. */
 static baum_mechanism *hanging_pendulum(void)
 {
   baum_mechanism *m = NULL;
@@ -45,7 +46,7 @@ static baum_mechanism *hanging_pendulum(void)
   return m;
 }
 
-/* Returns x at 5.5 s. */
+/* Returns the position x at 5.5 s. */
 static double pushed_to(const baum_mechanism *m, const baum_integrator *integrator, double max_step)
 {
   baum_simulation_options o = baum_simulation_options_default();
@@ -73,7 +74,7 @@ static void a_force_that_begins_late_is_not_stepped_over(void **state)
   const baum_integrator *integrators[] = {baum_dp5(), baum_rk8(), baum_cvode_adams(),
                                           baum_cvode_bdf(), baum_ida()};
   for (int k = 0; k < (baum_has("sundials") ? 5 : 2); k++) {
-    /* the jump of the force inside a step causes errors above the tolerance */
+    /* The force jumps inside a step. This causes errors above the tolerance. */
     ASSERT_NEAR(pushed_to(m, integrators[k], 0.05), want, 0.0, 1e-3);
   }
   baum_mechanism_destroy(m);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The amplification of Adams-Bashforth methods, compared with the matrix of one step. */
+/* Compares the amplification of Adams-Bashforth methods with the matrix of one step. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -13,14 +13,15 @@
 
 enum { POINTS = 400, MOST = 8, SQUARINGS = 40 };
 
-/* The matrix of one step: it maps (x, v) and the derivatives (x', v') of earlier steps. */
+/* The matrix of one step. It multiplies the vector of (x, v) and of the derivatives (x', v') in
+ * earlier steps. */
 typedef struct matrix {
   int n;
   double a[MOST][MOST];
 } matrix;
 
-/* Returns the matrix of one step for x'' = -2 A x' - B x with h = 1, which maps (x, v, f(n-1),
- * f(n-2), ...). f are derivatives of (x, v). */
+/* Returns the matrix of one step for x'' = -2 A x' - B x with h = 1. It multiplies the vector (x,
+ * v, f(n-1), f(n-2), ...). Here f are the derivatives of (x, v). */
 static matrix step_matrix(const baum_i_method *method, double A, double B)
 {
   const double rate[2][2] = {{0.0, 1.0}, {-B, -2.0 * A}};
@@ -65,7 +66,7 @@ static double square(matrix *m)
   return log(most);
 }
 
-/* Returns the spectral radius by Gelfand's formula |M^N|^(1/N) with N = 2^40. */
+/* Returns the spectral radius by Gelfand's formula |M^N|^(1/N), with N = 2^40. */
 static double matrix_radius(matrix m)
 {
   double sum = 0.0;
@@ -77,7 +78,7 @@ static double matrix_radius(matrix m)
   return exp(sum);
 }
 
-/* Draws a point (A, B) at 0.1 to 10 times the size of the stability region. */
+/* Chooses a random point (A, B), at 0.1 to 10 times the size of the stability region. */
 static void random_point(uint64_t *seed, int method, double point[2])
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -95,8 +96,8 @@ static void radius_is_that_of_the_matrix_of_a_step(void **state)
       double p[2];
       random_point(&seed, m, p);
       double want = matrix_radius(step_matrix(&methods[m], p[0], p[1]));
-      /* Each of the 40 squarings has half the weight of the one before, so rounding errors do not
-       * add up. This is accurate if the largest roots are simple. */
+      /* Each of the 40 squarings has half the weight of the one before. Rounding errors therefore
+       * do not add up. The radius is accurate if the largest roots are simple. */
       ASSERT_NEAR(amplification_at(m, p[0], p[1]).spectral_radius, want, 1e-9, 0.0);
     }
   }
@@ -116,18 +117,18 @@ static void within_agrees_with_the_radius(void **state)
       bool want = growth <= level;
       within += want;
       assert_int_equal(baum_i_amplification_within(&methods[m], p[0], p[1], level), want);
-      /* baum_i_amplification_within() has an error of up to 1e-5 of the radius if two of the
-       * largest roots nearly coincide. */
+      /* If two of the largest roots nearly coincide, baum_i_amplification_within() has an error of
+       * up to 1e-5 of the radius. */
       double off = 1e-5 * (1.0 + growth);
       assert_true(baum_i_amplification_within(&methods[m], p[0], p[1], growth + off));
       assert_false(baum_i_amplification_within(&methods[m], p[0], p[1], growth - off));
     }
   }
-  assert_true(within > POINTS); /* of all POINTS x METHOD_COUNT points */
+  assert_true(within > POINTS); /* of all POINTS * METHOD_COUNT points */
 }
 
-/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu and returns the
- * smaller |p|. */
+/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu. Returns the smaller
+ * |p|. */
 static double residual(int method, double A, double B, const double z[2])
 {
   double least = HUGE_VAL;
@@ -135,7 +136,7 @@ static double residual(int method, double A, double B, const double z[2])
   for (int sign = -1; sign <= 1; sign += 2) {
     double mu[2] = {-A + (root > 0.0 ? sign * sqrt(root) : 0.0),
                     root < 0.0 ? sign * sqrt(-root) : 0.0};
-    double p[2] = {1.0, 0.0}; /* by Horner's rule */
+    double p[2] = {1.0, 0.0}; /* evaluated by Horner's rule */
     for (int j = 0; j < methods[method].degree; j++) {
       double b = methods[method].coefficients[j];
       double next[2] = {p[0] * z[0] - p[1] * z[1] - mu[0] * b,
@@ -158,7 +159,7 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
       random_point(&seed, m, p);
       baum_amplification a = amplification_at(m, p[0], p[1]);
       double scale = pow(1.0 + a.spectral_radius, methods[m].degree);
-      for (int i = 0; i < 2; i++) { /* rounding of powers of z */
+      for (int i = 0; i < 2; i++) { /* allows for rounding errors of powers of z */
         ASSERT_NEAR(residual(m, p[0], p[1], a.z[i]), 0.0, 0.0, 1e-13 * scale);
       }
       assert_true(hypot(a.z[0][0], a.z[0][1]) >= hypot(a.z[1][0], a.z[1][1]) - 1e-12);
@@ -167,8 +168,8 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
   }
 }
 
-/* With small gains z = exp(mu) = 1 + mu + ..., so that a violation decreases by the fraction A per
- * step. This fraction must have full relative accuracy. */
+/* If the gains are small, z = exp(mu) = 1 + mu + ... In each step a violation decreases by the
+ * fraction A. This fraction must have full relative accuracy. */
 static void small_gains_keep_their_digits(void **state)
 {
   (void)state;
@@ -183,7 +184,7 @@ static void small_gains_keep_their_digits(void **state)
   }
 }
 
-/* At the end of the stable interval of real mu, z = -1, which gives mu = 2 (-1)^k / sum b_j
+/* At the end of the stable interval of real mu, z = -1. This gives mu = 2 (-1)^k / sum b_j
  * (-1)^(k-1-j). */
 static void limits_of_critical_damping_are_the_published_ones(void **state)
 {

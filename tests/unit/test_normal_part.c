@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of x, computed with the factors of the last
- * solution. Two properties define P: J P x = J x, and P x is M-orthogonal to every y with J y = 0.
- * A second function computes the same P x from J x. */
+/* Tests the normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of a vector x. It is computed with the
+ * factors of the last solution. P is defined by two properties: J P x = J x, and P x is
+ * M-orthogonal to every y with J y = 0. A second function computes the same vector P x from J x
+ * instead of x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -51,7 +52,7 @@ static double largest(int n, const double *x)
   return most;
 }
 
-/* Checks J (x - P x) = 0, except in omitted rows. */
+/* Checks that J (x - P x) = 0, except in omitted rows. */
 static void check_rows(baum_workspace *w, vectors *d)
 {
   const baum_mechanism *m = w->mechanism;
@@ -63,7 +64,8 @@ static void check_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
     bool omitted = w->rows.count > 0 && w->rows.omitted[i];
-    /* Rounding of a solution without refinement, with a condition number below 1e4. */
+    /* The tolerance is the rounding error of a solution without refinement. The condition number is
+     * below 1e4. */
     ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
 }
@@ -80,7 +82,7 @@ static void check_upright(baum_workspace *w, vectors *d)
   ASSERT_NEAR(dot(n, d->other, d->out), 0.0, 0.0, 1e-9 * size);
 }
 
-/* Computes P x from J x and compares with P x from x. */
+/* Computes P x from J x, and compares the result with P x computed from x. */
 static void check_by_rows(baum_workspace *w, vectors *d)
 {
   double *rows = d->other;
@@ -88,7 +90,7 @@ static void check_by_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, d->x, rows);
   assert_int_equal(baum_i_least_with_rows(w, rows, d->out), BAUM_OK);
   for (int i = 0; i < w->mechanism->nv; i++) {
-    /* Rounding of two such solutions. */
+    /* The tolerance is the rounding error of two such solutions. */
     ASSERT_NEAR(d->out[i], d->normal[i], 0.0, 1e-9 * (1.0 + largest(w->mechanism->nv, d->normal)));
   }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stability regions: outlines, best points, intervals, and regions of several parts (islands). */
+/* Tests stability regions: their outlines, best points and intervals, and regions that consist of
+ * several parts (islands). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -16,8 +17,8 @@ enum { POINTS = 4000, COLUMNS = 120, ROWS = 160 };
 static double alpha_h[POINTS];
 static double beta2_h2[POINTS];
 
-/* A method with R(x) - 1 = x (x + 2) (x + 3) / 6. With critical damping it is stable up to alpha h
- * = 2, and again from 3 up to the point where R = -1. */
+/* A method with R(x) - 1 = x (x + 2) (x + 3) / 6. With critical damping, it is stable up to alpha
+ * h = 2. It is stable again from alpha h = 3 to the point where R = -1. */
 static const baum_i_method island = {
   .kind = BAUM_I_METHOD_ONE_STEP, .degree = 3, .coefficients = {1.0, 1.0, 5.0 / 6.0, 1.0 / 6.0}};
 
@@ -29,8 +30,8 @@ static int outline(const baum_i_method *method, double radius)
   return out.count;
 }
 
-/* Returns the area inside the closed curve that begins at `from`, positive if counterclockwise.
- * Sets *to to the beginning of the next curve. */
+/* Returns the area inside the closed curve that begins at `from`. The area is positive if the curve
+ * is counter-clockwise. Sets *to to the beginning of the next curve. */
 static double area(int from, int count, int *to)
 {
   double sum = 0.0;
@@ -39,15 +40,15 @@ static double area(int from, int count, int *to)
     sum += alpha_h[k] * beta2_h2[k + 1] - beta2_h2[k] * alpha_h[k + 1];
     k++;
   }
-  /* The curve is closed. */
+  /* The last point is the first point again, so the curve is closed. */
   assert_true(k > from + 2);
   assert_true(alpha_h[from] == alpha_h[k] && beta2_h2[from] == beta2_h2[k]);
   *to = k + 2;
   return 0.5 * sum;
 }
 
-/* Returns the area of all parts without their holes. Curves run clockwise around parts,
- * counterclockwise around holes. */
+/* Returns the area of all parts of the region, minus the area of their holes. Curves run clockwise
+ * around parts, and counter-clockwise around holes. */
 static double region_area(int count, int *parts)
 {
   double sum = 0.0;
@@ -68,7 +69,8 @@ static void points_lie_on_the_line(void **state)
       for (int k = 0; k < count; k++) {
         if (alpha_h[k] > 1e-12 && beta2_h2[k] > 1e-12) {
           double got = amplification_at(m, alpha_h[k], beta2_h2[k]).spectral_radius;
-          ASSERT_NEAR(got, radii[r], 0.0, 1e-9); /* 42 bisections; radii of rk8 are steep */
+          /* 42 bisections; the spectral radius of rk8 changes steeply. */
+          ASSERT_NEAR(got, radii[r], 0.0, 1e-9);
         }
       }
     }
@@ -84,7 +86,8 @@ static double most(const double *values, int count)
   return out;
 }
 
-/* Returns the area of the region, by counting the points of a fine grid that are inside. */
+/* Returns the area of the region. It is found by counting which points of a fine grid are
+ * inside. */
 static double counted_area(int method, double radius, double A, double B)
 {
   int inside = 0;
@@ -106,8 +109,8 @@ static void outlines_go_round_what_is_inside(void **state)
       double B = most(beta2_h2, count);
       int parts;
       double got = region_area(count, &parts);
-      /* The boundary passes through about 2 / 120 of the cells in each direction. Counting gives
-       * each of these cells whole or not at all. */
+      /* The boundary passes through about 2 / 120 of the cells. Counting includes each of these
+       * cells completely or not at all. */
       ASSERT_NEAR(got, counted_area(m, radii[r], A, B), 0.0, 0.01 * A * B);
       assert_true((count > 0) == (parts > 0));
     }
@@ -119,12 +122,12 @@ static void the_triangles_of_both_eulers_have_their_corners_and_areas(void **sta
   (void)state;
   int parts;
   int count = outline(&methods[EULER], 1.0);
-  ASSERT_NEAR(region_area(count, &parts), 2.0, 1e-3, 0.0); /* triangle (0,0) (1,0) (2,4) */
+  ASSERT_NEAR(region_area(count, &parts), 2.0, 1e-3, 0.0); /* the triangle (0,0) (1,0) (2,4) */
   assert_int_equal(parts, 1);
   ASSERT_NEAR(most(alpha_h, count), 2.0, 1e-9, 0.0);
   ASSERT_NEAR(most(beta2_h2, count), 4.0, 1e-9, 0.0);
   count = outline(&methods[SEMI_IMPLICIT_EULER], 1.0);
-  ASSERT_NEAR(region_area(count, &parts), 2.0, 1e-3, 0.0); /* triangle (0,0) (1,0) (0,4) */
+  ASSERT_NEAR(region_area(count, &parts), 2.0, 1e-3, 0.0); /* the triangle (0,0) (1,0) (0,4) */
   ASSERT_NEAR(most(beta2_h2, count), 4.0, 1e-9, 0.0);
 }
 
@@ -172,7 +175,7 @@ static void islands_are_parts_intervals_and_nearest_points(void **state)
   double x = to[1];
   ASSERT_NEAR(x * (x - 2.0) * (x - 3.0), 12.0, 1e-9, 0.0); /* R(-x) = -1 */
   ASSERT_NEAR(baum_i_stability_limit(&island, 1.0), 2.0, 1e-9, 0.0);
-  /* Writes no more intervals than there is room for, but counts all. */
+  /* The function writes only as many intervals as there is room for, but it counts all of them. */
   from[1] = 7.0;
   assert_int_equal(baum_i_stability_intervals(&island, 1.0, 1, from, to), 2);
   assert_true(from[1] == 7.0);
@@ -180,7 +183,7 @@ static void islands_are_parts_intervals_and_nearest_points(void **state)
   double B;
   baum_i_stability_nearest(&island, 3.6, 14.0, &A, &B);
   assert_true(baum_i_amplification_within(&island, A, B, -0.1));
-  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* the other part is 8 away */
+  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* the other part of the region is 8 away */
 }
 
 static void intervals_of_our_methods_begin_at_zero(void **state)
@@ -229,7 +232,7 @@ static void no_grid_point_is_better_than_the_best(void **state)
       double p[2] = {box[0] * (k % COLUMNS + 0.5) / COLUMNS, box[1] * (k / COLUMNS + 0.5) / ROWS};
       assert_false(baum_i_amplification_within(&methods[m], p[0], p[1], best - 1.0 - 1e-9));
     }
-    /* Random points near the best one are not better either. */
+    /* Random points near the best one are also not better. */
     uint64_t seed = 3;
     for (int k = 0; k < 10000; k++) {
       double near = pow(10.0, uniform(&seed, -6.0, -1.0));
@@ -240,9 +243,10 @@ static void no_grid_point_is_better_than_the_best(void **state)
   }
 }
 
-/* {A, radius}. At the best points mu is real and the two largest roots have the same modulus. For
- * AB2 these roots are z = +-1 / sqrt(3), whose sum 1 - 3 A / 2 is zero. The values for AB3 and AB4
- * were computed in Python: roots by the Durand-Kerner iteration, mu by nested intervals. */
+/* Each row gives A and the radius of a best point. At a best point, mu is real and the two largest
+ * roots have the same modulus. For AB2, these roots are z = 1 / sqrt(3) and z = -1 / sqrt(3). Their
+ * sum 1 - 3 A / 2 is therefore zero. The values for AB3 and AB4 were computed in Python. The roots
+ * were found by the Durand-Kerner iteration, and mu by nested intervals. */
 static void best_points_of_adams_bashforth_are_the_known_ones(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pictures and pages: red lines at open joints, texts, samples of motions, and refused calls. */
+/* Tests pictures and pages: red lines at open joints, texts, samples of motions, and refused
+ * calls. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -40,7 +41,7 @@ static void only_an_open_joint_has_a_red_line(void **state)
   check(baum_workspace_design(w, q, NULL));
   assert_null(strstr(print_svg(m, NULL), RED));
   assert_null(strstr(print_svg(m, q), RED));
-  q[6] += 0.1; /* the block */
+  q[6] += 0.1; /* moves the block away */
   assert_non_null(strstr(print_svg(m, q), RED));
   q[6] = (double)NAN;
   ASSERT_SAYS(baum_mechanism_svg(m, q, NULL, 0, NULL), BAUM_ERR_NOT_FINITE, "q[6]");
@@ -61,14 +62,14 @@ static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up
   pin.body_b = crank;
   pin.point[0] = pin.point[1] = 0.0;
   check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
-  pin.name = "A"; /* 1 m from O on the crank, 2 m from it on the ground */
+  pin.name = "A"; /* the pin is 1 m from O on the crank, but 2 m from O on the ground */
   pin.point[0] = pin.point[1] = (double)NAN;
   pin.point_a[0] = 2.0;
   pin.point_a[1] = 0.0;
   pin.point_b[0] = 0.5;
   pin.point_b[1] = 0.0;
   check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
-  check(baum_mechanism_svg_assembled(m, text, sizeof text, NULL)); /* not frozen */
+  check(baum_mechanism_svg_assembled(m, text, sizeof text, NULL)); /* the mechanism is not frozen */
   assert_string_not_equal(text, print_svg(m, NULL));
   assert_non_null(strstr(text, "#e11d48"));
   ASSERT_SAYS(baum_mechanism_svg_assembled(NULL, NULL, 0, NULL), BAUM_ERR_ARGUMENT, "NULL");
@@ -108,13 +109,14 @@ static void names_stay_texts(void **state)
   for (const char *at = text; (at = strstr(at, "\\u003c/script>\\u003c/title>")) != NULL; at++) {
     found++;
   }
-  assert_true(found >= 4); /* body, title, label, mark */
+  assert_true(found >= 4); /* in a body, the title, a label and a mark */
   baum_mechanism_destroy(m);
 }
 
 /* ---- samples of a motion ---- */
 
-/* Three samples of the crank, which turns by half a revolution, with the reaction of its pin. */
+/* Makes three samples of the crank, which rotates by half a revolution, with the reaction of its
+ * pin. */
 static baum_page page_of_crank(const baum_mechanism *m, double rows[3][15])
 {
   static const double times[3] = {0.0, 1.0, 2.0};
@@ -164,12 +166,15 @@ static void a_sample_shows_paths_and_reactions_in_the_view_of_the_motion(void **
   baum_page page = page_of_crank(m, rows);
   for (int k = 0; k < 3; k++) {
     check(baum_page_svg(m, &page, k, text[k], BYTES, NULL));
-    assert_non_null(strstr(text[k], ">500 N</text>")); /* of 730 N */
+    assert_non_null(strstr(text[k], ">500 N</text>")); /* the largest force is 730 N */
     assert_int_equal(count_of(text[k], "<title>path of "), 1);
     assert_int_equal(count_of(text[k], "<title>reaction of "), 1);
-    assert_int_equal(strncmp(text[k], text[0], strcspn(text[0], "\n")), 0); /* size and view */
-    assert_int_equal(count_of(text[k], "#be123c"), k == 1 ? 2 : 1);         /* force, scale */
-    assert_int_equal(count_of(text[k], "#8b5cf6"), k == 2 ? 2 : 0);         /* arc, its tip */
+    /* The first line gives the size and the view, which must be equal in all pictures. */
+    assert_int_equal(strncmp(text[k], text[0], strcspn(text[0], "\n")), 0);
+    /* The force and its scale have this colour. */
+    assert_int_equal(count_of(text[k], "#be123c"), k == 1 ? 2 : 1);
+    /* The arc and its tip have this colour. */
+    assert_int_equal(count_of(text[k], "#8b5cf6"), k == 2 ? 2 : 0);
     const char *path = strstr(strstr(text[k], "<title>path of "), "<path d=\"M");
     int lines = 0;
     for (path += strlen("<path d=\"M"); *path != '"'; path++) {
@@ -260,7 +265,7 @@ static void the_page_of_an_older_program_lacks_its_last_fields(void **state)
   page.count = page.channel_count = 1;
   page.channels = &channel;
   page.rows = q;
-  page.mark_count = 7; /* without its arrays */
+  page.mark_count = 7; /* the arrays are missing */
   ASSERT_SAYS(baum_page_print(m, &page, text, sizeof text, NULL), BAUM_ERR_ARGUMENT, "mark_texts");
   page.struct_size = offsetof(baum_page, mark_times);
   check(baum_page_print(m, &page, text, sizeof text, NULL));
@@ -269,7 +274,7 @@ static void the_page_of_an_older_program_lacks_its_last_fields(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- thinning ---- */
+/* ---- long runs ---- */
 
 static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
 {
@@ -302,7 +307,7 @@ static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
   }
   assert_in_range(count, 300, 600);
   assert_non_null(strstr(text, "[-3.5,7.25]"));
-  assert_non_null(strstr(text, "[0,4999]")); /* range of times */
+  assert_non_null(strstr(text, "[0,4999]")); /* the range of times */
   baum_mechanism_destroy(m);
 }
 

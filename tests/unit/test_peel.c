@@ -11,8 +11,8 @@
 
 enum { MOST_JOINTS = 8, BODIES = 6, PIN_SIZE = 12 };
 
-/* A graph of bodies with three velocities, which are connected by pins (two rows) and motors (one
- * row). */
+/* A graph of bodies that have three velocities. Pins (two rows) and motors (one row) connect
+ * them. */
 typedef struct graph {
   baum_i_row_block blocks[MOST_JOINTS];
   int columns[MOST_JOINTS][6];
@@ -45,7 +45,7 @@ static double *add(graph *d, int rows, const int bodies[2])
   return d->jacobian + block->value;
 }
 
-/* Adds a pin with the arm (x, y) on each of its two bodies. -1 is ground. */
+/* Adds a pin. Its arm is (x, y) on each of the two bodies. The body -1 is ground. */
 static void pin(graph *d, int body_a, int body_b, double x, double y)
 {
   double *value = add(d, 2, (const int[2]){body_a, body_b});
@@ -68,7 +68,7 @@ static void motor(graph *d, int body_a, int body_b)
   value[5] = body_a >= 0 && body_b >= 0 ? -1.0 : 0.0;
 }
 
-/* Peels rows off and returns how many are left. */
+/* Peels rows off the graph, and returns how many rows remain. */
 static int peel(const graph *d, unsigned char peeled[2 * MOST_JOINTS])
 {
   int left = d->structure.nc;
@@ -101,12 +101,12 @@ static void loops_are_kept_and_open_chains_on_them_are_peeled_off(void **state)
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
   begin(&d);
-  pin(&d, 2, 3, 0.6, 0.1); /* rows 0 and 1: joins body 3 to the loop */
+  pin(&d, 2, 3, 0.6, 0.1); /* rows 0 and 1: this pin connects body 3 with the loop */
   pin(&d, -1, 0, 0.5, 0.2);
   pin(&d, 0, 1, 0.3, -0.4);
   pin(&d, 1, 2, 0.1, 0.7);
   pin(&d, 2, -1, 0.4, 0.3);
-  pin(&d, 3, 4, 0.6, 0.6); /* rows 10 and 11: joins body 4 to body 3 */
+  pin(&d, 3, 4, 0.6, 0.6); /* rows 10 and 11: this pin connects body 4 with body 3 */
   assert_int_equal(peel(&d, peeled), 8);
   assert_true(peeled[0] && !peeled[2] && !peeled[9] && peeled[11]);
 }
@@ -136,7 +136,7 @@ static void rows_that_are_not_clearly_independent_are_kept(void **state)
     value[4] = offsets[k];
     assert_int_equal(peel(&d, peeled), k == 0 ? 0 : 2);
   }
-  /* Keeps a row of zeros, and a row whose squares overflow. */
+  /* Two rows must not be peeled off: a row of zeros, and a row whose squares overflow. */
   for (int k = 0; k < 2; k++) {
     begin(&d);
     double *value = add(&d, 1, (const int[2]){-1, 0});

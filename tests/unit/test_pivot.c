@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The smallest pivot becomes small near singular configurations, but not because masses differ
- * widely. */
+/* Tests the smallest pivot. It must become small near singular configurations, but not because
+ * masses are very different. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,8 +38,8 @@ static double pivot_of(const baum_mechanism *m)
   return pivot;
 }
 
-/* Rods with inertias down to 1e-14 kg m^2. Unless the rod is horizontal or vertical, such inertias
- * make the block solver fail, and the solver of the whole system replaces it. */
+/* The rods have inertias down to 1e-14 kg m^2. Unless the rod is horizontal or vertical, the block
+ * solver fails for such inertias. The solver of the whole system then replaces it. */
 static void a_body_of_small_inertia_is_as_far_from_singular_in_all_directions(void **state)
 {
   (void)state;
@@ -52,7 +52,7 @@ static void a_body_of_small_inertia_is_as_far_from_singular_in_all_directions(vo
       baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
                        (baum_i_spot){rod, {-0.5, 0.0}});
       check(baum_i_parts_finish(&parts, &m));
-      /* rounding in the pin, amplified by mass / inertia */
+      /* The tolerance is the rounding error of the pin, amplified by mass / inertia. */
       assert_true(fabs(pivot_of(m) - 1.0) <= 1e-15 / inertia + 1e-12);
       baum_mechanism_destroy(m);
     }
@@ -68,7 +68,8 @@ static void pivots_fall_with_the_square_of_the_distance(void **state)
     check(model_parallelogram_build(MODEL_TWO_CRANKS, pow(10.0, -decade), &m));
     double ratio = pivot_of(m.mechanism) * pow(10.0, 2.0 * decade);
     first = decade == 2 ? ratio : first;
-    /* higher terms of the angle, and rounding relative to the small pivot */
+    /* The tolerance allows for higher powers of the angle, and for rounding errors relative to the
+     * small pivot. */
     assert_true(fabs(ratio / first - 1.0) <= 1e-3 + 1e-15 * pow(10.0, 2.0 * decade));
     model_destroy(&m);
   }
@@ -78,8 +79,8 @@ static void pivots_fall_with_the_square_of_the_distance(void **state)
   model_destroy(&m);
 }
 
-/* A slider of 1e-12 kg at the end of a slider-crank that makes one revolution. KLU keeps its pivots
- * as long as they are suitable. */
+/* A slider of 1e-12 kg is at the end of a slider-crank, which makes one revolution. KLU keeps its
+ * pivots as long as they are suitable. */
 static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
 {
   (void)state;
@@ -110,8 +111,8 @@ static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
   check(baum_simulation_create(m, &options, &run));
   check(baum_simulation_step(run, 600));
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  /* The estimates from KLU's pivots vary by a factor of 25 between configurations. If KLU kept its
-   * first pivots, they would indicate 12 near-singular intervals. */
+  /* Estimates from KLU's pivots differ by a factor of 25 between configurations. If KLU kept its
+   * first pivots, they would falsely report 12 near-singular intervals. */
   assert_true(counters.near_singular_intervals <= 2);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

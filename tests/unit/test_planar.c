@@ -27,7 +27,7 @@ static baum_planar_revolute_def pin(baum_body_id a, baum_body_id b)
   return def;
 }
 
-/* ---- the common first fields of definitions ---- */
+/* ---- the first fields, which all definitions have in common ---- */
 
 #define HAS_HEAD(NAME)                                                                             \
   do {                                                                                             \
@@ -141,7 +141,7 @@ static void a_particle_is_its_own_point(void **state)
                 "joint 1 \"B\": point_b is (0, -2) m, must be (0, 0) on the particle body 4 "
                 "\"bead\"");
 
-  /* Only freeze compares the point with the design configuration. */
+  /* Only freeze can compare the point with the design configuration. */
   def = pin(scene.crank, scene.ball);
   def.point[0] = -0.6;
   def.point[1] = 0.9;
@@ -161,8 +161,8 @@ static void a_point_of_the_design_is_converted_into_body_axes(void **state)
   (void)state;
   planar_scene scene = planar_scene_make();
   baum_planar_revolute_def def = pin(scene.link, BAUM_GROUND);
-  /* The design pose of the link is the position (1, 0.5) and the angle 0.4 rad. In its axes the
-   * point is (2, 3). */
+  /* The design pose of the link is the position (1, 0.5) and the angle 0.4 rad. In the axes of the
+   * link, the point is (2, 3). */
   double c = cos(0.4);
   double s = sin(0.4);
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
@@ -290,8 +290,8 @@ static void scattering_adds_what_gathering_takes(void **state)
   }
   double six[6];
   baum_i_columns_gather(&p.point, &joint->span, BAUM_I_PLANE, x, six);
-  /* The velocities are those of link (3), ball (2), crank (3) and bead (2); the joint is between
-   * ball and crank. */
+  /* The velocities belong to link (3), ball (2), crank (3) and bead (2). The joint is between ball
+   * and crank. */
   const double want[6] = {4.0, 5.0, 0.0, 6.0, 7.0, 8.0};
   assert_memory_equal(six, want, sizeof six);
   baum_i_columns_scatter(p.mechanism, &joint->span, six, x);

@@ -98,8 +98,8 @@ static void derivatives_with_an_input_agree_with_differences(void **state)
   }
 }
 
-/* Computes force and potential of a load on the crank, whose angle is 90 degrees. The load has an
- * input with the given value, or none if that is NaN. */
+/* Computes force and potential of a load on the crank, whose angle is 90 degrees. `input` is the
+ * value of the load's input. If it is NaN, the load has no input. */
 static void evaluate_with(const baum_planar_load_def *given, double input, double force[3],
                           double *potential)
 {
@@ -142,8 +142,8 @@ static void a_load_keeps_its_direction_or_follows_its_body(void **state)
   def.force[1] = 5.0;
   double force[3];
   double potential;
-  /* The crank is at (10, 20), so its point (1, 2) is at (10 - 2, 20 + 1). The tolerance allows for
-   * the rounding of cos. */
+  /* The crank is at (10, 20) with an angle of 90 degrees, so its point (1, 2) is at (10 - 2,
+   * 20 + 1). The tolerance allows for the rounding error of the cosine. */
   evaluate(&def, force, &potential);
   ASSERT_NEAR(force[0], 3.0, 1e-14, 0.0);
   ASSERT_NEAR(force[1], 5.0, 1e-14, 0.0);
@@ -266,8 +266,8 @@ static void definitions_come_back(void **state)
   second.torque = 9.0;
   second.follows_body = true;
   assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", 1.0, &second.input), BAUM_OK);
-  /* Compares the fields before `input` only, because padding follows them. `input` is compared
-   * below. */
+  /* Compares only the fields before `input`, because there are padding bytes after them. `input` is
+   * compared below. */
   CHECK_ROUND_TRIP(force, planar_load, follows_body, scene.mechanism, &first, &second);
   baum_force_id load;
   baum_planar_load_def got;

@@ -26,7 +26,7 @@ static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_spring_def def = baum_planar_spring_def_default();
   PLANAR_BETWEEN(scene, &def, a, b);
-  def.stiffness = 1e9; /* unused, because there is a law */
+  def.stiffness = 1e9; /* must not be used, because there is a law */
   def.law = spring_law_cubic;
   def.user = &spring_law_good;
   assert_int_equal(baum_mechanism_add_planar_spring(scene->mechanism, &def, NULL), BAUM_OK);
@@ -46,9 +46,8 @@ static baum_planar_spring_def good(const planar_scene *scene)
   return def;
 }
 
-/* Returns the length of a spring. Only springs longer than 0.3 m are compared with differences,
- * because the fifth derivatives, which determine the errors of differences, grow as 1 /
- * length^4. */
+/* Returns the length of a spring. Only springs longer than 0.3 m are compared with differences. The
+ * errors of differences are proportional to fifth derivatives, which grow as 1 / length^4. */
 static double length_of(const test_point *p, const baum_i_force *spring)
 {
   double at[2][2];
@@ -83,8 +82,8 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_with_law, true, check_force_when_long);
 }
 
-/* Opens a test point with a spring "S" with a law between ball and bead. The bead is at (3, 4) from
- * the ball and moves along x. */
+/* Opens a test point with a spring "S" between ball and bead. The spring has a user's law. The bead
+ * is at (3, 4) from the ball and moves along x. */
 static void open_law(test_point *p, spring_law *user)
 {
   planar_scene scene = planar_scene_make();
@@ -240,7 +239,8 @@ static void the_free_length_follows_from_the_design_unless_given(void **state)
   double force[TEST_SIZE_MAX];
   assert_int_equal(baum_i_mechanism_force(&p.point, force), BAUM_OK);
   for (int i = 0; i < p.nv; i++) {
-    ASSERT_NEAR(force[i], 0.0, 0.0, 1e-13); /* stiffness 100 x rounding of the length */
+    /* Stiffness 100, times the rounding error of the length. */
+    ASSERT_NEAR(force[i], 0.0, 0.0, 1e-13);
   }
   test_point_close(&p);
 }

@@ -43,8 +43,8 @@ static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
 }
 
-/* Opens a test point with a torsion spring between crank (body a) and link (body b) at given angles
- * and angular velocities, without gravity. */
+/* Opens a test point with a torsion spring between crank (body a) and link (body b). Their angles
+ * and angular velocities are given, and there is no gravity. */
 static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const double angles[2],
                     const double rates[2])
 {
@@ -64,8 +64,8 @@ static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const 
   test_point_update(p);
 }
 
-/* Checks that the torque acts on the link, the opposite torque on the crank, and that all other
- * forces are zero. */
+/* Checks the torques on both bodies. The link must have this torque and the crank the opposite one,
+ * and all other forces must be zero. */
 static void check_torque(test_point *p, double want)
 {
   double force[TEST_SIZE_MAX];
@@ -96,7 +96,7 @@ static void a_torsion_spring_rotates_the_bodies_back_and_damps(void **state)
 {
   (void)state;
   test_point p;
-  /* The relative angle is more than one revolution; it must not be reduced. */
+  /* The relative angle is more than one revolution. The spring must not reduce it to less. */
   const double angles[2] = {-2.0, 10.0};
   const double rates[2] = {3.0, -4.0};
   open_at(&p, NULL, NULL, angles, rates);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dependent rows, which the rank-revealing QR backend solves. */
+/* Tests systems with dependent rows, which the rank-revealing QR backend solves. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,8 +16,8 @@
 
 enum { NV = 7, NC = 5, N = NV + NC };
 
-/* Makes a system of five rows: row 3 equals row 0, row 4 is row 1 - row 2. Masses are 1, and the
- * largest entry in rows 0 to 3 is 1, so scaling does not change these rows. */
+/* Makes a system of five rows. Row 3 equals row 0, and row 4 is row 1 minus row 2. The masses are
+ * 1, and the largest entry in rows 0 to 3 is 1. Scaling therefore does not change these rows. */
 static saddle make_dependent(void)
 {
   saddle system = saddle_make_dense(NV, NC);
@@ -35,7 +35,7 @@ static saddle make_dependent(void)
   return system;
 }
 
-/* Solves without rows 3 and 4. */
+/* Solves the system without its rows 3 and 4. */
 static void solve_independent(saddle *system, double *want)
 {
   saddle_use_omitted(system);
@@ -99,9 +99,10 @@ static void multipliers_that_are_not_unique_are_of_least_norm(void **state)
   saddle system = make_dependent();
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor_and_solve(kkt, &system), BAUM_OK);
-  /* Multipliers have the least norm if they are orthogonal to every w with J^T w = 0: here (1, 0,
-   * 0, -1, 0) and (0, 1, -1, 0, -1). The norm is that of scaled multipliers. Rows have the scale 1;
-   * only the last row may have another scale e, because it is a difference of rows. */
+  /* The multipliers have the least norm if they are orthogonal to every w with J^T w = 0. Here
+   * these are the vectors (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1). The norm is computed from the
+   * scaled multipliers. The scale of the rows is 1. Only the last row may have another scale e,
+   * because it is a difference of rows. */
   const double *lambda = system.lambda;
   double largest = 0.0;
   for (int j = 0; j < NV; j++) {
@@ -160,7 +161,7 @@ static void the_units_of_dependent_rows_do_not_matter(void **state)
     saddle system = make_dependent();
     double want[N];
     solve_independent(&system, want);
-    /* Changes the units of rows 3 and 4, then of velocity 5, then of everything. */
+    /* Changes the units of rows 3 and 4, then the unit of velocity 5, and then all units. */
     for (int j = 0; j < NV; j++) {
       system.jacobian[3 * NV + j] *= units[k];
       system.jacobian[4 * NV + j] *= units[3 - k];

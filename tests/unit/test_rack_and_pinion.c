@@ -57,8 +57,8 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_rack, false, check_rows_balance);
 }
 
-/* A wheel on the floor. The rack, the floor, is below the wheel's centre: on the right when looking
- * along the axis (1, 0). */
+/* A wheel on the floor. The rack is the floor below the centre of the wheel. If one looks along the
+ * axis (1, 0), this is on the right. */
 static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **state)
 {
   (void)state;
@@ -67,7 +67,7 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = scene.crank;
-  def.point[0] = -0.3; /* the wheel's centre */
+  def.point[0] = -0.3; /* the centre of the wheel */
   def.point[1] = 1.2;
   def.radius = -radius;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
@@ -75,12 +75,12 @@ static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **st
   test_point_open(&p, scene.mechanism);
   int crank = p.mechanism->bodies[scene.crank.index1]->q;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* The contact point, (0, -radius) from the centre, has no velocity. So a rotation by 3 rad moves
-   * the centre by -3 radius. */
+  /* The contact point is at (0, -radius) from the centre, and has no velocity. A rotation by 3 rad
+   * therefore moves the centre by -3 radius. */
   p.q[crank] -= radius * 3.0;
   p.q[crank + 2] += 3.0;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
-  /* The angle is not reduced by revolutions. */
+  /* Whole revolutions are not removed from the angle. */
   p.q[crank + 2] += 400.0;
   ASSERT_NEAR(phi_of(&p), radius * 400.0, 1e-15, 0.0);
   test_point_close(&p);

@@ -23,8 +23,8 @@ static void fill_with_ones(double *x, int count)
   }
 }
 
-/* Makes random rows. Those that `dependent` marks are random sums of the earlier independent
- * rows. */
+/* Makes random rows. Each row that `dependent` marks is a random sum of the independent rows before
+ * it. */
 static saddle make_rows(int nv, int nc, const unsigned char *dependent, uint64_t seed)
 {
   saddle system = saddle_make_dense(nv, nc);
@@ -48,7 +48,8 @@ static void assert_rank(const saddle *system, const double *column_scale, int wa
 {
   unsigned char independent[MOST];
   int rank = -1;
-  memset(independent, 7, sizeof independent); /* equal marks: takes rows in their order */
+  /* All marks are equal, so rows are chosen in their order. */
+  memset(independent, 7, sizeof independent);
   assert_int_equal(baum_i_jacobian_rank(&system->structure, system->jacobian, column_scale,
                                         tolerance, &rank, independent),
                    BAUM_OK);
@@ -103,8 +104,8 @@ static void sizes_of_rows_and_columns_do_not_matter(void **state)
   }
 }
 
-/* Row 2 is the sum of rows 0 and 1, row 4 the sum of rows 1, 2 and 3. Each case marks rows that
- * must be chosen as independent before others. */
+/* Row 2 is the sum of rows 0 and 1. Row 4 is the sum of rows 1, 2 and 3. Each case marks some rows.
+ * These must be chosen as independent before other rows. */
 static void marked_rows_are_taken_first(void **state)
 {
   (void)state;
@@ -157,7 +158,7 @@ static void a_joint_added_twice_is_found(void **state)
   fill_with_ones(ones, MOST);
   saddle_pose_four_bar(&system, 0.7);
   assert_rank(&system, ones, 20, dependent);
-  /* Adds a copy of the last joint, with the same values. */
+  /* Adds a copy of the last joint that has the same values. */
   baum_i_row_block blocks[11];
   memcpy(blocks, system.row_blocks, 10 * sizeof *blocks);
   blocks[10] = blocks[9];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE: what it conserves, the solvers of its equations, and steps that it refuses. */
+/* Tests RATTLE: which quantities it conserves, the solvers of its equations, and the steps that it
+ * refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,7 +59,7 @@ static void check_rows(const model *m, double step, double speed)
   baum_simulation *run = start(m, &options);
   check(baum_simulation_step(run, 5000));
   baum_counters c = counters_of(run);
-  /* Rounding of coordinates below 1 m, and of velocities below `speed`. */
+  /* The tolerances are rounding errors of coordinates below 1 m and of velocities below `speed`. */
   assert_true(c.max_phi <= 1e-15);
   assert_true(c.max_phi_rate <= 4e-15 * speed);
   assert_true(c.nonlinear_iterations >= 5000);
@@ -100,9 +101,9 @@ static band energy_band(baum_simulation *run, int steps, double unit)
   return b;
 }
 
-/* The energy error oscillates in a band. Steps 95000 to 100000 must have the same band as the first
- * 5000, within 1 % of its width. With semi-implicit Euler the energy drifts by more than 10
- * widths. */
+/* The energy error oscillates within a band. In steps 95000 to 100000, this band must be the same
+ * as in the first 5000 steps, to within 1 % of its width. With semi-implicit Euler, the energy
+ * would drift by more than 10 widths of the band. */
 static void check_band(const model *m, double step, double unit)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
@@ -137,8 +138,9 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* The method is symmetric, so the same number of steps back leads to the start. Only rounding in
- * 500 steps remains, amplified as the motion amplifies perturbations. */
+/* The method is symmetric, so the same number of steps backwards leads to the start again. What
+ * remains are the rounding errors of 500 steps. The motion amplifies them as it amplifies all
+ * perturbations. */
 static void going_back_leads_to_the_start(void **state)
 {
   (void)state;
@@ -173,11 +175,12 @@ static void map_angle(baum_simulation *run, int steps, const double from[2], dou
   to[1] = x[0] * u[1] - x[1] * u[0];
 }
 
-/* Returns the factor by which 40 steps change areas in phase space: the determinant of the
- * derivative of map_angle(), by central differences. It is 1 for a symplectic method. */
+/* Returns by which factor 40 steps change areas in phase space. This is the determinant of the
+ * derivative of map_angle(), which is computed by central differences. For a symplectic method this
+ * factor is 1. */
 static double area_factor(const baum_integrator *integrator)
 {
-  const double d = 1e-4; /* truncation error: d^2 x third derivatives, about 1e-7 */
+  const double d = 1e-4; /* the truncation error is d^2 times third derivatives, about 1e-7 */
   model m = make_pendulum();
   baum_simulation_options options = options_with(integrator, 0.1);
   baum_simulation *run = start(&m, &options);
@@ -213,11 +216,11 @@ static void end_of(const model *m, const baum_simulation_options *options, doubl
   baum_simulation *run = start(m, options);
   check(baum_simulation_advance_to(run, t));
   memcpy(q, baum_simulation_q(run), 9 * sizeof *q);
-  assert_true(counters_of(run).max_phi <= 1e-14); /* rounding of the solver */
+  assert_true(counters_of(run).max_phi <= 1e-14); /* rounding errors of the solver */
   baum_simulation_destroy(run);
 }
 
-/* The motions with different solvers differ only by rounding in 300 steps. */
+/* The motions with different solvers differ only by the rounding errors of 300 steps. */
 static void all_solvers_give_the_same_motion(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU, BAUM_SOLVER_QR};
@@ -237,7 +240,7 @@ static void all_solvers_give_the_same_motion(void **state)
   model_destroy(&m);
 }
 
-/* Redundant rows and fixed bodies do not change the motion. */
+/* Neither redundant rows nor fixed bodies may change the motion. */
 static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
   (void)state;
@@ -260,8 +263,9 @@ static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   model_destroy(&framed);
 }
 
-/* A step of 0.5 s at 10 m/s leads 5 m along the tangent. From there no force along the rod at the
- * start of the step reaches the circle of 1 m. */
+/* A step of 0.5 s at 10 m/s leads 5 m along the tangent of a circle of 1 m. RATTLE corrects the
+ * position by a force along the rod at the start of the step. From there, no such force leads back
+ * to the circle. */
 static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows are found, named and harmless. Contradicting rows are found, named and refused. */
+/* Redundant rows must be found and named, and must do no harm. Rows that contradict each other must
+ * be found, named and refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -57,8 +58,8 @@ static baum_mechanism *pendulum_with_pins(int pins)
   return m;
 }
 
-/* Parallel cranks of length 1 m with feet at x = 0, 1, 2, ... and a common angle, joined by one
- * coupler. */
+/* Makes parallel cranks of length 1 m. Their feet are at x = 0, 1, 2, ..., they have the same
+ * angle, and one coupler joins them. */
 static baum_mechanism *parallelogram(int cranks, double angle)
 {
   static const char *const names[3] = {"first", "second", "third"};
@@ -78,7 +79,7 @@ static baum_mechanism *parallelogram(int cranks, double angle)
   return m;
 }
 
-/* Computes accelerations and multipliers in the design configuration with the velocities v (nv). */
+/* Computes accelerations and multipliers in the design configuration. The velocities are v (nv). */
 static void solve(const baum_mechanism *m, const double *v, double *a, double *lambda)
 {
   baum_workspace *w = NULL;
@@ -89,7 +90,7 @@ static void solve(const baum_mechanism *m, const double *v, double *a, double *l
   baum_workspace_destroy(w);
 }
 
-/* ---- redundant ---- */
+/* ---- redundant rows ---- */
 
 static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state)
 {
@@ -106,7 +107,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* least norm: each pin has half of the force */
+  for (int i = 0; i < 2; i++) { /* by the least norm, each pin has half of the force */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
@@ -135,8 +136,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* Lagrange's equation for the common angle: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g
-   * cos(angle), with m = 2 kg, J = 0.3 kg m^2 and the length 1 m. */
+  /* This is Lagrange's equation for the angle of the cranks: (3 (J + m/4) + m) angle'' = -(3
+   * m/2 + m) g cos(angle), with m = 2 kg, J = 0.3 kg m^2 and the length 1 m. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
     ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
@@ -153,8 +154,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
-/* A horizontal chain of links of length 1 m from the origin. `pins` equal pins join each link to
- * the one before. */
+/* Makes a horizontal chain of links of 1 m, which begins at the origin. Each link is joined to the
+ * one before it by `pins` equal pins. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
   baum_mechanism *m = NULL;
@@ -182,17 +183,17 @@ static void many_duplicated_joints_share_their_forces(void **state)
   double got[3 * LINKS];
   double force[2 * LINKS];
   double shared[4 * LINKS];
-  for (int k = 0; k < LINKS; k++) { /* the chain rotates like a rigid body */
+  for (int k = 0; k < LINKS; k++) { /* the chain must rotate like a rigid body */
     v[3 * k] = 0.0;
     v[3 * k + 1] = 2.0 * (k + 0.5);
     v[3 * k + 2] = 2.0;
   }
   solve(once, v, want, force);
   solve(twice, v, got, shared);
-  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations of up to 800 m/s^2 */
+  for (int i = 0; i < 3 * LINKS; i++) { /* accelerations are up to 800 m/s^2 */
     ASSERT_NEAR(got[i], want[i], 0.0, 1e-9);
   }
-  for (int k = 0; k < LINKS; k++) { /* forces of up to 2 kg x 8e4 m/s^2 */
+  for (int k = 0; k < LINKS; k++) { /* forces are up to 2 kg x 8e4 m/s^2 */
     for (int i = 0; i < 2; i++) {
       ASSERT_NEAR(shared[4 * k + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
       ASSERT_NEAR(shared[4 * k + 2 + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
@@ -223,13 +224,13 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
     for (int j = 0; j < 12; j++) {
       sum += mass[12 * i + j] * a[j] + jacobian[12 * j + i] * lambda[j];
     }
-    ASSERT_NEAR(sum, 0.0, 0.0, 1e-12); /* rounding of 20 N */
+    ASSERT_NEAR(sum, 0.0, 0.0, 1e-12); /* rounding error of 20 N */
   }
   baum_workspace_destroy(w);
   baum_mechanism_destroy(m);
 }
 
-/* The multipliers are wrong by 1e-5, with forces of about 10 N. */
+/* The multipliers are wrong by 1e-5, while forces are about 10 N. */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -300,7 +301,7 @@ static void a_body_without_a_joint_is_named(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- contradicting ---- */
+/* ---- rows that contradict each other ---- */
 
 static baum_mechanism *contradicting_rods(void)
 {
@@ -376,13 +377,15 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
     angle[k] = baum_simulation_q(s)[5];
     baum_simulation_destroy(s);
   }
-  ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* order 1, h = 1e-5 s */
-  ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* rtol 1e-9 */
-  ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6); /* rtol 1e-9; IDA's error exceeds its tolerance */
+  ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* a method of order 1 with h = 1e-5 s */
+  ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* with rtol 1e-9 */
+  /* With rtol 1e-9; the error of IDA exceeds its tolerance. */
+  ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6);
   baum_mechanism_destroy(m);
 }
 
-/* A pin with two drivers: one prescribes the angle 2 t, the other 2 t + acceleration t^2 / 2. */
+/* Makes a pin with two drivers. One prescribes the angle 2 t, and the other 2 t + acceleration
+ * t^2 / 2. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -414,7 +417,7 @@ static int64_t warnings_after(const baum_mechanism *m, double t)
   return c.warnings;
 }
 
-/* At t = 0 both drivers agree in position and velocity, but not in acceleration. */
+/* At t = 0, both drivers prescribe the same position and velocity, but different accelerations. */
 static void a_workspace_refuses_accelerations_that_miss_an_omitted_row(void **state)
 {
   (void)state;
@@ -443,8 +446,8 @@ static void drivers_that_contradict_each_other_later_are_warned_of(void **state)
   (void)state;
   baum_mechanism *same = driven_twice(0.0);
   baum_mechanism *parting = driven_twice(1.0);
-  assert_int_equal(warnings_after(same, 1.0), 1); /* the warning of redundant rows */
-  assert_true(warnings_after(parting, 1.0) >= 2); /* also: one of them is violated */
+  assert_int_equal(warnings_after(same, 1.0), 1); /* the warning about redundant rows */
+  assert_true(warnings_after(parting, 1.0) >= 2); /* also a warning that one of them is violated */
   baum_mechanism_destroy(same);
   baum_mechanism_destroy(parting);
 }
@@ -472,15 +475,15 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* With acceleration = 1 the two motors differ by t^2 / 2 in angle and by t in velocity, so
- * projection can fulfil only one of them. */
+/* If acceleration = 1, the two motors differ by t^2 / 2 in the angle and by t in the velocity.
+ * Projection can thus satisfy only one of them. */
 static void projection_names_redundant_rows_that_the_others_do_not_meet(void **state)
 {
   (void)state;
   static const struct {
     double acceleration;
     double t;
-    const char *message; /* NULL: projection succeeds */
+    const char *message; /* NULL if projection succeeds */
   } cases[] = {
     {0.0, 0.3, NULL},
     {1.0, 0.0, NULL},
@@ -524,7 +527,7 @@ static void a_run_that_blows_up_is_warned_of(void **state)
   baum_warning warning;
   o.integrator = baum_euler();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  o.step = 0.1; /* much too long, which causes violations */
+  o.step = 0.1; /* the step is much too long, so it causes violations */
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(s, 3.0), BAUM_WARNED);
   assert_int_equal(baum_simulation_warning(s, 0, &warning, sizeof warning), BAUM_OK);

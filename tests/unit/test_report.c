@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports of mechanisms whose numbers can be counted by hand. */
+/* Tests the reports of mechanisms whose numbers can be counted by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -115,19 +115,19 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.rows, 11);
   assert_int_equal(r.degrees_of_freedom, 0);
   assert_int_equal(r.redundant_rows, 2);
-  assert_int_equal(r.constant_rows, 10); /* all except the motor's */
+  assert_int_equal(r.constant_rows, 10); /* all rows except the motor's */
   assert_int_equal(r.islands, 1);
   assert_int_equal(r.fixed_bodies, 0);
   assert_true(r.constant_mass && r.constant_force && r.blocks);
   /* The five nodes are three pins, a guide and the motor. The crank causes three couplings, between
-   * its two pins and the motor; the rod one, between its two pins; the slider one, between its pin
-   * and the guide. */
+   * its two pins and the motor. The rod causes one, between its two pins. The slider causes one,
+   * between its pin and the guide. */
   assert_int_equal(r.nodes, 5);
   assert_int_equal(r.couplings, 5);
   assert_int_equal(r.fill, 0);
   assert_int_equal(r.most_couplings, 2);
   assert_int_equal(r.most_joints, 3);
-  assert_int_equal(r.most_joined.index1, 1); /* the crank has the most joints */
+  assert_int_equal(r.most_joined.index1, 1); /* the crank has more joints than any other body */
   assert_says(
     &r,
     "mechanism     bodies 3, joints 6, forces 0; velocities 9, rows 11, degrees of freedom 0\n");
@@ -140,7 +140,7 @@ static void a_slider_crank_is_counted(void **state)
 }
 
 /* A ring of n pins that is not joined to ground. Each of the first n - 3 eliminations adds one
- * coupling, between the two neighbours of the node. */
+ * coupling, which connects the two neighbours of the eliminated node. */
 static void fill_counts_couplings_that_elimination_adds(void **state)
 {
   (void)state;
@@ -194,7 +194,7 @@ static void fixed_bodies_are_reported(void **state)
   assert_int_equal(r.islands, 60);
   assert_int_equal(r.nodes, 60);
   assert_int_equal(r.couplings, 0);
-  assert_int_equal(r.most_joints, 1); /* counts moving bodies only */
+  assert_int_equal(r.most_joints, 1); /* only moving bodies are counted */
   assert_true(r.blocks);
   assert_says(&r, "60 nodes, 0 couplings; 2 fixed bodies omitted;");
   assert_says(&r, "2 fixed bodies");
@@ -212,7 +212,7 @@ static void no_joints_need_no_solution(void **state)
   assert_int_equal(r.most_joined.index1, 0);
 }
 
-/* ---- mechanisms that do not suit the block solver ---- */
+/* ---- mechanisms that are not suitable for the block solver ---- */
 
 static void a_hub_is_named(void **state)
 {

@@ -52,8 +52,8 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* The design pose of the crank is the position (-0.3, 1.2) and the angle -1.1 rad; its point is
-   * (-0.45, 0.15), that of ground (0.5, 0.7). */
+  /* In the design, the crank is at (-0.3, 1.2) with the angle -1.1 rad. The point of the joint is
+   * (-0.45, 0.15) on the crank, and (0.5, 0.7) on the ground. */
   double c = cos(-1.1);
   double s = sin(-1.1);
   ASSERT_NEAR(phi[0], 0.5 - (-0.3 - 0.45 * c - 0.15 * s), 0.0, 1e-15);
@@ -80,7 +80,7 @@ static void a_design_point_is_met_by_both_bodies(void **state)
   double phi[4];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
   for (int i = 0; i < 4; i++) {
-    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding of two rotations */
+    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding errors of two rotations */
   }
   double at[3];
   const baum_i_joint *joint = p.mechanism->joints[0];
@@ -103,7 +103,7 @@ static void coordinate_counts_revolutions(void **state)
   const baum_i_joint *joint = p.mechanism->joints[0];
   baum_i_coordinate c;
   joint->type->coordinate(joint, 0, &p.point, &c);
-  ASSERT_NEAR(c.value, 200.0 - 1.1 - 0.4, 0.0, 1e-13); /* rounding of 200 rad */
+  ASSERT_NEAR(c.value, 200.0 - 1.1 - 0.4, 0.0, 1e-13); /* rounding error of 200 rad */
   test_point_close(&p);
 }
 

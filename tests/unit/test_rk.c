@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta methods: their coefficients, one step compared with its closed form, and failing
- * stages. */
+/* Tests Runge-Kutta methods: their coefficients, one step compared with its closed form, and stages
+ * that fail. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -23,8 +23,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
   return setup;
 }
 
-/* For x'' = -4 x one step multiplies the complex number x - i x'/2 by R(2 i h), where R is the
- * method's stability polynomial. Here h = 0.1. */
+/* For x'' = -4 x, one step multiplies the complex number x - i x'/2 by R(2 i h). Here R is the
+ * stability polynomial of the method. In this test h = 0.1. */
 static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
 {
   (void)state;
@@ -46,8 +46,8 @@ static void one_step_of_an_oscillator_is_the_stability_polynomial(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* With the force t^p a method integrates v' = t^p exactly up to p = order - 1. This tests the times
- * c together with the weights b. */
+/* A method integrates v' = t^p exactly up to p = order - 1. This tests the times c of the stages
+ * together with the weights b. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -76,7 +76,7 @@ static void forces_of_time_are_integrated_to_the_order(void **state)
   }
 }
 
-/* If a stage fails, the step leaves the state unchanged and can be repeated. */
+/* If a stage fails, the step must leave the state unchanged, so that it can be repeated. */
 static void a_failing_stage_leaves_the_state(void **state)
 {
   (void)state;
@@ -90,7 +90,7 @@ static void a_failing_stage_leaves_the_state(void **state)
     double q[2] = {run.state_q[0], run.state_q[1]};
     double v[2] = {run.state_v[0], run.state_v[1]};
     for (int stage = 0; stage < 2; stage++) {
-      fault.after = 0.52 + 0.04 * stage; /* stages are at 0.5, 0.55 and 0.6 */
+      fault.after = 0.52 + 0.04 * stage; /* the stages are at 0.5, 0.55 and 0.6 */
       baum_status status = integrator_run_step(&run);
       if (METHODS[k]()->order == 2 && stage == 1) {
         assert_int_equal(status, BAUM_OK);
@@ -107,7 +107,8 @@ static void a_failing_stage_leaves_the_state(void **state)
   }
 }
 
-/* A step takes one evaluation per stage, including the first, which the caller makes. */
+/* A step needs one evaluation for each stage. This includes the first stage, which the caller
+ * evaluates. */
 static void a_step_costs_one_evaluation_for_each_stage(void **state)
 {
   (void)state;

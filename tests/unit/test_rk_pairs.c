@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta pairs with variable steps: the interpolant, its number of evaluations and that of a
- * step, and what shortens a step. test_rk_tables.c tests their coefficients, test_integrators.c
- * what all integrators have in common. */
+/* Tests Runge-Kutta pairs with variable steps: the interpolant, how many evaluations it and a step
+ * need, and what makes a step shorter. test_rk_tables.c tests the coefficients of the pairs, and
+ * test_integrators.c tests what all integrators have in common. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 #include "integrator_run.h"
 #include "one_coordinate.h"
 
-/* ---- both pairs in all formulations ---- */
+/* ---- both pairs with all formulations ---- */
 
 typedef struct method {
   const baum_integrator *integrator;
@@ -62,8 +62,8 @@ static int64_t rejected(const integrator_run *run)
 
 /* ---- the interpolant ---- */
 
-/* Returns the largest error inside a first step of length h. max_step enforces h; the tolerance
- * would allow ten times that. */
+/* Returns the largest error inside the first step, whose length is h. max_step enforces this
+ * length. The tolerance would allow steps that are ten times as long. */
 static double error_inside(const method *m, double h)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -86,7 +86,7 @@ static double error_inside(const method *m, double h)
 }
 
 /* The error inside a step must be of order h^(order + 1). Higher terms increase the measured order
- * slightly; shorter steps would avoid this, but then errors would be rounding. */
+ * slightly. Shorter steps would avoid this, but then the errors would be rounding errors. */
 static void fall_inside(const method *m)
 {
   double longest = m->dense_order == 4 ? 0.1 : 0.2;
@@ -105,8 +105,8 @@ static void interpolants_have_their_order(void **state)
   for_each(fall_inside);
 }
 
-/* Returns q' at an end of the step, by a one-sided difference of order 2 that uses the interpolant
- * inside the step. */
+/* Returns q' at one end of the step. It is computed from values of the interpolant inside the step,
+ * by a one-sided difference of order 2. */
 static double rate_at_end(integrator_run *run, double t, double inwards, double at_end)
 {
   look(run, t + inwards);
@@ -115,8 +115,8 @@ static double rate_at_end(integrator_run *run, double t, double inwards, double 
   return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
 }
 
-/* At both ends of every step the interpolant has the q, v and q' of the states, so it is
- * continuously differentiable. */
+/* At both ends of every step, the interpolant must have the q, v and q' of the states there. It is
+ * then continuously differentiable. */
 static void join(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -131,7 +131,7 @@ static void join(const method *m)
     assert_memory_equal(run.q, q, sizeof q);
     assert_memory_equal(run.v, v, sizeof v);
     double inwards = 1e-4 * (run.state.t - before.t);
-    /* The difference has the error (1e-4 h)^2 q''' / 3, with h < 0.3 and q''' < 100. */
+    /* The error of the difference is (1e-4 h)^2 q''' / 3, with h < 0.3 and q''' < 100. */
     ASSERT_NEAR(rate_at_end(&run, before.t, inwards, q[0]), v[0], 0.0, 1e-7);
     ASSERT_NEAR(rate_at_end(&run, run.state.t, -inwards, run.state_q[0]), run.state_v[0], 0.0,
                 1e-7);
@@ -151,8 +151,8 @@ static void steps_join_with_value_and_rate(void **state)
   for_each(join);
 }
 
-/* Interpolation does not change the motion in any bit. Its only cost is the extra stages, once per
- * step. */
+/* Interpolation must not change any bit of the motion. It may only cost the evaluation of the extra
+ * stages, once per step. */
 static void look_at_every_step(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -188,7 +188,7 @@ static void interpolation_does_not_alter_the_motion(void **state)
 
 /* ---- steps ---- */
 
-/* A step takes one evaluation per stage; the first step takes one more. */
+/* A step needs one evaluation for each stage. The first step needs one more. */
 static void count_evaluations(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -223,7 +223,8 @@ static void keep_below(const method *m)
     while (fabs(run.state.t) < 0.5) {
       assert_int_equal(integrator_run_step(&run), BAUM_OK);
       double h = sign * (run.state.t - before);
-      assert_true(h > 0.0 && h <= 0.03 + 1e-16); /* h is a difference of rounded times */
+      /* H is a difference of two times, which are rounded. */
+      assert_true(h > 0.0 && h <= 0.03 + 1e-16);
       before = run.state.t;
     }
     integrator_run_close(&run);
@@ -237,7 +238,7 @@ static void no_step_is_longer_than_the_longest(void **state)
   for_each(keep_below);
 }
 
-/* A max_step that changes between steps takes effect in the next step. */
+/* If max_step changes between two steps, the next step must obey it. */
 static void a_longest_step_acts_at_once(void **state)
 {
   (void)state;
@@ -256,12 +257,13 @@ static void a_longest_step_acts_at_once(void **state)
 
 /* ---- what makes a step shorter ---- */
 
-/* A zero force that fails in its calls number `from` to `from + times - 1`. */
+/* A force of zero, which fails in a number of calls. The first of these is call number `from`, and
+ * the last is number from + times - 1. */
 typedef struct hiccup {
   int calls;
   int from;
   int times;
-  int answer; /* 0: sets NaN */
+  int answer; /* 0: the force sets NaN */
 } hiccup;
 
 static int answer_hiccup(double t, const double *q, const double *v, const double *inputs,
@@ -306,8 +308,8 @@ static baum_mechanism *make_hiccup(hiccup *h)
   return mechanism;
 }
 
-/* The force fails twice, beginning with call number `from` of the step. Each time the step is
- * repeated with half the length, and the motion is accurate. */
+/* The force fails twice. The first failure is in call number `from` of the step. Each failure
+ * halves the step, which is then repeated. The motion must be accurate nevertheless. */
 static void get_over(const method *m)
 {
   for (int answer = 0; answer <= 1; answer++) {
@@ -338,8 +340,8 @@ static void evaluations_that_fail_for_a_while_are_got_over(void **state)
   for_each(get_over);
 }
 
-/* The force x'^2 on 1 kg. With x'(0) = 1 m/s the motion is x' = 1 / (1 - t), which becomes infinite
- * at t = 1 s. */
+/* The force x'^2 acts on 1 kg. If x'(0) = 1 m/s, the motion is x' = 1 / (1 - t), which becomes
+ * infinite at t = 1 s. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -362,7 +364,8 @@ static void a_motion_without_bound_ends_in_steps_too_short(void **state)
     assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
     assert_non_null(strstr(baum_message(), "grow without bound"));
     assert_non_null(strstr(baum_message(), pairs[k]->name));
-    /* The motion becomes infinite at t = 1 s; errors of the steps shift that time. */
+    /* The exact motion becomes infinite at t = 1 s. Errors of the steps shift this time a
+     * little. */
     assert_true(isfinite(run.state_q[0]) && isfinite(run.state_v[0]));
     ASSERT_NEAR(run.state.t, 1.0, 0.0, 1e-4);
     integrator_run_close(&run);

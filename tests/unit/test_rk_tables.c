@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coefficients of Runge-Kutta pairs, checked against the order conditions (J. Butcher; Hairer,
- * Norsett, Wanner 1993, section II.2): a method with weights b_i and stages a_ij has order p if
- * every rooted tree t of up to p nodes fulfils
+/* Checks the coefficients of Runge-Kutta pairs by the order conditions (J. Butcher; Hairer,
+ * Norsett, Wanner 1993, section II.2). Let a method have the weights b_i and the stages a_ij. Its
+ * order is p if every rooted tree t of up to p nodes satisfies
  *
  *   sum_i b_i phi_i(t) = 1 / gamma(t),
  *   phi_i(t) = product over the branches t' of the root of sum_j a_ij phi_j(t'),
  *   gamma(t) = |t| times the product of gamma(t') over these branches.
  *
  * An interpolant b(x) has order p if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). The weights of an
- * error estimate are differences of the weights of two methods, so their sums are zero up to the
- * lower order. There are 200 trees of up to 8 nodes.
+ * error estimate are differences of the weights of two methods. Their sums over a tree are
+ * therefore zero up to the lower of the two orders. There are 200 trees of up to 8 nodes.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +29,8 @@ enum { TREES = 200, NODES_MAX = 8, STAGES_MAX = 16 };
 typedef struct tree {
   int nodes;
   int branch_count;
-  int branches[NODES_MAX]; /* indices of smaller trees, in increasing order */
+  /* Indices of the smaller trees that are its branches, in increasing order. */
+  int branches[NODES_MAX];
   double gamma;
 } tree;
 
@@ -49,8 +50,8 @@ static void plant(forest *f, const tree *t)
   f->trees[f->count++] = grown;
 }
 
-/* Adds branches with `missing` nodes in total to the tree in all possible ways, using the trees
- * from number `first` on. */
+/* Adds branches that have `missing` nodes in total to the tree, in all possible ways. Only trees
+ * from number `first` on are used as branches. */
 static void branch_out(forest *f, tree *t, int missing, int first)
 {
   if (missing == 0) {
@@ -64,7 +65,7 @@ static void branch_out(forest *f, tree *t, int missing, int first)
   }
 }
 
-/* Generates all trees, ordered by their number of nodes. */
+/* Generates all trees, in the order of their numbers of nodes. */
 static void grow(forest *f)
 {
   f->count = 0;
@@ -77,8 +78,8 @@ static void grow(forest *f)
 
 /* ---- a pair as one matrix ---- */
 
-/* The coefficients of the stages of the step, of its end, and of the extra stages, as rows of one
- * matrix. */
+/* A matrix whose rows are the coefficients of the stages, of the end of the step, and of the extra
+ * stages. */
 typedef struct matrix {
   int n;
   double a[STAGES_MAX][STAGES_MAX];
@@ -124,13 +125,13 @@ static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX
   }
 }
 
-/* A pair with all trees and their phi at all stages. */
+/* A Runge-Kutta pair, with all trees and the values of phi for these trees at all stages. */
 typedef struct scene {
   const baum_i_rk_pair *pair;
   const baum_integrator *integrator;
   int dense_order;
-  int error_order;  /* highest order up to which the sums of the estimates are zero */
-  int error3_order; /* 0: there is no second estimate */
+  int error_order;  /* the highest order up to which the sums of the estimates are zero */
+  int error3_order; /* 0 if there is no second estimate */
   forest trees;
   matrix m;
   double phi[TREES][STAGES_MAX];
@@ -162,7 +163,7 @@ static double sum_of(const scene *s, const double *weights, int count, int k)
 
 /* ---- conditions ---- */
 
-/* Coefficients are up to 358 and rounded to 16 digits. */
+/* The coefficients are up to 358, and they are rounded to 16 digits. */
 static const double ROUNDING = 1e-13;
 
 static void rows_add_up_to_their_times(void **state)
@@ -231,8 +232,8 @@ static void estimates_vanish_up_to_their_order(void **state)
   }
 }
 
-/* Computes the weights of the interpolant at x in a step of length 1, in the nested form that
- * rk_adaptive.c uses. */
+/* Computes the weights of the interpolant at x in a step of length 1, in the same nested form as
+ * rk_adaptive.c. */
 static void interpolate(const scene *s, double x, double *weights)
 {
   const baum_i_rk_pair *pair = s->pair;
@@ -270,7 +271,7 @@ static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
   }
 }
 
-/* R(mu) = 1 + sum over k of mu^k b A^(k-1) e, where e is the vector of ones. */
+/* The polynomial is R(mu) = 1 + sum over k of mu^k b A^(k-1) e, where e is the vector of ones. */
 static void the_stability_polynomial_is_that_of_the_table(void **state)
 {
   (void)state;
@@ -295,7 +296,7 @@ static void the_stability_polynomial_is_that_of_the_table(void **state)
         }
         power[i] = next;
       }
-      /* 1e-17, because the last coefficient of rk8 is as small as 3.6e-10. */
+      /* The tolerance is 1e-17, because the last coefficient of rk8 is only 3.6e-10. */
       ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
     }
   }

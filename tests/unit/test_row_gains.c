@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of single rows, mainly with integrators that choose their step. With alpha = beta = b and
- * the factor f of a row, this row obeys
+/* Tests gains of single rows, mainly with integrators that choose their steps. If alpha = beta = b
+ * and a row has the factor f, this row satisfies in any mechanism
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
- * in any mechanism. Adams includes the factor of every row in its iteration, BDF and IDA include it
- * in their matrices.
+ * Adams methods include the factor of every row in their iteration. BDF and IDA include it in their
+ * matrices.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +29,7 @@ static const baum_integrator *find(const char *name)
     const baum_integrator *at = baum_integrator_at(k);
     found = strcmp(baum_integrator_name(at), name) == 0 ? at : found;
   }
-  /* The integrators without a fixed step that are tested here need SUNDIALS. */
+  /* Of the integrators tested here, all that have no fixed step need SUNDIALS. */
   bool runs = found && (baum_has("sundials") || baum_integrator_has_fixed_step(found));
   return runs ? found : NULL;
 }
@@ -86,8 +86,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
     double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
-    /* The tolerance allows for the errors of several hundred steps at rtol 1e-8 with lengths below
-     * 1 m. Forgetting a factor in any term would cause 1e-6 or more. */
+    /* The tolerance allows for the errors of several hundred steps at rtol 1e-8, with lengths below
+     * 1 m. An error of 1e-6 or more would show that a factor is missing in some term. */
     ASSERT_NEAR(rows[k], want, 0.0, 1e-7);
   }
   baum_simulation_destroy(run);
@@ -123,7 +123,7 @@ static void each_row_decays_with_its_own_gains_backward_in_time(void **state)
       assert_int_equal(baum_simulation_get(run, &violation, 1, end), BAUM_OK);
       for (int i = 0; i < ROWS; i++) {
         ASSERT_NEAR(end[i], start[i] * (1.0 + FACTORS[i]) * exp(-FACTORS[i]), 0.0,
-                    1e-7); /* as above */
+                    1e-7); /* the tolerance is explained above */
       }
       baum_simulation_destroy(run);
     }
@@ -144,9 +144,9 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
   return counters;
 }
 
-/* The gains reach 4e4 1/s. A plain fixed-point iteration converges only for 2 alpha h < 2, which
- * would take 2000 steps. Measured numbers of steps: 620, 440 and 580; with equal gains of 1e4 1/s,
- * 340, 370 and 390. */
+/* The gains reach 4e4 1/s. A plain fixed-point iteration converges only if 2 alpha h < 2, which
+ * would require 2000 steps. The numbers of steps that were measured are 620, 440 and 580. With
+ * equal gains of 1e4 1/s they are 340, 370 and 390. */
 static void steps_do_not_become_short(void **state)
 {
   (void)state;
@@ -158,8 +158,8 @@ static void steps_do_not_become_short(void **state)
       baum_counters alike = count_steps(m.mechanism, NAMES[k], 1e4, NULL);
       baum_counters likewise = count_steps(m.mechanism, NAMES[k], 1e4, ones);
       baum_counters own = count_steps(m.mechanism, NAMES[k], 1e4, FACTORS);
-      /* Factors of 1 give the same gains, but sums in another order, so rounding may change the
-       * number of steps slightly. */
+      /* Factors of 1 leave the gains unchanged. Sums are formed in another order, however, so
+       * rounding may change the number of steps slightly. */
       ASSERT_NEAR((double)likewise.steps, (double)alike.steps, 0.1, 0.0);
       assert_in_range(own.steps, 1, 1000);
       assert_in_range(own.nonlinear_iterations, 1, 2000);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every version of the saved format has its own list of parts. This test fails if the list changes
- * without a new version. */
+/* Every version of the format of saved runs has its own list of parts. This test fails if the list
+ * changes but the version stays the same. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,10 +13,10 @@
 #include "pendulum_events.h"
 #include "simulate/saved.h"
 
-/* Checksums over the sizes of all parts that a run saves. Never change a row: if sizes change,
- * raise the version and add a row. Versions up to 8 had another kind of list. Version 12 saves more
- * angles of spatial joints than version 11; this run has no such joints, so both checksums are
- * equal. */
+/* The checksums cover the sizes of all parts that a run saves. Never change a row of this table. If
+ * sizes change, raise the version and add a row. Versions up to 8 had another kind of list. Version
+ * 12 saves more angles of spatial joints than version 11. This run has no such joints, so both
+ * checksums are equal. */
 static const struct {
   int version;
   uint64_t list;

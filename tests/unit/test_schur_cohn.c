@@ -26,7 +26,8 @@ static void multiply(baum_i_polynomial *p, double re, double im)
   }
 }
 
-/* Makes a polynomial with random roots, |z| <= most. Returns the largest |z|. */
+/* Makes a polynomial with random roots. All of them satisfy |z| <= most. Returns the largest
+ * |z|. */
 static double from_roots(uint64_t *seed, int degree, double most, baum_i_polynomial *p)
 {
   *p = (baum_i_polynomial){.c = {{1.0, 0.0}}};
@@ -50,7 +51,7 @@ static void the_test_says_whether_all_roots_are_inside(void **state)
     int degree = 1 + n % BAUM_I_SCHUR_COHN_DEGREE;
     double largest = from_roots(&seed, degree, 1.2, &p);
     double radius = uniform(&seed, 0.3, 1.5);
-    if (fabs(largest - radius) > 1e-3) { /* closer roots: rounding decides */
+    if (fabs(largest - radius) > 1e-3) { /* if a root is closer to the circle, rounding decides */
       assert_int_equal(baum_i_schur_cohn_margin(&p, radius) > 0.0, largest < radius);
       inside += largest < radius;
     }
@@ -66,8 +67,8 @@ static void the_radius_is_that_of_the_largest_root(void **state)
     baum_i_polynomial p;
     double most = pow(10.0, uniform(&seed, -3.0, 3.0));
     double largest = from_roots(&seed, 1 + n % 4, most, &p);
-    /* Two random roots may be as close as 1e-3, which causes errors of 1e-16 / 1e-3. The bisection
-     * has an error of 1e-10. */
+    /* Two random roots may be as close to each other as 1e-3. This causes errors of 1e-16 / 1e-3.
+     * In addition, the bisection has an error of 1e-10. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), largest, 1e-9, 0.0);
   }
 }
@@ -80,8 +81,8 @@ static void multiple_roots_are_found_as_well_as_promised(void **state)
     for (int k = 0; k < m; k++) {
       multiply(&p, 0.48, 0.64);
     }
-    /* schur_cohn.h states this accuracy. The rounding of the coefficients alone changes an m-fold
-     * root by the m-th root of 1e-16. */
+    /* The file schur_cohn.h states this accuracy. The rounding of the coefficients alone changes a
+     * root of multiplicity m by the m-th root of 1e-16. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), 0.8, 4.0 * pow(1e-16, 1.0 / (m + 1)) + 1e-10, 0.0);
   }
 }
@@ -89,8 +90,10 @@ static void multiple_roots_are_found_as_well_as_promised(void **state)
 static void roots_on_the_circle_are_not_inside(void **state)
 {
   (void)state;
-  const baum_i_polynomial one = {2, {{0.0, 0.0}, {-1.0, 0.0}, {1.0, 0.0}}}; /* z^2 - z */
-  const baum_i_polynomial pair = {2, {{1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}}}; /* z^2 + 1 */
+  /* The polynomial z^2 - z. */
+  const baum_i_polynomial one = {2, {{0.0, 0.0}, {-1.0, 0.0}, {1.0, 0.0}}};
+  /* The polynomial z^2 + 1. */
+  const baum_i_polynomial pair = {2, {{1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}}};
   assert_true(baum_i_schur_cohn_margin(&one, 1.0) <= 0.0);
   assert_true(baum_i_schur_cohn_margin(&pair, 1.0) <= 0.0);
   assert_true(baum_i_schur_cohn_margin(&one, 1.0 + 1e-9) > 0.0);

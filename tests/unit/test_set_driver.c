@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drivers that are set during a run. In the scene a motor rotates a crank about its centre; a rod
- * hangs freely from the crank. A winch moves a cart on a guide by a user law or a spline. */
+/* Tests drivers that are set during a run. In the scene, a motor rotates a crank about its centre,
+ * and a rod hangs freely from the crank. A winch moves a cart on a guide. Its law is a user
+ * function or a spline. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,11 +15,11 @@
 #include "assert_near.h"
 #include "step_mode.h"
 
-static const double RATE = 2.0; /* [rad/s] of the motor in its definition */
+static const double RATE = 2.0; /* [rad/s] of the motor, as its definition says */
 
-/* What the user functions of a scene do. */
+/* What the user functions of a scene do, and how often they were called. */
 typedef struct faults {
-  bool along_spline; /* a spline moves the cart instead of the user law */
+  bool along_spline; /* a spline moves the cart instead of the user's law */
   int law_calls;
   bool force_fails;
 } faults;
@@ -195,7 +196,8 @@ static void check_within(baum_simulation *run, baum_joint_id joint, double t, mo
   ASSERT_NEAR(got.rate, want.rate, 0.0, off.rate);
 }
 
-/* Checks with ten times the tolerance for velocities, which reach 10 1/s. */
+/* Checks the value and the velocity of a joint's coordinate. The tolerance for the velocity is ten
+ * times as large, because velocities reach 10 1/s. */
 static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion want,
                      double tolerance)
 {
@@ -204,20 +206,21 @@ static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion
 
 /* ---- every method ---- */
 
-/* Returns the largest allowed errors of a driven coordinate. Variable steps: a few hundred times
- * rtol. Euler methods with gains of 1/h: h^2 |s''| in position and h |s''| / 2 in velocity with
- * |s''| = 8, and 10 % more. Other fixed-step methods project, so errors are rounding. */
+/* Returns the largest allowed errors of a driven coordinate. For variable steps, these are a few
+ * hundred times rtol. For Euler methods with gains of 1/h, they are h^2 |s''| in position and h
+ * |s''| / 2 in velocity with |s''| = 8, plus 10 %. All other fixed-step methods project, so that
+ * their errors are rounding errors. */
 static motion allowed(step_mode mode)
 {
   if (!mode.fixed) {
     return (motion){3e-7, 3e-6};
   }
-  /* Adams-Bashforth methods do not project, so the errors are of order h^2 = 1e-6 s^2. */
+  /* Adams-Bashforth methods do not project. Their errors are of order h^2 = 1e-6 s^2. */
   if (step_mode_is_adams(mode)) {
     return (motion){1e-6, 1e-5};
   }
-  /* Generalized-alpha projects positions only. Velocity errors are about h^2 |s'''| / 10 with
-   * |s'''| <= 2.7; ten times that is allowed. */
+  /* The generalized-alpha method projects only positions. Errors of its velocities are about h^2
+   * |s'''| / 10 with |s'''| <= 2.7. Ten times this value is allowed. */
   if (mode.integrator == baum_generalized_alpha()) {
     return (motion){1e-12, 2.7e-6};
   }
@@ -238,14 +241,15 @@ static void check_laws(step_mode mode)
   assert_true(motion_of(run, s.pin).value == now.value);
   check_within(run, s.pin, 0.7, (motion){0.6 + 0.4 * RATE + 0.5 * 8.0 * 0.16, RATE + 0.4 * 8.0},
                off);
-  /* The winch continues with the law of its definition. */
+  /* The winch must continue with the law of its definition. */
   check_within(run, s.guide, 0.7, (motion){0.1 * sin(2.1), 0.3 * cos(2.1)}, off);
   now = motion_of(run, s.pin);
   assert_int_equal(baum_simulation_set_driver(run, s.motor, now.value, now.rate, 0.0), BAUM_OK);
   check_within(run, s.pin, 1.0, (motion){now.value + 0.3 * now.rate, now.rate}, off);
   int64_t changes = step_mode_remembers(mode) ? 2 : 0;
   assert_true(restarts_of(run) >= changes);
-  bool by_short_steps = mode.fixed && step_mode_remembers(mode); /* shortened steps restart too */
+  /* Shortened steps also cause restarts. */
+  bool by_short_steps = mode.fixed && step_mode_remembers(mode);
   assert_true(by_short_steps || restarts_of(run) == changes);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
@@ -281,7 +285,7 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   assert_true(f.law_calls > 0);
   baum_simulation_destroy(run);
   baum_simulation_destroy(other);
-  /* The definition in the mechanism is unchanged, so a new run uses the user law. */
+  /* The definition in the mechanism must be unchanged, so that a new run uses the user's law. */
   run = start(&s, &o);
   check_at(run, s.guide, 0.1, (motion){0.1 * sin(0.3), 0.3 * cos(0.3)}, 1e-12);
   baum_simulation_destroy(run);
@@ -340,7 +344,7 @@ static void the_law_is_called_once_per_evaluation(void **state)
 
 static const double JUMP = 0.05; /* [rad] */
 
-/* Starts a run and sets its driver to a value that differs by JUMP from the present angle. */
+/* Starts a run, and sets its driver to an angle that differs by JUMP from the present one. */
 static baum_simulation *jump(const scene *s, baum_formulation formulation, baum_gains gains)
 {
   baum_simulation_options o = options_of(baum_rk4());
@@ -366,13 +370,13 @@ static void with_projection_the_next_step_jumps_to_the_law(void **state)
   ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* rounding */
   baum_counters c;
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* found at the start of that step */
+  ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* it is found at the start of that step */
   assert_memory_equal(&c.max_phi_joint, &s.motor, sizeof s.motor);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* With alpha = beta the violation decays as Phi = -JUMP (1 + alpha t) exp(-alpha t). The relative
+/* If alpha = beta, the violation decays as Phi = -JUMP (1 + alpha t) exp(-alpha t). The relative
  * error of rk4 is about (alpha h)^4. */
 static void with_baumgarte_the_difference_to_the_law_decays_with_the_gains(void **state)
 {
@@ -406,7 +410,8 @@ static void without_stabilization_the_difference_stays(void **state)
 
 /* ---- failure ---- */
 
-/* Setting a law restarts IDA, which evaluates then. If this fails, the old law stays. */
+/* Setting a law restarts IDA, which then evaluates the law. If this evaluation fails, the old law
+ * remains. */
 static void a_law_that_fails_at_the_restart_is_not_set(void **state)
 {
   (void)state;

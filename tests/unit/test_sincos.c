@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sines and cosines of src/base/sincos.h, and those of frames. The reference is sinl() and
- * cosl() in long double, which have an exact argument reduction and eleven more bits. */
+/* Tests the sines and cosines of src/base/sincos.h, and the frames that are computed with them. The
+ * references are sinl() and cosl() in long double. They reduce the argument exactly and have eleven
+ * more bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,16 +19,17 @@
 #include "base/sincos.h"
 #include "dynamics/dynamics.h"
 #include "mechanism/planar/frames.h"
-#include "saddle.h" /* random numbers */
+#include "saddle.h" /* for random numbers */
 
 #define PI 3.14159265358979323846
 
 enum { BODIES = 7 }; /* not a multiple of the vector length */
 
-/* One unit in the last place of the exact value. */
+/* Errors are given in units in the last place of the exact value. This is the limit. */
 static const double ONE_ULP = 1.0;
 
-/* Skips the test if long double is no longer than double, as on some machines and in valgrind. */
+/* Skips the test if long double is not longer than double. This is the case on some machines, and
+ * in valgrind. */
 static void skip_without_long_double(void)
 {
   volatile long double one = 1.0L;
@@ -49,7 +51,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* Returns the larger of the errors of sine and cosine. */
+/* Returns the error of the sine or of the cosine, whichever is larger. */
 static double error_of(double x, double sine, double cosine)
 {
   return worse(ulps(sine, sinl((long double)x)), ulps(cosine, cosl((long double)x)));
@@ -86,8 +88,8 @@ static void random_angles_are_right_to_one_ulp(void **state)
   }
 }
 
-/* Tests all multiples of pi/2 up to the limit and the doubles next to them. There the sine or the
- * cosine is smallest, so the reduction cancels most digits. */
+/* Tests all multiples of pi/2 up to the limit, and the doubles next to them. At these angles the
+ * sine or the cosine is smallest, so that the reduction cancels most digits. */
 static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
 {
   (void)state;
@@ -126,7 +128,8 @@ static void tiny_angles_are_their_own_sines(void **state)
     double sine;
     double cosine;
     baum_i_sincos(x, &sine, &cosine);
-    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 are below rounding */
+    /* x^3 / 6 and x^2 / 2 are smaller than rounding errors. */
+    assert_true(sine == x && cosine == 1.0);
     baum_i_sincos(-x, &sine, &cosine);
     assert_true(sine == -x && cosine == 1.0);
   }
@@ -153,7 +156,7 @@ static void the_limit_itself_is_right(void **state)
   assert_true(error_on_both_sides(inside) <= ONE_ULP);
 }
 
-/* ---- frames, in both builds ---- */
+/* ---- frames, in both builds of the hot files ---- */
 
 typedef struct frames {
   baum_mechanism *mechanism;
@@ -193,7 +196,7 @@ static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
   return f->workspace->point.frames + 1;
 }
 
-/* The build with fused multiply-add rounds differently, but not worse. */
+/* The build with fused multiply-add rounds differently, but its errors are not larger. */
 static void frames_of_both_builds_are_right_to_one_ulp(void **state)
 {
   (void)state;
@@ -220,8 +223,8 @@ static void frames_of_both_builds_are_right_to_one_ulp(void **state)
   }
 }
 
-/* The C library computes an angle that is too large for sincos.h. The other angles of the same
- * vector keep their results. */
+/* For an angle that is too large for sincos.h, the C library is used. The results for the other
+ * angles in the same vector must not change. */
 static void frames_of_far_angles_are_those_of_the_library(void **state)
 {
   (void)state;

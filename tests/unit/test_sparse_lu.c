@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* General sparse LU: solutions, pivots that are kept or chosen again, and singular matrices. */
+/* Tests the general sparse LU: solutions, pivots that are kept or chosen again, and singular
+ * matrices. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +29,8 @@ static void check_solution(baum_i_sparse_lu *lu, double a, double b)
   double x[3] = {a * 1.0 + 2.0 * 3.0, 1.0 + b * 2.0, 3.0 * 2.0 + 4.0 * 3.0};
   baum_i_sparse_lu_solve(lu, x);
   for (int i = 0; i < 3; i++) {
-    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0); /* rounding; well-conditioned */
+    /* Only rounding errors, as the matrix is well-conditioned. */
+    ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0);
   }
 }
 
@@ -46,7 +48,7 @@ static void several_matrices_are_solved_with_the_same_pivots(void **state)
   baum_i_sparse_lu_destroy(lu);
 }
 
-/* The pivots of the first matrix, a and b, become small, so others must be chosen. */
+/* The pivots of the first matrix, a and b, become small. Others must then be chosen. */
 static void pivots_that_have_become_small_are_given_up(void **state)
 {
   (void)state;
@@ -66,7 +68,7 @@ static void a_matrix_without_full_rank_is_reported(void **state)
   assert_int_equal(baum_i_sparse_lu_create(3, COLUMNS, ROWS, &lu), BAUM_OK);
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
-  check_solution(lu, 5.0, 7.0); /* the next matrix is solved */
+  check_solution(lu, 5.0, 7.0); /* a later matrix must be solved */
   fill(1.0, -1.5, values);
   assert_int_equal(baum_i_sparse_lu_factor(lu, values), BAUM_ERR_SINGULAR);
   baum_i_sparse_lu_destroy(lu);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sparse QR of random matrices. Residuals must be orthogonal to the columns, and the columns found
- * to be dependent must be those that a Gram-Schmidt process finds. */
+/* Tests sparse QR with random matrices. Residuals must be orthogonal to the columns. The columns
+ * that QR finds to be dependent must be those that a Gram-Schmidt process finds. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -20,7 +20,7 @@ enum { MOST = 40, ENTRIES = MOST * MOST };
 
 static const double tolerance = 1e-11;
 
-/* A random matrix, stored dense and in compressed columns. */
+/* A random matrix, stored both as a dense matrix and in compressed columns. */
 typedef struct sample {
   int32_t m;
   int32_t n;
@@ -42,8 +42,9 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
   return (int32_t)floor(0.5 * (1.0 + draw(seed)) * bound);
 }
 
-/* Fills column j with up to three entries in rows near the diagonal, and with one in a random row.
- * With `hub` the latter is in row 0 for every column, which couples all columns. */
+/* Fills column j with up to three entries in rows near the diagonal, and with one more entry in a
+ * random row. If `hub` is set, this entry is in row 0 for every column, which couples all
+ * columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {
@@ -53,7 +54,7 @@ static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
   s->dense[j][hub ? 0 : draw_below(seed, s->m)] = draw(seed);
 }
 
-/* Fills column j with a combination of up to two earlier columns. It may be zero. */
+/* Fills column j with a combination of up to two earlier columns. The combination may be zero. */
 static void fill_dependent(sample *s, int32_t j, uint64_t *seed)
 {
   for (int k = 0; k < 2 && j > 0; k++) {
@@ -81,7 +82,7 @@ static void compress(sample *s)
 }
 
 /* Draws a random m x n matrix in which a share of the columns is dependent. The other columns are
- * nearly always independent, because there are enough rows. */
+ * almost always independent, because there are enough rows. */
 static void draw_sample(int32_t m, int32_t n, double share, uint64_t seed, sample *s)
 {
   bool hub = seed % 4 == 0;
@@ -108,8 +109,9 @@ static double product(const sample *s, int32_t j, const double *x)
   return sum;
 }
 
-/* Finds the independent columns in the given order, by the Gram-Schmidt process with two passes.
- * Returns the rank, or -1 if a column is too close to dependent to decide. */
+/* Goes through the columns in the given order and finds the independent ones, by the Gram-Schmidt
+ * process with two passes. Returns the rank. Returns -1 if a column is so close to dependent that
+ * the process cannot decide. */
 static int32_t find_independent(const sample *s, const int32_t *order, unsigned char *independent)
 {
   double basis[MOST][MOST];
@@ -154,8 +156,8 @@ static baum_i_sparse_qr *make(const sample *s, const int32_t *order)
   return qr;
 }
 
-/* Checks that x minimizes |A x - b| and is zero for dependent columns, and that the projection P
- * fulfils P b = A x and P^2 = P. */
+/* Checks that x minimizes |A x - b| and is zero for dependent columns. Also checks that the
+ * projection P satisfies P b = A x and P^2 = P. */
 static void assert_solves(const sample *s, baum_i_sparse_qr *qr, const unsigned char *independent)
 {
   double b[MOST];
@@ -189,7 +191,7 @@ static void assert_solves(const sample *s, baum_i_sparse_qr *qr, const unsigned 
   }
 }
 
-/* Draws a random order of the columns. */
+/* Chooses a random order of the columns. */
 static void draw_order(int32_t n, uint64_t *seed, int32_t *order)
 {
   for (int32_t k = 0; k < n; k++) {
@@ -244,8 +246,8 @@ static void of_dependent_columns_the_later_ones_are_given_up(void **state)
   }
 }
 
-/* With new values of the same pattern, dependent columns may become independent and independent
- * ones dependent. */
+/* If the values change but the pattern does not, dependent columns may become independent, and
+ * independent columns may become dependent. */
 static void the_result_does_not_depend_on_earlier_values(void **state)
 {
   (void)state;
@@ -273,8 +275,9 @@ static void the_result_does_not_depend_on_earlier_values(void **state)
   baum_i_sparse_qr_destroy(kept);
 }
 
-/* A chain of 20000 links with both ends held, and every column twice. Algorithms whose time or
- * memory grows as the square of the size could not do this. */
+/* The matrix belongs to a chain of 20000 links. Both ends of the chain are held, and every column
+ * occurs twice. An algorithm whose time or memory grows as the square of the size could not solve
+ * this. */
 static void a_long_chain_is_linear(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares all derivatives of every spatial element, between bodies of all kinds, with differences
- * along the configuration manifold. */
+/* Tests all derivatives of every spatial element between bodies of all kinds. They are compared
+ * with differences along the configuration manifold. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,8 +30,8 @@ static bool is_particle(int body)
   return body == 3 || body == 5;
 }
 
-/* With `sphere` the body has no gyroscopic moments. Derivatives of forces do not include these, so
- * forces are tested between spheres. */
+/* If `sphere` is set, the body has no gyroscopic moments. The derivatives of forces do not include
+ * gyroscopic moments. Forces are therefore tested between spheres. */
 static baum_body_id add_body(baum_mechanism *m, double x, bool sphere)
 {
   baum_body_id id;
@@ -67,7 +67,7 @@ static scene make(bool spheres)
   return s;
 }
 
-/* ---- what is added between two bodies ---- */
+/* ---- the elements that are added between two bodies ---- */
 
 #define BETWEEN(S, DEF, A, B)                                             \
   do {                                                                    \
@@ -161,7 +161,7 @@ static void add_load(scene *s, int a, int b)
 typedef struct element {
   const char *name;
   void (*add)(scene *s, int a, int b);
-  bool particle_a, particle_b; /* body a, b may be a particle */
+  bool particle_a, particle_b; /* whether body a or body b may be a particle */
   bool force;
 } element;
 
@@ -193,7 +193,7 @@ static void check_bodies(test_point *p)
   for (int k = 1; k <= 2; k++) {
     const baum_i_body *body = p->mechanism->bodies[k];
     for (int j = 0; j < 6; j++) {
-      static const double step = 1e-3; /* any step: the moments are quadratic in v */
+      static const double step = 1e-3; /* any step is right, as the moments are quadratic in v */
       double f[2][TEST_SIZE_MAX];
       for (int side = 0; side < 2; side++) {
         double v = p->v[body->v + j];
@@ -211,8 +211,9 @@ static void check_bodies(test_point *p)
   }
 }
 
-/* Tells whether differences can be used. In a random state a joint may be far off its constraints;
- * its angle is then that of a short vector, which changes too quickly. */
+/* Tells whether differences can be used for the coordinates of a joint. In a random state, a joint
+ * may be far off its constraints. Its angle is then the angle of a short vector, which changes too
+ * quickly for differences. */
 static bool is_smooth(const test_point *p, int joint)
 {
   const baum_i_joint *j = p->mechanism->joints[joint];
@@ -229,7 +230,7 @@ static bool is_smooth(const test_point *p, int joint)
   return true;
 }
 
-/* Draws random states until differences can be used for all coordinates of the first joints. */
+/* Tries random states until differences can be used for all coordinates of the first joints. */
 static void find_smooth(test_point *p, int joints, uint64_t *seed)
 {
   bool smooth = false;
@@ -303,8 +304,8 @@ static void check_pair(const element *e, int a, int b)
   }
 }
 
-/* Tests a pair if the element allows its particles and if body 1 (spatial) or 4 (planar) is part of
- * it. */
+/* Tells whether an element is tested between two bodies. The element must allow the particles among
+ * them, and body 1 (spatial) or body 4 (planar) must be one of them. */
 static bool is_tested(const element *e, int a, int b)
 {
   bool allowed = (e->particle_a || !is_particle(a)) && (e->particle_b || !is_particle(b));
@@ -352,8 +353,8 @@ static void couple(const scene *s, int a, baum_joint_coordinate of_a, int b,
 
 enum { COUPLED = 4 };
 
-/* Makes couplings between joints of two to four bodies, spatial and planar, with all kinds of
- * coordinates. */
+/* Makes couplings between joints of two to four bodies. The bodies are spatial and planar, and the
+ * coordinates are of all kinds. */
 static scene make_coupled(void)
 {
   static const baum_joint_coordinate x = BAUM_COORDINATE_X;
@@ -370,7 +371,7 @@ static scene make_coupled(void)
   pin.point[0] = 0.3;
   pin.point[1] = 0.2;
   check(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
-  couple(&s, 0, displacement, 0, angle, NULL); /* a screw */
+  couple(&s, 0, displacement, 0, angle, NULL); /* this is a screw */
   couple(&s, 0, angle, 1, angle_b, NULL);
   couple(&s, 1, angle, 2, x, cam);
   couple(&s, 3, angle, 0, angle, cam);
@@ -407,7 +408,8 @@ static void gyroscopic_moments_agree_with_differences(void **state)
   test_point_close(&p);
 }
 
-/* Checks N v by a difference of move, and that difference is the inverse of move. */
+/* Checks N v by a central difference of move. Also checks that difference is the inverse of
+ * move. */
 static void the_manifold_is_consistent(void **state)
 {
   (void)state;

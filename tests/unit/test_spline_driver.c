@@ -41,8 +41,8 @@ static baum_spline_driver_def along(const double *times, const double *values, i
   return def;
 }
 
-/* Opens a test point at the design configuration of a pin with a spline driver, which is joint
- * 2. */
+/* Makes a pin with a spline driver, which is joint 2. Opens a test point at the design
+ * configuration. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
   planar_scene scene = planar_scene_make();
@@ -51,8 +51,8 @@ static void open_cam(test_point *p, baum_spline_driver_def def)
   test_point_open(p, scene.mechanism);
 }
 
-/* Reads s, s', s'' from phi, nu and gamma of row 2, the driver. The mechanism rests in its design
- * configuration, where the pin's coordinate is -1.5. */
+/* Reads s, s' and s'' from phi, nu and gamma of row 2, which is the driver's row. The mechanism is
+ * at rest in its design configuration, where the coordinate of the pin is -1.5. */
 static void motion_at(test_point *p, double t, double s[3])
 {
   double rows[3];
@@ -68,8 +68,8 @@ static void motion_at(test_point *p, double t, double s[3])
 
 /* ---- derivatives ---- */
 
-/* Tests with differences use times in [0, 2]. No knot is in or near this interval, because the
- * third derivative jumps at knots. */
+/* Tests that use differences are made at times from 0 to 2. There is no knot in this interval or
+ * near it, because the third derivative of a spline jumps at knots. */
 static const double FAR_TIMES[4] = {-3.0, -0.5, 2.5, 4.0};
 static const double FAR_VALUES[4] = {0.3, -1.0, 2.0, 0.3};
 
@@ -102,8 +102,9 @@ static void derivatives_agree_with_differences(void **state)
 
 /* ---- the curve ---- */
 
-/* The natural spline through three points in closed form: if d_i are the slopes of the chords over
- * intervals h_i, the second derivative at the middle point is M = 3 (d_1 - d_0) / (h_0 + h_1). */
+/* This is the closed form of the natural spline through three points. Let d_i be the slopes of the
+ * chords over the intervals h_i. The second derivative at the middle point is M = 3
+ * (d_1 - d_0) / (h_0 + h_1). */
 static void three_places_are_joined_as_by_hand(void **state)
 {
   (void)state;
@@ -119,7 +120,7 @@ static void three_places_are_joined_as_by_hand(void **state)
     double s[3];
     motion_at(&p, times[0] + x * h[0], s);
     ASSERT_NEAR(s[0], values[0] + h[0] * x * d[0] + middle * h[0] * h[0] * (x * x * x - x) / 6.0,
-                0.0, 1e-14); /* rounding of numbers near 1 */
+                0.0, 1e-14); /* rounding errors of numbers near 1 */
     ASSERT_NEAR(s[1], d[0] + middle * h[0] * (3.0 * x * x - 1.0) / 6.0, 0.0, 1e-14);
     ASSERT_NEAR(s[2], middle * x, 0.0, 1e-14);
     motion_at(&p, times[2] - x * h[1], s);
@@ -145,7 +146,7 @@ static void outside_of_its_times_a_natural_spline_is_straight(void **state)
     double far[3];
     motion_at(&p, ends[k], end);
     motion_at(&p, ends[k] + away[k], far);
-    ASSERT_NEAR(end[2], 0.0, 0.0, 1e-14); /* rounding of 3.6 */
+    ASSERT_NEAR(end[2], 0.0, 0.0, 1e-14); /* rounding error of 3.6 */
     ASSERT_NEAR(far[0], end[0] + away[k] * end[1], 1e-14, 0.0);
     ASSERT_NEAR(far[1], end[1], 0.0, 0.0);
     ASSERT_NEAR(far[2], 0.0, 0.0, 0.0);
@@ -165,9 +166,9 @@ static void sample_sine(double times[PLACES], double values[PLACES])
   }
 }
 
-/* A periodic spline that interpolates sine at intervals h has errors of at most 5 h^4 / 384 in its
- * value, h^3 / 24 and 3 h^2 / 8 in its derivatives (Hall and Meyer 1976). Also tests times before
- * and after the knots. */
+/* A periodic spline interpolates the sine at intervals h. Its error is at most 5 h^4 / 384. The
+ * errors of its derivatives are at most h^3 / 24 and 3 h^2 / 8 (Hall and Meyer 1976). The test also
+ * uses times before the first knot and after the last one. */
 static void a_periodic_spline_repeats_and_follows_sine(void **state)
 {
   (void)state;
@@ -188,7 +189,7 @@ static void a_periodic_spline_repeats_and_follows_sine(void **state)
   test_point_close(&p);
 }
 
-/* Compares the values 1e-12 s before and after each knot, including the one at which a periodic
+/* Compares values 1e-12 s before and after each knot. One of them is the knot at which a periodic
  * spline repeats. */
 static void second_derivatives_are_continuous(void **state)
 {
@@ -202,7 +203,7 @@ static void second_derivatives_are_continuous(void **state)
       motion_at(&p, FAR_TIMES[k] - 1e-12, before);
       motion_at(&p, FAR_TIMES[k] + 1e-12, after);
       for (int i = 0; i < 3; i++) {
-        /* A time difference of 2e-12 s, and derivatives of up to 20. */
+        /* The times differ by 2e-12 s, and derivatives are up to 20. */
         ASSERT_NEAR(before[i], after[i], 0.0, 1e-10);
       }
     }
@@ -261,7 +262,7 @@ static void a_run_follows_the_spline_until_its_law_is_replaced(void **state)
   o.step = 0.01;
   assert_int_equal(baum_simulation_create(scene.mechanism, &o, &run), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
-  /* Projection fulfils the driver to rounding. */
+  /* Projection satisfies the driver to rounding. */
   ASSERT_NEAR(coordinate_of(run, pin), -0.7, 1e-12, 0.0);
   assert_int_equal(baum_simulation_set_driver(run, cam, -0.7, 2.0, 0.0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
@@ -340,7 +341,7 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  baum_spline_driver_def def = along(times, values, 4, true); /* the ends differ by 1e-13 */
+  baum_spline_driver_def def = along(times, values, 4, true); /* both ends differ only by 1e-13 */
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);

@@ -18,13 +18,13 @@ static void limits_are_the_known_ones(void **state)
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
-    [RK3] = 2.5127453266183286, /* the rest by bisection of |R| - 1, in Python */
+    [RK3] = 2.5127453266183286, /* this and the following: bisection of |R| - 1, in Python */
     [RK4] = 2.785293563405282,
   };
   double taylor[ONE_STEP_COUNT] = {
     [EULER] = 1.0,
-    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* root of 2 A^2 = 4 - 4 A */
-    [RK2] = 1.5436890126920764,              /* root of A^3 - 2 A^2 + 2 A = 2 */
+    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* a root of 2 A^2 = 4 - 4 A */
+    [RK2] = 1.5436890126920764,              /* a root of A^3 - 2 A^2 + 2 A = 2 */
     [RK3] = 1.6791988470387638,
     [RK4] = 1.9122666654063936,
   };
@@ -34,8 +34,9 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* The boundary of explicit Euler is B = 2 A for zeta < 1 and B = 4 A - 4 for zeta > 1, that of
- * semi-implicit Euler B = 4 - 4 A. With B = (A / zeta)^2 the limits follow in closed form. */
+/* For explicit Euler, the boundary of the region is B = 2 A if zeta < 1, and B = 4 A - 4 if
+ * zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together with B = (A / zeta)^2, this gives
+ * the limits in closed form. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
@@ -97,7 +98,7 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R by Durand-Kerner in Python */
+    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R, found by Durand-Kerner in Python */
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -122,7 +123,8 @@ static void deadbeat_of_both_eulers_is_exact(void **state)
   }
 }
 
-/* {A, radius} of the best points with alpha = beta, published with two digits. */
+/* Each row gives A and the radius of the best point with alpha = beta. The published values have
+ * two digits. */
 static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
 {
   (void)state;
@@ -167,8 +169,9 @@ static double segment_distance(point w, point p, point q)
   return hypot(p.A + t * a[0] - w.A, p.B + t * a[1] - w.B);
 }
 
-/* Returns the distance from w to the region of the plane (A, B) where both roots have |z| <= 0.9.
- * For Euler methods this is a triangle; the roots at its corners are (r, r), (-r, -r), (r, -r). */
+/* Returns the distance from w to the region of the plane (A, B) in which both roots have
+ * |z| <= 0.9. For Euler methods this region is a triangle. At its corners the two roots are (r, r),
+ * (-r, -r) and (r, -r), with r = 0.9. */
 static double triangle_distance(int method, point w)
 {
   double r = 0.9;
@@ -212,8 +215,8 @@ static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void *
 
 enum { COLUMNS = 300, ROWS = 500 };
 
-/* A box with one corner at the origin contains all points with |z| <= 0.9, which are called good
- * here. Returns its opposite corner. */
+/* Points with |z| <= 0.9 are called good here. All of them are in a box that has one corner at the
+ * origin. Returns the opposite corner of this box. */
 static point box(int method)
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -247,9 +250,11 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
     point w = {size * most.A * uniform(&seed, -0.2, 1.5),
                size * most.B * uniform(&seed, -0.1, 1.5)};
     point got = nearest(m, w.A, w.B);
-    /* The search uses the Schur-Cohn test, whose rounding differs from that of the radius. */
+    /* The search uses the test of Schur and Cohn, which has other rounding errors than the
+     * radius. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
-    /* At a sharp tip of the region of RK3 the search may be worse than the grid by 1 %. */
+    /* At a sharp tip of the region of RK3, the point that the search finds may be 1 % farther away
+     * than the point of the grid. */
     assert_true(hypot(got.A - w.A, got.B - w.B) <= 1.01 * grid_distance(m, w));
   }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions for stability: results, and refused arguments. */
+/* Tests the public functions for stability: their results, and arguments that they refuse. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,14 +22,14 @@
 
 typedef struct fact {
   const baum_integrator *(*integrator)(void);
-  double limit; /* largest stable alpha h for alpha = beta */
+  double limit; /* the largest stable alpha h if alpha = beta */
 } fact;
 
 static const fact FACTS[] = {
   {baum_euler, 2.0},
   {baum_semi_implicit_euler, 0.8284271247461903}, /* 2 sqrt 2 - 2 */
   {baum_rk2, 2.0},
-  {baum_rk3, 2.5127453266183286}, /* this and the next by bisection of |R| - 1, in Python */
+  {baum_rk3, 2.5127453266183286}, /* this and the next: bisection of |R| - 1, in Python */
   {baum_rk4, 2.785293563405282},
   {baum_ab2, 1.0},
   {baum_ab3, 6.0 / 11.0},
@@ -82,7 +82,8 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
-/* The library stores the best points of its methods. They must be those that a search finds. */
+/* The library stores the best points of its methods. They must be the points that a search
+ * finds. */
 static void the_search_finds_the_stored_best_points(void **state)
 {
   (void)state;
@@ -94,7 +95,7 @@ static void the_search_finds_the_stored_best_points(void **state)
       double found[2];
       method.best[0] = 0.0;
       baum_i_stability_best(&method, &found[0], &found[1]);
-      ASSERT_NEAR(best[0], found[0], 1e-9, 0.0); /* accuracy of the search: 1e-10 */
+      ASSERT_NEAR(best[0], found[0], 1e-9, 0.0); /* the accuracy of the search is 1e-10 */
       ASSERT_NEAR(best[1], found[1], 1e-9, 0.0);
       known++;
     }
@@ -117,7 +118,8 @@ static void a_grid_has_the_radii_of_its_points(void **state)
     for (int j = 0; j < ROWS; j++) {
       for (int i = 0; i < COLUMNS; i++) {
         ASSERT_NEAR(radius[j * COLUMNS + i], radius_at(integrator, 0.1 + 0.1 * i, 0.2 - 0.1 * j),
-                    1e-7, 0.0); /* rounding moves a double root by its square root */
+                    /* For a double root, the error is the square root of the rounding error. */
+                    1e-7, 0.0);
       }
     }
     assert_true(radius[COLUMNS * ROWS] == 7.0);
@@ -126,7 +128,8 @@ static void a_grid_has_the_radii_of_its_points(void **state)
   ASSERT_NEAR(radius[0], radius_at(baum_rk4(), 0.1, 0.2), 1e-14, 0.0);
 }
 
-/* Tests a ray next to an axis (damping ratio 5e-324) and a grid whose width overflows. */
+/* Tests a ray that almost coincides with an axis (damping ratio 5e-324), and a grid whose width
+ * overflows. */
 static void extreme_numbers_have_an_answer(void **state)
 {
   (void)state;
@@ -137,7 +140,7 @@ static void extreme_numbers_have_an_answer(void **state)
     double alpha_h = 7.0;
     int32_t count = 0;
     assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
-    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* proportional to the damping ratio */
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* it is proportional to the damping ratio */
     assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
                      BAUM_OK);
     assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
@@ -169,7 +172,7 @@ static void outlines_are_counted_and_cut(void **state)
         baum_stability_outline(integrator, levels[r], CAPACITY, alpha_h, beta2_h2, &count),
         BAUM_OK);
       assert_int_equal(count, all);
-      int32_t last = 0; /* end of the first curve, which is closed */
+      int32_t last = 0; /* last point of the first curve, which is closed */
       while (last + 1 < count && !isnan(alpha_h[last + 1])) {
         last++;
       }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Step-size control: its formulas evaluated by hand, its bounds, and steps for a known error. */
+/* Tests the control of the step size: its formulas, evaluated by hand, its bounds, and the steps
+ * that it chooses for a known error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +28,8 @@ static void the_first_step_goes_by_its_error_alone(void **state)
   ASSERT_NEAR(control.step, 0.1 * 0.85 * 2.0, 1e-15, 0.0);
 }
 
-/* Two successive steps of the same length have the same error 1/32. The formula with the previous
- * error gives a slightly shorter step than that with the last error alone. */
+/* Two successive steps of the same length have the same error, 1/32. The formula that uses the
+ * previous error gives a slightly shorter step than the formula that uses only the last error. */
 static void a_steady_error_is_kept(void **state)
 {
   (void)state;
@@ -39,8 +40,8 @@ static void a_steady_error_is_kept(void **state)
   ASSERT_NEAR(control.step, 0.1 * 0.85 * pow(1.0 / 32.0, 1.75 * b - 0.2), 1e-15, 0.0);
 }
 
-/* The error grows fourfold from one step to the next. The control expects the same growth again and
- * chooses a shorter step. */
+/* From one step to the next, the error grows fourfold. The control expects that it will grow in the
+ * same way again, and chooses a shorter step. */
 static void a_growing_error_is_foreseen(void **state)
 {
   (void)state;
@@ -75,9 +76,9 @@ static void after_a_refusal_steps_do_not_grow_at_once(void **state)
   assert_true(control.step > 0.1);
 }
 
-/* The error is c(t) h^5, where c varies by a factor of a hundred. At most one step in twenty may be
- * refused, and at least half of the steps must have an error above a tenth of the tolerance, or
- * steps would be too short. */
+/* The error is c(t) h^5, where c changes by a factor of a hundred. At most one step in twenty may
+ * be refused. At least half of the steps must have an error above a tenth of the tolerance, because
+ * otherwise steps would be too short. */
 static void a_varying_error_is_followed(void **state)
 {
   (void)state;

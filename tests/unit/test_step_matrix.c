@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of the iteration in an implicit step. A displacement d changes the residual;
- * differences give this change, and the solution with the matrix must give d back. The mechanism
- * has every element. */
+/* Tests the matrix of the iteration in an implicit step. A displacement d changes the residual, and
+ * this change is computed by differences. When it is solved for with the matrix, the result must be
+ * d again. The mechanism contains every element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,8 @@ typedef struct point {
   double dy[SIZE];
 } point;
 
-/* Fills y and y' with irregular numbers of size 1. Positions are near the design configuration. */
+/* Fills y and y' with irregular numbers that are about 1. Positions are near the design
+ * configuration. */
 static void choose(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);
@@ -32,7 +33,8 @@ static void choose(baum_workspace *w, point *p)
   }
 }
 
-/* Changes q and lambda along the direction d, and v and v' in the ratios that r prescribes. */
+/* Changes q and lambda along the direction d. Also changes v and v', in the ratios that r
+ * prescribes. */
 static void move(baum_workspace *w, const point *from, const double *d, double by,
                  const baum_i_step_ratios *r, point *to)
 {
@@ -86,7 +88,7 @@ static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
   assert_int_equal(baum_i_step_matrix_factor(matrix, w, &ratios, 0.1, p.y, p.dy), BAUM_OK);
   baum_i_step_matrix_solve(matrix, change[0]);
   for (int i = 0; i < N; i++) {
-    ASSERT_NEAR(change[0][i], d[i], 0.0, 1e-5); /* truncation x condition number */
+    ASSERT_NEAR(change[0][i], d[i], 0.0, 1e-5); /* truncation error times condition number */
   }
   baum_i_step_matrix_destroy(matrix);
   baum_workspace_destroy(w);

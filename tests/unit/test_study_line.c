@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines of study files: numbers are read back bit for bit, and lines that no study writes are
- * refused. */
+/* Tests the lines of study files. Numbers must be read back bit for bit, and lines that no study
+ * would write must be refused. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -59,7 +59,8 @@ static void lines_that_no_study_writes_are_refused(void **state)
   (void)state;
   const baum_i_field fields[] = {
     {"steps", "", "", BAUM_I_COUNT, true, true, offsetof(baum_study_entry, steps)},
-    {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)}, /* not saved */
+    /* The state of an entry is not saved in files. */
+    {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)},
     {"repeats", "", "", BAUM_I_INDEX, true, true, offsetof(baum_study_entry, repeats)},
     {"cpu", "", "", BAUM_I_NUMBER, true, true, offsetof(baum_study_entry, cpu)},
     {.key = NULL}};
@@ -74,7 +75,7 @@ static void lines_that_no_study_writes_are_refused(void **state)
 }
 
 /* The first three fields of an entry are its state, its status and a flag. Only values that exist
- * are read; the fourth number tells whether. */
+ * may be read. The fourth number of each row tells whether the three values exist. */
 static void states_and_statuses_are_those_that_there_are(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The messages for failures of CVODE and IDA: for every flag, and in runs that provoke failures. */
+/* Tests the messages for failures of CVODE and IDA, first for every flag, and then in runs that
+ * provoke failures. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,8 +23,8 @@
 
 /* ---- flag by flag ---- */
 
-/* Flags that a step can return when no evaluation has failed. Failed evaluations have their own
- * messages. */
+/* These are the flags that a step can return although no evaluation has failed. Failed evaluations
+ * have their own messages. */
 static const struct {
   int cvode;
   int ida;
@@ -72,7 +73,7 @@ static int give_flag(baum_i_sundials *run, double target, double *tau)
   return answer;
 }
 
-/* Takes a step of 0.001 s from t = 0 with a replacement for SUNDIALS that returns `flag`. */
+/* Takes a step of 0.001 s from t = 0. SUNDIALS is replaced by a function that returns `flag`. */
 static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
 {
   const baum_i_sundials_package package = {
@@ -106,8 +107,8 @@ static void every_flag_has_a_message_with_time_and_step(void **state)
 
 typedef enum fault {
   FAULT_NONE,
-  FAULT_JUMPS, /* the force is random in t: iterations converge, but errors are large */
-  FAULT_NOISE, /* the force is random in t and q: iterations do not converge */
+  FAULT_JUMPS, /* the force is random in t, so that iterations converge but errors are large */
+  FAULT_NOISE, /* the force is random in t and q, so that iterations do not converge */
   FAULT_NAN,
   FAULT_RETRIES,
   FAULT_STOPS
@@ -173,8 +174,8 @@ static const struct {
   {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
 };
 
-/* Starts the fault between two calls, so the next steps fail. After the fault has ended, the run
- * continues from the last good state. */
+/* Starts the fault between two calls, so that the next steps fail. After the fault has ended, the
+ * run continues from the last good state. */
 static void bring_about(const baum_integrator *integrator, int k)
 {
   fault now = FAULT_NONE;
@@ -194,7 +195,7 @@ static void bring_about(const baum_integrator *integrator, int k)
   now = FAULT_NONE;
   assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
   if (BROUGHT[k].fault >= FAULT_NAN) { /* the other faults may have changed v in a good step */
-    assert_true(fabs(baum_simulation_q(run)[0] - 1.5) <= 1e-5); /* 10 rtol */
+    assert_true(fabs(baum_simulation_q(run)[0] - 1.5) <= 1e-5); /* ten times rtol */
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

@@ -2,7 +2,8 @@
 /* Several threads use one mechanism and make variants of it. This test also runs under the thread
  * sanitizer.
  *
- * Only the main thread may use cmocka's checks; the other threads return their results.
+ * Only the main thread may use the checks of cmocka. The other threads return their results to
+ * it.
  */
 #include <pthread.h>
 #include <setjmp.h>
@@ -25,17 +26,17 @@ static const double END = 0.2;
 
 /* ---- the work of a thread ---- */
 
-/* What a thread has to do, a run to END, and its result. */
+/* The work of one thread, which is a run up to the time END, and the result of this run. */
 typedef struct job {
   const baum_mechanism *mechanism;
   const baum_integrator *integrator;
-  bool variable; /* use variable steps, if the method has both kinds */
+  bool variable; /* use variable steps if the method has both kinds of steps */
   baum_status status;
   double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
-  const every_element *parts; /* for jobs that make a variant */
-  double mass;                /* likewise */
+  const every_element *parts; /* for threads that make a variant of the mechanism */
+  double mass;                /* for these threads, too */
 } job;
 
 static baum_simulation_options options_for(const baum_integrator *integrator, bool variable)
@@ -84,7 +85,7 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Returns the k-th integrator if it can run the mechanism in this build, otherwise rk4. */
+/* Returns integrator number k if it can run the mechanism in this build. Otherwise returns rk4. */
 static const baum_integrator *choose(int k)
 {
   int count = 0;
@@ -126,7 +127,7 @@ static void runs_that_share_a_mechanism_are_those_of_one_thread(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* All threads use the same method and kind of step. They must not share any data. */
+/* All threads use the same method and the same kind of step. They must not share any data. */
 static void runs_of_one_method_do_not_disturb_each_other(void **state)
 {
   (void)state;
@@ -151,7 +152,8 @@ static void runs_of_one_method_do_not_disturb_each_other(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Runs with its own copy of the mechanism and destroys it, while other threads use theirs. */
+/* Makes a run with a copy of the mechanism and destroys the copy, while other threads do the same
+ * with theirs. */
 static void *share_and_destroy(void *argument)
 {
   job *j = argument;
@@ -248,7 +250,7 @@ static void *fail_by_number(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* this is another thread's message */
+      j->status = BAUM_ERR_INTEGRATOR; /* the message would be that of another thread */
     }
   }
   return NULL;
@@ -269,7 +271,7 @@ static void each_thread_has_its_own_message(void **state)
 
 /* ---- cancelling ---- */
 
-/* A run without end that tells when it has started. */
+/* A run that never ends. It tells the main thread when it has started. */
 typedef struct endless {
   baum_simulation *run;
   atomic_bool begun;

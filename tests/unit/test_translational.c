@@ -82,7 +82,7 @@ static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(voi
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding of 5 m */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-14); /* rounding error of 5 m */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   ASSERT_NEAR(coordinate_of(&p).value, 5.0, 1e-15, 0.0);
   test_point_close(&p);
@@ -98,7 +98,7 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   def.angle = 0.0;
   test_point p;
   open_with(&p, &scene, &def);
-  /* The link has the angle 90 degrees, so its y axis is the -x axis of ground. */
+  /* The angle of the link is 90 degrees, so its y axis is the -x axis of the ground. */
   const baum_mechanism *m = p.mechanism;
   double *link = p.q + m->bodies[scene.link.index1]->q;
   double *crank = p.q + m->bodies[scene.crank.index1]->q;
@@ -112,10 +112,11 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* In body axes the points are (0.3, -0.2) and (-0.45, 0.15). In the axes of the link the centre
-   * of the crank is (5, 7). */
+  /* In body axes the points are (0.3, -0.2) and (-0.45, 0.15). In the axes of the link, the centre
+   * of the crank is at (5, 7). */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
-  ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0); /* across the axis: k x axis = (-1, 0) */
+  /* Distance across the axis, with k x axis = (-1, 0). */
+  ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0);
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   test_point_close(&p);
 }

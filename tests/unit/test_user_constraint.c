@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User constraints: their bodies, failing functions, and definitions.
+/* Tests user constraints: their bodies, functions that fail, and definitions.
  * test_user_constraint_derivatives.c tests their derivatives. */
 #include <math.h>
 #include <setjmp.h>
@@ -19,7 +19,8 @@
 
 /* ---- bodies ---- */
 
-/* Phi is the sum of (i + 1) q_i over the coordinates passed, so the Jacobian shows their order. */
+/* Phi is the sum of (i + 1) q_i over the coordinates that the function receives. The Jacobian
+ * therefore shows their order. */
 static int weights_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -50,7 +51,7 @@ static void coordinates_come_in_the_order_in_which_bodies_are_named(void **state
   def.phi = weights_phi;
   def.user = &count;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &def, NULL), BAUM_OK);
-  memset(bodies, 0, sizeof bodies); /* the mechanism has a copy */
+  memset(bodies, 0, sizeof bodies); /* the mechanism must have made a copy */
   (void)extra;
 
   test_point p;
@@ -194,7 +195,7 @@ static void every_difference_passes_a_failure_on(void **state)
     assert_int_equal(baum_i_mechanism_jacobian(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_nu(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
-    p.v[0] = 0.1; /* for small v, gamma first tests whether Phi depends on t alone */
+    p.v[0] = 0.1; /* if v is small, gamma first tests whether Phi depends on t alone */
     test_point_update(&p);
     f.calls = 0;
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
@@ -326,7 +327,8 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   assert_int_equal(baum_mechanism_set_user_constraint(f.mechanism, id, &next), BAUM_OK);
   assert_int_equal(baum_mechanism_get_user_constraint(f.mechanism, id, &got, sizeof got), BAUM_OK);
   check_same(&got, &next);
-  /* A definition that was read may be set again with its own pointers. */
+  /* A definition that was read from the mechanism may be set again, with the pointers that it
+   * contains. */
   assert_int_equal(baum_mechanism_set_user_constraint(f.mechanism, id, &got), BAUM_OK);
   baum_mechanism_destroy(f.mechanism);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives of user constraints: given ones are used, missing ones are computed by differences.
+/* Tests the derivatives of user constraints. Those that the user gives are used, and missing ones
+ * are computed by differences.
  *
- * Tolerances are relative to the change of the quantity when the state changes by one scale.
+ * Tolerances are relative to the change of a quantity when the state changes by one scale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -22,7 +23,8 @@ enum { KIND_COUNT = 3 };
 
 /* ---- derivatives ---- */
 
-/* The same constraint twice: `got` with missing derivatives, `want` with all derivatives given. */
+/* Two copies of the same constraint. In `got` some derivatives are missing, and in `want` all are
+ * given. */
 typedef struct pair {
   user_model model;
   const user_kind *kind;
@@ -44,8 +46,8 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Draws the time, positions of up to two scales and velocities of up to three scales times the
- * rate, for both. */
+/* Chooses a random state for both copies. Positions are up to two scales, and velocities up to
+ * three scales times the rate. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
@@ -76,8 +78,8 @@ static void compare(const double *got, const double *want, int count, double all
   }
 }
 
-/* Returns the rate of change of Phi [1/s], which is due to v or to the explicit time of the
- * model. */
+/* Returns the rate [1/s] at which Phi changes, because of v or because the model depends on
+ * time. */
 static double rate_of(const pair *s)
 {
   double rate = s->model.rate;
@@ -87,8 +89,8 @@ static double rate_of(const pair *s)
   return rate;
 }
 
-/* Compares J, nu and gamma. Tolerances of nu are proportional to the rate, those of gamma to its
- * square. */
+/* Compares J, nu and gamma. Tolerances of nu are proportional to the rate, and tolerances of gamma
+ * are proportional to its square. */
 static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
                        double gamma_tolerance)
 {
@@ -132,7 +134,8 @@ static void given_derivatives_are_used_as_they_are(void **state)
   for_each_pair(GIVE_ALL, 0.0, 0.0, 0.0);
 }
 
-/* A second difference of seven points with a step of 1/64 has a measured error of 3e-11. */
+/* The second difference uses seven points with a step of 1/64. Its error was measured to be
+ * 3e-11. */
 static void from_phi_alone_gamma_is_good_to_1e_10(void **state)
 {
   (void)state;
@@ -184,9 +187,9 @@ static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **stat
   }
 }
 
-/* Normally v indicates the time scale. At rest the search for the step of the difference has to
- * find the rate 300 1/s. It ends too early if the differences of two orders agree by chance, which
- * causes errors of up to 1e-8. */
+/* Normally, v shows the time scale of a motion. If the mechanism is at rest, the search for the
+ * step of the difference has to find the rate of 300 1/s. It may end too early, if the differences
+ * of two orders agree by chance. This causes errors of up to 1e-8. */
 static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
 {
   (void)state;
@@ -202,7 +205,7 @@ static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
   close_pair(&s);
 }
 
-/* Motions with time scales of 1e-8 s or of years, which v indicates. */
+/* The time scales of these motions are 1e-8 s and years. In both cases v shows the time scale. */
 static void slow_and_fast_motion_is_differenced_alike(void **state)
 {
   (void)state;
@@ -251,7 +254,7 @@ static void check_blocks(pair *s, double tolerance)
   compare(got.jtl_q, want.jtl_q, s->got.nv * s->got.nv, tolerance);
   compare(got.gamma_v, want.gamma_v, rows, 10.0 * tolerance);
   compare(got.nu_q, want.nu_q, rows, tolerance);
-  /* gamma_q contains third derivatives of Phi. */
+  /* The tolerance is larger, because gamma_q contains third derivatives of Phi. */
   compare(got.gamma_q, want.gamma_q, rows, 100.0 * tolerance);
 }
 
@@ -323,8 +326,8 @@ static int wide_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Asserts in the library check that the scratch memory suffices. Constraints without derivatives
- * need the most. */
+/* Assertions in the library check that the scratch memory is large enough. Constraints without
+ * given derivatives need the most scratch memory. */
 static void scratch_memory_is_enough_for_wide_and_for_tall_constraints(void **state)
 {
   (void)state;

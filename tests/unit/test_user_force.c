@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User forces. The example acts on two bodies with user coordinates, (x, y) and (b, th, ga). Its
- * definition lists them in the other order, so it receives (b, th, ga, x, y). It is a spring, f = k
- * (y - sin b), between y and b, and a cubic damper on x. */
+/* Tests user forces. The force of the example acts on two bodies with user coordinates, which are
+ * (x, y) and (b, th, ga). Its definition lists these bodies in the opposite order. The function
+ * therefore receives (b, th, ga, x, y). The force consists of a spring f = k (y - sin b) between y
+ * and b, and of a cubic damper on x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +24,7 @@ typedef struct spring {
   double k;
   double d;
   int answer;
-  const char *says; /* message that explains the return value */
+  const char *says; /* the message that explains the return value */
 } spring;
 
 static int spring_force(double t, const double *q, const double *v, const double *inputs,
@@ -121,7 +122,7 @@ static void a_force_is_added_to_its_bodies(void **state)
   fixture f;
   test_point p;
   open_fixture(&f);
-  assert_int_equal(add(f.mechanism, &f.good), BAUM_OK); /* the same force twice */
+  assert_int_equal(add(f.mechanism, &f.good), BAUM_OK); /* the same force a second time */
   open_point(&f, &p);
   p.v[0] = 2.0;
   test_point_update(&p);
@@ -195,8 +196,8 @@ static void check_blocks(bool given, double tolerance)
   test_point_close(&p);
 }
 
-/* Differences of order 6 replace derivatives that are not given. Their measured error is 2e-12 for
- * values up to 20. */
+/* Derivatives that are not given are replaced by differences of order 6. Their error was measured
+ * to be 2e-12 for values of up to 20. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;
@@ -234,7 +235,7 @@ static void failing_functions_are_named(void **state)
   assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(),
                       "force 1 \"spring\": force() returned -1 (stop): the table ends at 3 m");
-  f.spring.says = NULL; /* the explanation of the last call must not be repeated */
+  f.spring.says = NULL; /* the next message must not repeat the last explanation */
   assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
   const baum_i_force_blocks blocks[] = {{.force_q = out}, {.force_v = out}};

@@ -64,8 +64,10 @@ from .live import View
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
+from .scenes import load, parse
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
+from .sweeps import Sweep, sweep
 from .workspace import Workspace
 
 if TYPE_CHECKING:
@@ -140,6 +142,7 @@ __all__ = [
     "StudyEntry",
     "StudyMethod",
     "StudyReference",
+    "Sweep",
     "View",
     "ViolationWarning",
     "Warning",
@@ -157,7 +160,9 @@ __all__ = [
     "integrators",
     "lambda_",
     "library",
+    "load",
     "library_version",
+    "parse",
     "phi",
     "phi_rate",
     "q",
@@ -173,6 +178,7 @@ __all__ = [
     "stability_outline",
     "stability_statement",
     "study",
+    "sweep",
     "taylor",
     "v",
 ]

@@ -16,6 +16,7 @@ class baum_status(enum.IntEnum):
     BAUM_OK = 0
     BAUM_STOP_CANCELLED = 1
     BAUM_STOP_EVENT = 2
+    BAUM_STOP_TIME = 3
     BAUM_WARNED = 10
     BAUM_ERR_ARGUMENT = -1
     BAUM_ERR_STATE = -2
@@ -883,6 +884,17 @@ class baum_report_form(enum.IntEnum):
     BAUM_REPORT_PAGE = 3
 
 
+baum_hook_fn = CFUNCTYPE(None)
+
+
+class baum_hook(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("function", baum_hook_fn),
+        ("user", c_void_p),
+    ]
+
+
 class baum_spatial_body_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1287,6 +1299,7 @@ PROTOTYPES = {
     "baum_simulation_step": (c_int, [c_void_p, c_int64]),
     "baum_simulation_cancel": (None, [c_void_p]),
     "baum_simulation_set_progress_interval": (c_int, [c_void_p, c_double]),
+    "baum_simulation_set_time_limit": (c_int, [c_void_p, c_double]),
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_simulation_continue": (c_int, [c_void_p, c_void_p]),
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
@@ -1562,6 +1575,15 @@ PROTOTYPES = {
     ]),
     "baum_study_write": (c_int, [c_void_p, c_int, c_char_p, c_char_p]),
     "baum_study_print": (c_int, [c_void_p, c_int, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)]),
+    "baum_mechanism_print": (c_int, [
+        c_void_p, POINTER(baum_hook), c_int32, c_char_p, c_size_t, POINTER(c_size_t),
+    ]),
+    "baum_mechanism_write": (c_int, [c_void_p, POINTER(baum_hook), c_int32, c_char_p]),
+    "baum_mechanism_parse": (c_int, [
+        c_char_p, c_size_t, POINTER(baum_hook), c_int32, POINTER(c_void_p),
+    ]),
+    "baum_mechanism_read": (c_int, [c_char_p, POINTER(baum_hook), c_int32, POINTER(c_void_p)]),
+    "baum_mechanism_compare": (c_int, [c_void_p, c_void_p, POINTER(c_bool)]),
     "baum_spatial_body_def_init": (None, [POINTER(baum_spatial_body_def), c_size_t]),
     "baum_mechanism_add_spatial_body": (c_int, [
         c_void_p, POINTER(baum_spatial_body_def), POINTER(baum_body_id),
@@ -1828,6 +1850,7 @@ STRUCTS = [
     baum_study_entry,
     baum_study_reference,
     baum_study_method,
+    baum_hook,
     baum_spatial_body_def,
     baum_spatial_particle_def,
     baum_spatial_spring_def,

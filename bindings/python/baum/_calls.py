@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the C library is called: statuses, exceptions of callbacks, Ctrl-C, one thread at a time.
+"""How this package calls the C library: statuses, exceptions of callbacks, Ctrl-C, and one thread
+at a time.
 
-Python handles signals in the main thread, between two of its instructions. A long call made there
-would delay Ctrl-C until its end, and if the call runs Python callbacks, KeyboardInterrupt could be
-raised where nothing can catch it. Such calls are therefore handed to a second thread, while the
-main thread waits where it can be interrupted. Calls from other threads are made directly.
+Python handles signals in the main thread, between two of its instructions. If the main thread made
+a long call of the library, Ctrl-C would have no effect before the end of this call. If the call
+runs Python callbacks, KeyboardInterrupt could even be raised where nothing can catch it. The main
+thread therefore hands such calls to a second thread, and waits in a way that Ctrl-C can interrupt.
+Other threads make their calls directly, and so does the main thread if a call takes at most about
+10 ms, because handing over a call takes about as long as a short run.
 """
 
 from __future__ import annotations
@@ -33,16 +36,18 @@ STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 def raise_later(error: BaseException | None) -> None:
-    """Keep the exception of a callback until the call that it stopped has returned."""
+    """Keep the exception of a callback until the call of the library that it stopped has
+    returned."""
     _here.error = error
 
 
 def make(function: Call, *arguments: Any) -> errors.Status:
-    """Call a function that returns a status. Raise the exception of a callback that has stopped it,
-    or baum.Error for a status below 0.
+    """Call a function of the library that returns a status.
 
-    A call may succeed although a callback failed, for example where the library evaluates a
-    mechanism at times that the run will not reach. In this case the exception is discarded.
+    If a callback has stopped the call, raise the exception of the callback. If the status is below
+    0, raise baum.Error. A call may also succeed although a callback has failed, for example if the
+    library evaluates a mechanism at times that the run will not reach. In this case the exception
+    is discarded.
     """
     _here.error = None
     status = function(*arguments)
@@ -57,13 +62,13 @@ def make(function: Call, *arguments: Any) -> errors.Status:
 
 
 def made(out: ctypes.c_void_p) -> int:
-    """The address of the object that a function of the library has created."""
+    """Return the address of an object that a function of the library has created."""
     assert out.value is not None
     return out.value
 
 
 def message() -> str:
-    """This thread's last message."""
+    """Return the last message of this thread."""
     return text(lib.baum_message())
 
 
@@ -71,7 +76,7 @@ def message() -> str:
 
 
 class _Task:
-    """A call for the second thread, and its result."""
+    """A call that the second thread makes, and its result."""
 
     def __init__(self, function: Call, arguments: tuple[Any, ...]) -> None:
         self._call = (contextvars.copy_context().run, function, *arguments)
@@ -83,9 +88,11 @@ class _Task:
         self._error: BaseException | None = None
 
     def claim(self) -> bool:
-        """Whether the caller is the first to claim this call. The worker claims a call before
-        making it. The main thread claims a call to discard it, if Ctrl-C has come before the worker
-        received it."""
+        """Claim this call. Return whether the caller is the first one to claim it.
+
+        The worker claims a call before it makes the call. If Ctrl-C comes before that, the main
+        thread claims the call in order to discard it.
+        """
         me = object()
         return self._claims.setdefault("first", me) is me
 
@@ -114,7 +121,7 @@ class _Task:
 
 
 class _Worker:
-    """The thread that makes calls for the main thread, one after the other."""
+    """The second thread. It makes calls for the main thread, one after the other."""
 
     def __init__(self) -> None:
         self._tasks: queue.SimpleQueue[_Task | None] = queue.SimpleQueue()
@@ -149,9 +156,12 @@ def in_main_thread() -> bool:
 
 
 def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | None = None) -> Any:
-    """Make a call that Ctrl-C can stop: KeyboardInterrupt cancels it, waits until it returns, and
-    is then raised. A second Ctrl-C raises it without waiting; the objects that the call uses then
-    stay alive and busy until the call returns."""
+    """Make a call that Ctrl-C can stop.
+
+    When KeyboardInterrupt comes, cancel the call, wait until it returns, and then raise the
+    exception. When it comes a second time, raise it without waiting. The objects that the call uses
+    then stay alive and busy until the call returns.
+    """
     global _worker
     if not in_main_thread():
         return function(*arguments)
@@ -168,7 +178,7 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
 
 
 def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
-    """Ask a call to stop and wait until it has stopped. A call that has not begun is discarded."""
+    """Ask a call to stop, and wait until it has stopped. Discard a call that has not begun."""
     try:
         if task.claim():
             return
@@ -187,14 +197,14 @@ def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
 
 
 class _Glance:
-    """A short use of an object by another thread. Calls wait for its end."""
+    """A short use of an object by another thread. Calls wait until it ends."""
 
     def __init__(self) -> None:
         self.done = threading.Event()
 
 
 class Handle:
-    """Owns an object of the library and lets one thread at a time use it."""
+    """Owns an object of the library, and lets only one thread at a time use it."""
 
     def __init__(self, address: int, destroy: Call, what: str) -> None:
         self._address: int | None = address
@@ -212,7 +222,7 @@ class Handle:
 
     @property
     def address(self) -> int:
-        """The address of the object; raises baum.Error after close()."""
+        """The address of the object. Raises baum.Error after close()."""
         if self._address is None:
             raise errors.Error(errors.Status.ERR_STATE, f"this {self._what} is closed")
         return self._address
@@ -228,7 +238,8 @@ class Handle:
         return self._address is None
 
     def call(self, function: Call, *arguments: Any) -> errors.Status:
-        """Like make(), with this object as the first argument."""
+        """Call a function with this object as its first argument. In all else this is like
+        make()."""
         # dict.setdefault() is atomic. Unlike the acquisition of a lock it can be undone safely if
         # Ctrl-C interrupts it.
         me = object()
@@ -253,7 +264,8 @@ class Handle:
                 del self._users["now"]
 
     def glance(self, function: Callable[[int], None]) -> None:
-        """Let another thread read the object, unless a call is using it or it is destroyed."""
+        """Let another thread read the object. Do nothing if a call is using the object or the
+        object is destroyed."""
         me = _Glance()
         try:
             if self._users.setdefault("now", me) is me and self._address is not None:
@@ -264,7 +276,7 @@ class Handle:
             me.done.set()
 
     def _give_way(self) -> None:
-        """Wait for a glance; refuse to wait for another call."""
+        """Wait for the end of a glance. If another call is using the object, raise baum.Error."""
         other = self._users.get("now")
         if isinstance(other, _Glance):
             other.done.wait()
@@ -282,13 +294,17 @@ class Handle:
 
 
 class Closing:
-    """An object that close() or the end of a `with` block closes."""
+    """Base class of objects that are closed by close(), or at the end of a `with` block."""
 
     _owner: Handle
 
     def close(self) -> None:
-        """Free memory and files of the object now, not only when Python collects it. Arrays and
-        runs that it has returned remain valid; any other use of it raises baum.Error."""
+        """Free the memory and the files of the object now. Otherwise Python frees them when it
+        collects the object.
+
+        Arrays and runs that the object has returned remain valid. Any other use of a closed object
+        raises baum.Error.
+        """
         self._owner.close()
 
     def __enter__(self: Self) -> Self:

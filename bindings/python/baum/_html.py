@@ -6,12 +6,11 @@ from __future__ import annotations
 import html
 from typing import Any, Iterable, Sequence
 
-MOST = 30  # rows
+MOST = 30  # largest number of rows
 
 
 def table(caption: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """An HTML table of at most MOST rows. Texts are escaped; numbers are printed with four
-    digits."""
+    """Make an HTML table of at most MOST rows. Texts are escaped, and numbers have four digits."""
     rows = list(rows)
     lines = [_row("th", header), *(_row("td", row) for row in rows[:MOST])]
     if len(rows) > MOST:

@@ -112,20 +112,25 @@ _declare(lib, path, _abi.PROTOTYPES)
 _check_structs(lib, path)
 
 
+_defaults: dict[type[ctypes.Structure], bytes] = {}
+
+
 def default(struct: type[Struct]) -> Struct:
-    """A new definition or options struct with the library's defaults."""
-    filled = struct()
-    getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
-    return filled
+    """Make a struct with the defaults of the library."""
+    if struct not in _defaults:
+        filled = struct()
+        getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
+        _defaults[struct] = bytes(filled)
+    return struct.from_buffer_copy(_defaults[struct])
 
 
 def text(value: bytes) -> str:
-    """A text of the library, with the names of this package."""
+    """Convert a text of the library to a string, with the names of this package."""
     return in_python(value.decode(errors="replace"))
 
 
 def open_catalog() -> ctypes.CDLL:
-    """The library of the catalogue, in the same folder as the main one."""
+    """Load the library of the catalogue, which is in the same folder as the main library."""
     folder, name = os.path.split(path)
     beside = os.path.join(folder, name.replace("baum", "baum_catalog", 1))
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the triangles of STL and OBJ files. Files are not trusted: if a file cannot be read, a
+"""Read the triangles of STL and OBJ files. These files may be damaged. If a file cannot be read, a
 ValueError names the file and the line or byte."""
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ RECORDS = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 
 
 def load(path: str | os.PathLike[str]) -> tuple[Array, Triangles]:
-    """The vertices (n, 3) and triangles (m, 3) of a file. Its suffix tells the format."""
+    """Return the vertices (n, 3) and the triangles (m, 3) of a file. The suffix of the file
+    determines its format."""
     file = Path(path)
     readers = {".stl": _stl, ".obj": _obj}
     if file.suffix.lower() not in readers:
@@ -48,7 +49,7 @@ def _check_count(count: int, where: str) -> None:
 
 
 def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
-    """Three finite numbers."""
+    """Convert words to three finite numbers."""
     try:
         x, y, z = (float(word) for word in words)
     except ValueError:
@@ -59,7 +60,8 @@ def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
-    """The number and the words of each line that has words. A backslash joins the next line."""
+    """Return the number and the words of each line that has words. A backslash at the end of a line
+    joins it with the next line."""
     words: list[str] = []
     for number, line in enumerate(io.StringIO(data.decode("utf-8", "replace")), 1):
         line = line.strip()
@@ -73,8 +75,8 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 
 def _merged(corners: Array) -> tuple[Array, Triangles]:
-    """Vertices and triangles from the corners (3 m, 3) of m triangles: equal corners become one
-    vertex."""
+    """Return vertices and triangles from the corners (3 m, 3) of m triangles. Equal corners become
+    one vertex."""
     vertices, numbers = np.unique(corners + 0.0, axis=0, return_inverse=True)
     return vertices, numbers.reshape(-1, 3).astype(np.int32)
 
@@ -121,8 +123,8 @@ def _stl_text(file: Path, data: bytes) -> tuple[Array, Triangles]:
 
 
 def _obj(file: Path, data: bytes) -> tuple[Array, Triangles]:
-    """Lines other than v and f are skipped. Polygons are cut into triangles from their first
-    corner."""
+    """Read the lines v and f of an OBJ file, and skip the others. A polygon with more than three
+    corners is cut into triangles that share its first corner."""
     vertices: list[tuple[float, float, float]] = []
     triangles: list[tuple[int, int, int]] = []
     for number, words in _lines(data):
@@ -141,7 +143,8 @@ def _obj(file: Path, data: bytes) -> tuple[Array, Triangles]:
 
 
 def _corner(word: str, count: int, where: str) -> int:
-    """The vertex of a corner such as 3, -1 or 3/1/2, from 0."""
+    """Return the index, counted from 0, of the vertex that a word such as 3, -1 or 3/1/2 refers
+    to."""
     try:
         given = int(word.split("/")[0])
     except ValueError:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motions that pages, pictures and movies show: samples of positions and of reactions."""
+"""Collect the motions that pages, pictures and movies show: samples of positions and of
+reactions."""
 
 from __future__ import annotations
 
@@ -28,8 +29,8 @@ ROOM = 1 << 18  # [byte] first size of the buffer, enough for most pages
 
 
 class Motion(NamedTuple):
-    """Samples and what is shown with them. shown: the channels in rows (n x columns): q and
-    reactions."""
+    """The samples of a motion, and what is shown with them. `shown` lists the channels whose
+    columns `rows` (n x columns) contains: q, and the reactions that are drawn as arrows."""
 
     mechanism: Mechanism
     t: Array
@@ -41,7 +42,7 @@ class Motion(NamedTuple):
     marks: Sequence[Mark] = ()
 
     def print(self, function: Any, *arguments: Any) -> str:
-        """The text that a function of the library makes of a page."""
+        """Return the text that a function of the library writes for a page of this motion."""
         values = np.array([column for _, column in self.plots]).T.copy()
         mark_times = np.array([t for t, _, _ in self.marks])
         struct = default(_abi.baum_page)
@@ -59,7 +60,7 @@ class Motion(NamedTuple):
 
 
 def print_text(function: Any, mechanism: Mechanism, *arguments: Any) -> str:
-    """The text that a function of the library writes into a buffer."""
+    """Return the text that a function of the library writes into a buffer."""
     size = ctypes.c_size_t(ROOM)
     room: Any = b""
     while len(room) <= size.value:
@@ -77,12 +78,13 @@ def _texts(texts: Sequence[str]) -> Any:
 
 
 def listed(value: Any) -> Any:
-    """A list of one, if one name, channel or body was given instead of a list."""
+    """Put a single name, channel or body into a list; return anything else unchanged."""
     return [value] if isinstance(value, (str, Channel, Body)) else value
 
 
 def _trace(mechanism: Mechanism, trace: TraceLike) -> Channel:
-    """The channel of the path of a body, of its name, or of a channel."""
+    """Return the channel of a path, which is given as a body, as the name of a body or as a
+    channel."""
     if isinstance(trace, str) and trace in mechanism and isinstance(mechanism[trace], Body):
         trace = mechanism[trace]
     return trace.pose if isinstance(trace, Body) else mechanism.channel(trace)
@@ -96,7 +98,7 @@ def is_reaction(channel: Channel) -> bool:
 
 
 def _chosen(mechanism: Mechanism, recorded: Iterable[Channel], forces: Forces) -> list[Channel]:
-    """The reactions to show."""
+    """Return the reactions that the argument `forces` selects."""
     reactions = [channel for channel in recorded if is_reaction(channel)]
     if forces is None or forces is False:
         return [] if forces is False else reactions
@@ -133,7 +135,7 @@ def of_run(
     title: str | None = None,
     plots: Sequence[Curve] = (),
 ) -> Motion:
-    """The motion of a run."""
+    """Make the motion of a run."""
     mechanism = run.mechanism
     if mechanism is None:
         raise ValueError("this run was pickled; only a run with its mechanism can be shown")
@@ -155,7 +157,7 @@ def of_arrays(
     plots: Mapping[str, ArrayLike],
     marks: Sequence[tuple[Scalar, str]],
 ) -> Motion:
-    """A motion that is given as arrays."""
+    """Make a motion from arrays of times and positions."""
     times = vector(t, None, "t")
     rows = np.ascontiguousarray(q, dtype=np.float64)
     wanted = (len(times), mechanism.sizes.nq)
@@ -175,9 +177,9 @@ def of_arrays(
 
 
 def refined(motion: Motion, run: Run, times: Array) -> tuple[Motion, list[int]]:
-    """The motion of a run in rising time with samples added at these times, and the indices of
-    their samples. Positions are interpolated by cubic polynomials with the recorded velocities, and
-    reactions linearly."""
+    """Add samples at these times to the motion of a run. Return the motion, with its times in
+    rising order, and the indices of the added samples. Positions of added samples are interpolated
+    by cubic polynomials with the recorded velocities, and reactions are interpolated linearly."""
     way = slice(None, None, -1 if run.t[-1] < run.t[0] else 1)
     t, rows, v = motion.t[way], motion.rows[way], run.v[way]
     added = np.setdiff1d(times, t)
@@ -191,7 +193,7 @@ def refined(motion: Motion, run: Run, times: Array) -> tuple[Motion, list[int]]:
 
 
 def _between(workspace: Workspace, t: Array, rows: Array, v: Array, time: float) -> Array:
-    """A row between two samples."""
+    """Interpolate a row between two samples."""
     nq = workspace.mechanism.sizes.nq
     k = int(np.searchsorted(t, time)) - 1
     step = t[k + 1] - t[k]

@@ -14,12 +14,14 @@ if TYPE_CHECKING:
 class Mobility(NamedTuple):
     """What a mechanism can do at its assembled initial configuration.
 
-    degrees_of_freedom: [-] nv - rank of J at nearby configurations; -1: cannot be assembled.
-    redundant_rows: [-] rows that depend on others at every nearby configuration.
-    conflicting_rows: [-] rows that contradict the others.
+    degrees_of_freedom: [-] nv minus the rank of J at nearby configurations; -1 if the mechanism
+        cannot be assembled.
+    redundant_rows: [-] rows that depend on other rows at every nearby configuration.
+    conflicting_rows: [-] rows that contradict the other rows.
     free_bodies: [-] bodies without a joint.
-    near_singular: The initial configuration is singular: J has a lower rank there than nearby.
-        Also true within 1e-5 of such a configuration, relative to the scales.
+    near_singular: True if the initial configuration is singular, which means that J has a lower
+        rank there than at nearby configurations. Also true if the initial configuration is
+        within 1e-5 of a singular one, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: Joint of worst_phi.
     text: These results in words, with the names of elements.
@@ -43,11 +45,12 @@ class Report(NamedTuple):
     forces: [-] forces without gravity.
     velocities: [-] nv.
     rows: [-] nc.
-    degrees_of_freedom: [-] nv - rank of J; -1: not known, see mobility().
+    degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
     redundant_rows: [-] rows omitted from every solution.
     constant_rows: [-] rows that do not depend on time.
     islands: [-] groups of bodies connected by joints, without fixed bodies.
-    fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are requested.
+    fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
+        multipliers are requested.
     constant_mass: All masses are constant, so they are inverted only once.
     constant_force: All forces are constant.
     blocks: Solved by blocks ("block"), otherwise by KLU.
@@ -87,13 +90,14 @@ class Counters(NamedTuple):
     are handles or None, and names after unpickling.
 
     steps: [-] accepted.
-    rejected: [-] steps that failed an error test or an iteration.
-    short_steps: [-] shorter steps of a fixed-step method to a requested time off its grid.
-    evaluations: [-] evaluations of the equations of motion, (7) or the residual of an implicit
-        method.
+    rejected: [-] steps that were repeated, because an error test or an iteration failed.
+    short_steps: [-] shorter steps that a fixed-step method took to reach a requested time off
+        its grid.
+    evaluations: [-] evaluations of the equations of motion: solutions of (7), or residuals of
+        an implicit method.
     factorizations: [-] factorizations of the matrix in (7) and of the matrices of IDA and
         CVODE.
-    full_factorizations: [-] the part of factorizations that chose new pivots, which may
+    full_factorizations: [-] those of the factorizations that chose new pivots, which may
         allocate memory.
     nonlinear_iterations: [-] iterations of CVODE, IDA and kinematics.
     restarts: [-] restarts of multistep and variable-step methods.
@@ -104,35 +108,35 @@ class Counters(NamedTuple):
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
     max_phi_joint: Joint of max_phi.
     max_phi_rate_joint: Joint of max_phi_rate.
-    predicted_phi: [m or rad] steady |Phi| that the gains leave, (alpha/beta^2) h max |gamma_i|.
-        Only for the Euler methods with stable gains of at least 0.1/h, otherwise NaN.
-    predicted_phi_rate: [m/s or rad/s] the same for |Phi'|: (h/2) max |gamma_i|.
-    energy_change: [J] change of kinetic plus potential energy since the start. It is not only
-        the error of the method: the work of drivers, inputs and dampers also changes this
-        energy.
+    predicted_phi: [m or rad] prediction of the steady |Phi| that the gains leave,
+        (alpha/beta^2) h max |gamma_i|. It is known only for the Euler methods with stable gains
+        of at least 0.1/h, otherwise it is NaN.
+    predicted_phi_rate: [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|.
+    energy_change: [J] change of kinetic plus potential energy since the start. It contains the
+        error of the method, but also the work of drivers, inputs and dampers.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
-        lengths or rad, without the motion of drivers to their initial values.
-    alpha: [1/s] in use.
-    beta: [1/s] in use.
-    spectral_radius: [-] factor by which each step multiplies a violation in the long run. NaN
-        without "baumgarte" and with variable steps.
-    damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. It equals alpha for small
-        gains with alpha = beta, is infinite for dead-beat gains and negative if violations
-        grow. NaN if spectral_radius is.
+        lengths or rad. It does not include the motion of drivers to their initial values.
+    alpha: [1/s] gain in use.
+    beta: [1/s] gain in use.
+    spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
+        a violation in the long run. NaN without "baumgarte" and with variable steps.
+    damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
+        alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
+        violations grow. NaN if spectral_radius is NaN.
     near_singular_intervals: [-] see near_singular.
-    branch_warnings: [-] near-singular intervals after which the motion is or may be on another
-        branch.
-    forced_steps: [-] steps of rk8 and dp5 across a singular configuration, taken regardless of
-        their error estimate.
-    energy_residual: [J] energy that the method itself has added so far, from the energy
-        account. NaN without the option energy_account.
-    doubts: [-] kinds of warnings that doubt the motion.
-    error_estimate: [-] largest estimated global error of the positions since the start: lengths
-        relative to the characteristic length, angles in radians. It is 0 while the local errors
-        of fixed steps are negligible. NaN: unknown, because inputs change every few steps, or
-        because the estimate failed or would cost too much. With variable steps it is NaN
-        without the option error_check, except after a singularity crossing at a loose
-        tolerance.
+    branch_warnings: [-] near-singular intervals after which the motion is on another branch, or
+        may be.
+    forced_steps: [-] steps of rk8 and dp5 across a singular configuration. They are accepted
+        although their error estimate is above the tolerance.
+    energy_residual: [J] energy that errors of the method have added so far, according to the
+        energy account. NaN without the option energy_account.
+    doubts: [-] kinds of warnings that put the motion in doubt.
+    error_estimate: [-] estimate of the largest global error of the positions since the start.
+        Errors of lengths are relative to the characteristic length, and errors of angles are in
+        radians. With a fixed step, it is 0 as long as the local errors are negligible. It is
+        NaN, which means unknown, if inputs change every few steps, or if the estimate failed or
+        would cost too much. With variable steps it is known only with the option error_check,
+        or after a singularity crossing at a loose tolerance; otherwise it is NaN.
     """
 
     steps: int
@@ -173,19 +177,22 @@ class EnergyAccount(NamedTuple):
     potential: [J] present potential energy of gravity, linear springs, constant loads and user
         potentials.
     start: [J] kinetic plus potential energy at the start.
-    loads: [J] work of loads with an input or a torque, and of loads that follow their body.
+    loads: [J] work of the loads that have an input or a torque, or that follow their body.
     springs: [J] work of springs with a user law.
     dampers: [J] work of the dampers of linear springs.
     user_forces: [J] work of user forces, without the change of their potential.
     bodies: [J] work of the forces of user coordinates, without the change of their potential,
-        plus the integral of v^T M' v / 2. The velocity terms of Lagrange's equations add
-        nothing to this sum.
-    drivers: [J] work of drivers and other rows that depend on time, from -nu^T lambda.
-    violation: [J] work of violated constraints, from -Phi'^T lambda.
+        plus the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's
+        equations cancel.
+    drivers: [J] work of drivers and of other rows that depend on time: the integral of -nu^T
+        lambda.
+    violation: [J] work of violated constraints: the integral of -Phi'^T lambda.
     projection: [J] change of kinetic and potential energy by projections.
-    gains: [J] work of the gains. It is part of drivers and violation, so do not add it.
-    residual: [J] kinetic + potential - start - all works except gains.
-    evaluations: [-] evaluations of (5) and (7) for the account, which the counters exclude.
+    gains: [J] work of the gains. It is already contained in drivers and violation, so do not
+        add it to them.
+    residual: [J] kinetic + potential - start, minus the sum of all works except gains.
+    evaluations: [-] evaluations of (5) and (7) for the account. The counters of the run do not
+        include them.
     """
 
     kinetic: float
@@ -211,9 +218,9 @@ class NearSingular(NamedTuple):
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] smallest pivot, relative to the largest of the run so far.
-    jump: [-] difference between the velocity after the interval and the smooth continuation of
-        the motion before it, relative to the size of the velocity. NaN: unknown.
+    pivot: [-] the smallest pivot in the interval, relative to the largest of the run so far.
+    jump: [-] by how much the velocity after the interval differs from a smooth continuation of
+        the motion before the interval, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
     branch: How the motion continues.
     joint: Joint whose rows have the smallest pivot; none if unknown.
@@ -233,10 +240,11 @@ class StudyEntry(NamedTuple):
     """What a setting costs and how accurate it is; NaN: not known.
 
     name: Such as "rk8 projection, rtol 1e-06".
-    message: Why it is refused or failed, or its first warning, or "".
-    integrator: Of the options.
-    formulation: The actual one, never "default".
-    gains: Of the options.
+    message: Why the entry was refused or failed; otherwise its first warning; "" if there is
+        none.
+    integrator: Its integrator.
+    formulation: Its formulation; never "default".
+    gains: Its gain rule, as given in the options.
     step: [s] NaN for entries with rtol.
     rtol: [-] NaN for entries with a step.
     method: [-] see methods.
@@ -336,16 +344,17 @@ class StudyMethod(NamedTuple):
     """Entries of a study with the same integrator, formulation and gains.
 
     name: Such as "rk8 projection".
-    integrator: Of its entries.
-    formulation: Of its entries.
-    gains: Of its entries.
+    integrator: Integrator of its entries.
+    formulation: Formulation of its entries.
+    gains: Gain rule of its entries.
     fixed_step: True if entries differ in step, false if in rtol.
     entries: [-] number of entries.
     usable: [-] entries that are done and not `off`.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
-    slope: [-] d log error / d log step, or rtol in place of step; NaN: unknown.
-    work_per_digit: [-] factor on work for one more digit; NaN: unknown.
-    cpu_per_digit: [-] factor on CPU time for one more digit; NaN: unknown.
+    slope: [-] slope of the error curve, d log error / d log step, or with rtol instead of step.
+        NaN: unknown.
+    work_per_digit: [-] factor by which the work grows for one more digit; NaN: unknown.
+    cpu_per_digit: [-] factor by which the CPU time grows for one more digit; NaN: unknown.
     growth: [-] geometric mean of error_validated / error over its entries; NaN if none was
         validated to the end.
     """
@@ -368,16 +377,18 @@ class StudyReference(NamedTuple):
     """How far the reference of a study can be trusted.
 
     origin: Where it comes from.
-    trusted: False if the study's own reference runs agree to fewer than three digits or met a
-        singular configuration.
-    digits: [-] trusted digits, -log10(uncertainty); NaN before it is computed.
-    uncertainty: [-] of error.
-    uncertainty_q: [-] of error_q.
-    uncertainty_v: [-] of error_v.
-    uncertainty_lambda: [-] of error_lambda.
-    uncertainty_energy: [J] of energy_error.
+    trusted: False if the study has computed the reference itself, and its reference runs agree
+        to fewer than three digits or have met a singular configuration.
+    digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
+        reference is computed.
+    uncertainty: [-] uncertainty of `error`.
+    uncertainty_q: [-] uncertainty of error_q.
+    uncertainty_v: [-] uncertainty of error_v.
+    uncertainty_lambda: [-] uncertainty of error_lambda.
+    uncertainty_energy: [J] uncertainty of energy_error.
     samples: [-] number of samples.
-    text: Which runs agree to how many digits, or why the reference is not trusted.
+    text: A text that says which reference runs agree to how many digits, or why the reference
+        is not trusted.
     """
 
     origin: str
@@ -416,15 +427,16 @@ class CatalogEntry(NamedTuple):
 
     name: Such as "slider_crank".
     title: Description in a few words.
-    source: Source of its data.
-    provenance: How its reference was computed and checked; "" if it has none.
-    note: Advice for running it; may be "".
+    source: Where the data of the mechanism come from.
+    provenance: How the reference was computed and checked; "" if the mechanism has no
+        reference.
+    note: Advice for simulating it; may be "".
     parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
-    sample_count: [-] samples of the reference; 0: it has none.
-    start_time: [s] start of the problem and its reference.
-    end_time: [s] end of the problem and its reference.
-    digits_q: [-] digits of the reference positions that can be trusted, relative to max(1,
-        |q|); NaN without a reference.
+    sample_count: [-] number of stored samples; 0 if there are none.
+    start_time: [s] start of the problem and of its reference.
+    end_time: [s] end of the problem and of its reference.
+    digits_q: [-] number of digits of the reference positions that can be trusted, relative to
+        max(1, |q|). NaN if there is no reference.
     digits_v: [-] the same for velocities.
     exact: The reference consists of formulas.
     smooth: The motion with default parameters passes no singular configuration.

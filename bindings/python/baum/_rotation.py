@@ -15,7 +15,7 @@ ROUNDING = 1e-6  # allowed deviation of a rotation matrix, for numbers that were
 
 
 def _matrix(value: Any, label: str) -> Array:
-    """A 3 x 3 array, checked like a vector."""
+    """Convert a value to a 3 x 3 array of numbers."""
     return vector(np.ravel(np.asarray(value)), 9, label).reshape(3, 3)
 
 
@@ -24,8 +24,8 @@ def _is_matrix(value: Any) -> bool:
 
 
 def tensor(value: Any, label: str) -> Array:
-    """The six numbers xx, yy, zz, xy, xz, yz of an inertia. value: these numbers, three principal
-    moments or a 3 x 3 matrix."""
+    """Return the six numbers xx, yy, zz, xy, xz, yz of an inertia tensor. value: these numbers,
+    three principal moments or a 3 x 3 matrix."""
     if _is_matrix(value):
         i = _matrix(value, label)
         if not np.allclose(i, i.T, rtol=0.0, atol=1e-9 * abs(i).max()):
@@ -41,8 +41,8 @@ def tensor(value: Any, label: str) -> Array:
 
 
 def quaternion(value: Any, label: str) -> Array:
-    """The quaternion w, x, y, z of an orientation. value: this quaternion, a 3 x 3 rotation matrix
-    or a Rotation of SciPy."""
+    """Return the quaternion w, x, y, z of an orientation. value: this quaternion, a 3 x 3 rotation
+    matrix or a Rotation of SciPy."""
     if hasattr(value, "as_quat"):  # x, y, z, w
         return np.roll(vector(value.as_quat(), 4, label), 1)
     if not _is_matrix(value):
@@ -66,8 +66,9 @@ def quaternion(value: Any, label: str) -> Array:
 
 
 def _of_matrix(r: Array) -> Array:
-    """The quaternion p of a rotation matrix, with w >= 0: the row of 4 p p^T with the largest
-    diagonal entry, normalized (Shepperd 1978)."""
+    """Return the quaternion p of a rotation matrix, with w >= 0 (Shepperd 1978). The matrix
+    determines p p^T. The row of this product with the largest diagonal entry is a multiple of p,
+    which is then normalized."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The web server of a view: the page, its stream of frames, and its buttons."""
+"""The web server of a view. It serves the page and its stream of frames, and handles its
+buttons."""
 
 from __future__ import annotations
 
@@ -22,17 +23,17 @@ if TYPE_CHECKING:
     from ._motion import TraceLike
     from .mechanism import Mechanism
 
-SHARE = 0.02  # of its time that a thread may spend on making frames
-TIMEOUT = 10.0  # [s] of a page that does not read
+SHARE = 0.02  # largest part of its time that a thread spends on making frames
+TIMEOUT = 10.0  # [s] after which a page that does not read is given up
 SCRIPT = Path(__file__).with_name("live.js")
 
 
 class Server(http.server.ThreadingHTTPServer):
-    """Serves one view at 127.0.0.1. Nothing here refers to the simulation, so that it can be
-    collected."""
+    """Serves one view at 127.0.0.1. The server holds no reference to the simulation, so that Python
+    can collect the simulation while the server is running."""
 
     daemon_threads = True
-    timeout = 0.1  # [s] until it looks whether it shall end
+    timeout = 0.1  # [s] interval at which the server checks whether it must end
 
     def __init__(
         self,
@@ -44,7 +45,7 @@ class Server(http.server.ThreadingHTTPServer):
     ) -> None:
         self.live = live
         self._shown = mechanism, title, traces
-        self.page()  # wrong traces are refused now
+        self.page()  # raises an exception if the traces are wrong
         super().__init__(("127.0.0.1", 0), _Handler)
         self.token = secrets.token_urlsafe(18)
         self.hosts = [f"{name}:{self.server_port}" for name in ("127.0.0.1", "localhost")]
@@ -63,16 +64,16 @@ class Server(http.server.ThreadingHTTPServer):
                 self.handle_request()
 
     def end(self) -> None:
-        """End the view, from any thread."""
+        """End the view. Any thread may call this."""
         self.ended.set()
         if self in self.live.servers:
             self.live.servers.remove(self)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        pass  # a page that has gone away in the middle of an answer
+        pass  # the page was closed in the middle of an answer
 
     def page(self) -> str:
-        """The page. It shows the newest frame until it receives others."""
+        """Return the page. It shows the newest frame until it receives other frames."""
         mechanism, title, traces = self._shown
         frame = self.live.frame
         motion = _motion.of_arrays(
@@ -85,7 +86,8 @@ class Server(http.server.ThreadingHTTPServer):
         return f"{before}{policy}; connect-src 'self'{rest}{script}{body}{foot}"
 
     def text(self) -> str:
-        """The newest frame as JSON. Between two calls of the run, its present state."""
+        """Return the newest frame as JSON. If no call is advancing the run, this is its present
+        state."""
         owner = self._owner()
         if owner is not None:
             owner.glance(self.live.show)
@@ -127,9 +129,10 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             self.send_error(404)
 
     def _asked(self) -> str | None:
-        """What is asked for, after the token. Answers with an error, and returns None, if another
-        page may be asking: its address leads here (Host), it is not ours (Origin), or it does not
-        know the token."""
+        """Return the part of the address after the secret token. Three checks make sure that only
+        our own page receives an answer: the header Host must name this server, the header Origin
+        must be ours if it is present, and the address must contain the token. If a check fails,
+        answer with an error and return None."""
         hosts = self._server.hosts
         origins = ["", *(f"http://{host}" for host in hosts)]
         if self.headers.get("Host") not in hosts or self.headers.get("Origin", "") not in origins:

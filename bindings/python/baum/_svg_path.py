@@ -23,7 +23,7 @@ SIZES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7,
 
 
 class _Reader:
-    """Reads commands and numbers from a path one after the other."""
+    """Reads the commands and numbers of a path one after the other."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -33,7 +33,7 @@ class _Reader:
         return ValueError(f"SVG path, character {self.place + 1}: {why}")
 
     def take(self, pattern: re.Pattern[str]) -> str | None:
-        """The next word if it fits a pattern, else None."""
+        """Return the next word if it fits a pattern, otherwise None."""
         found = pattern.match(self._text, self.place)
         if found is None:
             return None
@@ -45,8 +45,8 @@ class _Reader:
         return rest is not None and rest.end() == len(self._text)
 
     def numbers(self, command: str) -> list[float]:
-        """The numbers of one command. The fourth and fifth of an arc are flags, which may be
-        written without a gap."""
+        """Return the numbers of one command. The fourth and fifth number of an arc are flags, which
+        may be written without a gap."""
         values: list[float] = []
         for k in range(SIZES[command]):
             word = self.take(_FLAG if command == "A" and k in (3, 4) else _NUMBER)
@@ -57,7 +57,7 @@ class _Reader:
 
 
 def _bezier(points: list[complex]) -> list[complex]:
-    """Points on a quadratic or cubic curve, without the first point."""
+    """Return points on a quadratic or cubic Bezier curve, without the first point."""
     out = []
     for k in range(1, CURVE + 1):
         level, t = points, k / CURVE
@@ -68,7 +68,7 @@ def _bezier(points: list[complex]) -> list[complex]:
 
 
 def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
-    """Points on an elliptic arc from a to b, without a (SVG 1.1, appendix F.6)."""
+    """Return points on an elliptic arc from a to b, without a (SVG 1.1, appendix F.6)."""
     rx, ry, degrees, large, sweep = abs(numbers[0]), abs(numbers[1]), *numbers[2:5]
     if rx == 0 or ry == 0 or a == b:
         return [b]
@@ -82,10 +82,10 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
         return complex(z.real * rx, z.imag * ry) * turn
 
     half = to_circle((b - a) / 2)
-    grown = max(abs(half), 1.0)  # an ellipse that is too small is enlarged
+    grown = max(abs(half), 1.0)  # if the ellipse is too small to reach b, it is enlarged
     rx, ry, half = rx * grown, ry * grown, half / grown
     side = math.sqrt(max(1 - abs(half) ** 2, 0.0)) * (1 if large == sweep else -1)
-    # Relative to a, in coordinates where the ellipse is a unit circle.
+    # Coordinates relative to a, scaled and rotated such that the ellipse is a unit circle.
     centre = half - side * 1j * half / abs(half)
     if not cmath.isfinite(centre):
         raise OverflowError
@@ -99,7 +99,7 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
 
 
 class _Pen:
-    """Converts commands to polygons."""
+    """Converts the commands of a path to polygons."""
 
     def __init__(self) -> None:
         self.polygons: list[list[complex]] = []
@@ -120,7 +120,9 @@ class _Pen:
         if command == "Z":
             self._here, self._closed = self._start, True
             return
-        if command == "M" or self._closed:  # begins a subpath; without M, where the last one began
+        if (
+            command == "M" or self._closed
+        ):  # begin a subpath; without M, it begins where the last one began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self._before = self.count
@@ -152,13 +154,16 @@ class _Pen:
 
 
 def polygons(text: str) -> list[Array]:
-    """The polygons (n, 2) of the subpaths. A subpath that is not closed is closed."""
+    """Return the polygons (n, 2) of a path, one for each subpath. A subpath that is open is
+    closed."""
     reader, pen, command = _Reader(text), _Pen(), ""
     while not reader.at_end():
         word = reader.take(_COMMAND)
         if word is None and command in ("", "Z", "z"):
             raise reader.error("a command is wanted, such as M or L")
-        if word is None:  # repeats the last command; points after that of an M begin lines
+        if (
+            word is None
+        ):  # numbers without a command repeat the last command; after M they are ends of lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")
@@ -173,7 +178,7 @@ def polygons(text: str) -> list[Array]:
 
 
 def _loop(points: list[complex], k: int) -> Array:
-    """The corners of a subpath. A last corner that repeats the first one is removed."""
+    """Return the corners of a subpath. If the last corner repeats the first one, remove it."""
     corners = [z for z, before in zip(points, [None, *points]) if z != before]
     corners = corners[:-1] if len(corners) > 1 and corners[-1] == corners[0] else corners
     if len(corners) < 3:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts numbers, points and arrays to the library's types and back. Values are checked here, so
-that messages can name the argument."""
+"""Convert numbers, points and arrays to the types of the library, and back. These functions check
+the values, because they know the names of the arguments and can put them into messages."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .typing import Array
 
 
 def number(value: Any, label: str) -> float:
-    """A float. Text is refused, even where it reads like a number."""
+    """Convert a value to a float. Text is refused, even if it looks like a number."""
     try:
         if isinstance(value, (str, bytes, bytearray)):
             raise TypeError
@@ -26,7 +26,8 @@ def number(value: Any, label: str) -> float:
 
 
 def integer(value: Any, label: str, bits: int = 32) -> int:
-    """An int that the library's type can hold; nothing is rounded or truncated."""
+    """Convert a value to an int that fits the integer type of the library. Nothing is rounded or
+    truncated."""
     try:
         whole = operator.index(value)
     except TypeError:
@@ -37,21 +38,21 @@ def integer(value: Any, label: str, bits: int = 32) -> int:
 
 
 def truth(value: Any, label: str) -> bool:
-    """A bool, from a bool or an int. Text is refused, because "no" would be true."""
+    """Convert a bool or an int to a bool. Text is refused, because "no" would be true."""
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)
 
 
 def word(words: Mapping[str, int], value: Any, label: str) -> int:
-    """The number that a word stands for."""
+    """Return the number that a word stands for."""
     if value not in words:
         raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
     return words[value]
 
 
 def vector(value: Any, size: int | None, label: str) -> Array:
-    """A new array of `size` doubles; of any length when size is None."""
+    """Copy a value into a new array of `size` doubles. If size is None, any length is allowed."""
     try:
         if np.asarray(value).dtype.kind not in "biufO":
             raise TypeError
@@ -68,10 +69,12 @@ def vector(value: Any, size: int | None, label: str) -> Array:
 
 
 def address(array: Any) -> Any:
-    """The address of the numbers of an array; None for None."""
+    """Return the address of the numbers of an array; None for None."""
     return None if array is None else array.ctypes.data
 
 
 def numbers(place: int | None, size: int) -> Array | None:
-    """A copy of the numbers at an address; None for NULL."""
-    return None if place is None else np.array((ctypes.c_double * size).from_address(place))
+    """Copy the numbers at an address into a new array; return None for NULL."""
+    if place is None:
+        return None
+    return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()

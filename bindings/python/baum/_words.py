@@ -52,8 +52,8 @@ _RULES = [(re.compile(pattern), instead) for pattern, instead in TABLE]
 
 
 def in_python(text: str) -> str:
-    """A text of the library with Python's names in place of C's. Quoted parts, such as names of
-    elements, stay as they are."""
+    """Replace the C names in a text of the library by those of Python. Quoted parts, such as names
+    of elements, stay as they are."""
     parts = re.split(r'("[^"]*")', text)
     for pattern, instead in _RULES:
         parts[::2] = [pattern.sub(instead, part) for part in parts[::2]]

@@ -38,13 +38,15 @@ Bodies = Union[BodyLike, Sequence[BodyLike]]
 class Adding:
     """The methods of a Mechanism that add an element.
 
-    Each method returns a handle. name: a label for messages and lookups; None numbers the element,
-    for example "body1". An argument that is None has the default that the method describes. Bodies,
-    joints and inputs are given as handles or names.
+    Each method returns a handle of the new element. Bodies, joints and inputs are given as handles
+    or by their names. All methods have the argument `name`. Messages contain this name, and
+    m["crank"] returns the handle of the element named "crank". If the name is None, the element
+    gets a name with a number, for example "body1". If another argument is None, it has the default
+    that the docstring of the method states.
 
-    Errors: TypeError for values of a wrong type, ValueError for wrong sizes and names that are
-    taken, KeyError for names that do not exist, and baum.Error for values that the library refuses,
-    and after freeze().
+    Errors: TypeError for a value of a wrong type; ValueError for a wrong size and for a name that
+        is already taken; KeyError for a name that does not exist; baum.Error for a value that the
+        library refuses, and for every call after freeze().
     """
 
     _owner: Handle
@@ -75,11 +77,16 @@ class Adding:
     ) -> Body:
         """Add a rigid body in the plane.
 
-        mass: [kg] > 0. inertia: about the centre of mass [kg m^2] > 0. position: of the centre of
-        mass in the design configuration, x and y [m]. angle: in the design configuration [rad].
-        velocity, angular_velocity: at the start [m/s], [rad/s]; None or NaN: free, so that assembly
-        chooses them. held: assembly does not move the body. outline: how it is drawn, as
-        Body.outline.
+        mass: [kg], positive.
+        inertia: moment of inertia about the centre of mass [kg m^2], positive.
+        position: x and y of the centre of mass in the design configuration [m].
+        angle: angle of the body in the design configuration [rad].
+        velocity: velocity of the centre of mass at the start [m/s]. None or NaN: free, assembly
+            determines it.
+        angular_velocity: angular velocity at the start [rad/s]. None or NaN: free, assembly
+            determines it.
+        held: True if assembly must not move the body.
+        outline: how the body is drawn, see Body.outline.
         """
         return self._add(Body, "planar_body", locals())
 
@@ -95,9 +102,11 @@ class Adding:
     ) -> Body:
         """Add a point mass in the plane.
 
-        mass: [kg] > 0. position: in the design configuration, x and y [m]. velocity: at the start
-        [m/s]; None or NaN: free, so that assembly chooses it. held: assembly does not move it.
-        outline: how it is drawn, as Body.outline.
+        mass: [kg], positive.
+        position: x and y in the design configuration [m].
+        velocity: velocity at the start [m/s]. None or NaN: free, assembly determines it.
+        held: True if assembly must not move the particle.
+        outline: how the particle is drawn, see Body.outline.
         """
         return self._add(Body, "planar_particle", locals())
 
@@ -126,21 +135,35 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Body:
-        """Add `size` generalized coordinates with a mass matrix and forces of your own.
+        """Add `size` generalized coordinates. Functions of yours give their mass matrix and their
+        forces.
 
-        mass(t, q): mass matrix M (size x size). force(t, q, v): force vector g (size). force_q,
-        force_v: its derivatives (size x size), by default from differences. potential(t, q): energy
-        [J]. q, v: (size) design positions, default 0, and velocities at the start, default free.
-        scale: (size) a typical change of each position. constant_mass: M is constant. held:
-        assembly does not move them. inputs: force, force_q and force_v receive their values after
-        v. depends_on_velocity: False if force() does not read v, which "rattle" requires. user: the
-        last argument of compiled functions, an address or an object of ctypes.
+        mass(t, q): the mass matrix M (size x size).
+        force(t, q, v): the force vector g (size).
+        force_q, force_v: derivatives of the force with respect to q and v (size x size). By default
+            the library computes them by differences.
+        potential(t, q): potential energy of the force [J].
+        q: (size) positions in the design configuration, by default 0.
+        v: (size) velocities at the start, by default free.
+        scale: (size) the size of a typical change of each position. Tolerances are relative to it.
+        constant_mass: True if M is constant.
+        held: True if assembly must not move these coordinates.
+        inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
+        depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
+            this.
+        user: the last argument of compiled functions, an address or an object of ctypes.
 
-        For positions that are not a vector, such as a unit quaternion, also give: position_count;
-        rate(q, v): q' = N(q) v; move(h, v, q): q after the time h at constant v; difference(a, b):
-        the v for which move(1, v, a) is b; normalize(q): the nearest q on the configuration
-        manifold; position_scale: a typical change of each position. Derivatives with respect to q
-        are then derivatives along displacements (size).
+        If the positions are not a vector, for example if they are a unit quaternion, give these
+        arguments, too. Derivatives with respect to q are then derivatives along displacements
+        (size).
+
+        position_count: number of positions.
+        rate(q, v): the time derivative of q, N(q) v.
+        move(h, v, q): the position that is reached from q after the time h with the constant
+            velocity v.
+        difference(a, b): the displacement v from a to b, for which move(1, v, a) is b.
+        normalize(q): the point of the configuration manifold that is nearest to q.
+        position_scale: the size of a typical change of each position.
         """
         return self._add(Body, "coordinates", locals())
 
@@ -156,10 +179,13 @@ class Adding:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a revolute joint (pin): a point of body_a and one of body_b coincide. Two rows [m].
+        """Add a revolute joint (pin): a point of body_a and a point of body_b coincide.
 
-        Its coordinate is angle_b - angle_a [rad]. point: in ground axes in the design configuration
-        [m]; or point_a, point_b: in the axes of body_a and body_b [m].
+        The joint has two rows [m]. Its coordinate is angle_b - angle_a [rad]. Give either `point`,
+        or both point_a and point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
         """
         return self._add(Joint, "planar_revolute", locals())
 
@@ -175,13 +201,18 @@ class Adding:
         point_b: ArrayLike | None = None,
         angle: Scalar | None = None,
     ) -> Joint:
-        """Add a translational joint (slider): body_b moves along an axis of body_a and does not
-        rotate relative to it. Two rows [m], [rad].
+        """Add a translational joint (slider): body_b slides along an axis of body_a and does not
+        rotate relative to body_a.
 
-        Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
-        ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
-        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. angle: the constant
-        value of angle_b - angle_a [rad], by default taken from the design configuration.
+        The joint has two rows [m], [rad]. Its coordinate is the displacement from body_a's point to
+        body_b's point along the axis [m]. Give either `point`, or both point_a and point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
+        axis: direction of the axis. It is in ground axes if `point` is given, otherwise in the axes
+            of body_a.
+        angle: the constant value of angle_b - angle_a [rad], by default that of the design
+            configuration.
         """
         return self._add(Joint, "planar_translational", locals())
 
@@ -195,10 +226,11 @@ class Adding:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points. One row [m].
+        """Add a massless rod between two points. The joint has one row [m].
 
-        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, by default as in
-        the design configuration.
+        point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
+        length: length of the rod [m], positive; by default the distance in the design
+            configuration.
         """
         return self._add(Joint, "planar_distance", locals())
 
@@ -213,10 +245,14 @@ class Adding:
         point_b: ArrayLike | None = None,
         angle: Scalar | None = None,
     ) -> Joint:
-        """Add a weld: two bodies do not move relative to each other. Three rows [m], [m], [rad].
+        """Add a weld: two bodies do not move relative to each other.
 
-        point: in ground axes in the design configuration [m]; or point_a, point_b: in the axes of
-        the bodies [m]. angle: angle_b - angle_a [rad], by default as in the design configuration.
+        The joint has three rows [m], [m], [rad]. Give either `point`, or both point_a and point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
+        angle: the constant value of angle_b - angle_a [rad], by default that of the design
+            configuration.
         """
         return self._add(Joint, "planar_fixed", locals())
 
@@ -231,11 +267,16 @@ class Adding:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a pin of body_b that slides and rotates in a straight slot of body_a. One row [m].
+        """Add a pin of body_b that slides and rotates in a straight slot of body_a.
 
-        Its coordinate is the displacement of body_b's point along the axis [m]. axis: direction, in
-        ground axes with `point`, else in the axes of body_a. point: in ground axes in the design
-        configuration [m]; or point_a, point_b: in the axes of the bodies [m].
+        The joint has one row [m]. Its coordinate is the displacement from body_a's point to
+        body_b's point along the axis of the slot [m]. Give either `point`, or both point_a and
+        point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
+        axis: direction of the slot. It is in ground axes if `point` is given, otherwise in the axes
+            of body_a.
         """
         return self._add(Joint, "planar_pin_in_slot", locals())
 
@@ -252,13 +293,17 @@ class Adding:
         point_b: ArrayLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a pinion of body_b that rolls on a rack of body_a. body_b's point is its centre, and
-        the axis is the direction of the rack. One row [m]: displacement - radius (angle_b -
-        angle_a) = offset.
+        """Add a pinion of body_b that rolls on a rack of body_a without slipping.
 
-        radius: [m]; positive if the rack is on the left of the centre, looking along the axis;
-        negative if it is on the right, which is below for the axis (1, 0). axis, point, point_a,
-        point_b: as in translational(). offset: [m], by default as in the design configuration.
+        The axis is the direction of the rack, and body_b's point is the centre of the pinion. The
+        joint has one row [m], displacement - radius (angle_b - angle_a) - offset, where
+        displacement is the distance from body_a's point to body_b's point along the axis.
+
+        axis, point, point_a, point_b: as in translational().
+        radius: radius of the pitch circle [m]. It is positive if the rack is to the left of the
+            pinion, seen in the direction of the axis, and negative if the rack is to the right. For
+            the axis (1, 0), right means below.
+        offset: the offset in the row [m], by default that of the design configuration.
         """
         return self._add(Joint, "planar_rack_and_pinion", locals())
 
@@ -273,11 +318,14 @@ class Adding:
         carrier: BodyLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a gear of two wheels on a carrier. One row [m]:
-        radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) = offset.
+        """Add a pair of gears: two wheels, body_a and body_b, that roll on each other on a carrier.
 
-        radius_a, radius_b: [m]; negative for a ring with internal teeth. carrier: default ground.
-        offset: [m], by default as in the design configuration.
+        The joint has one row [m], radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) -
+        offset, where angle_c is the angle of the carrier.
+
+        radius_a, radius_b: radii of the pitch circles [m]; negative for a ring with internal teeth.
+        carrier: the body that carries both wheels, by default ground.
+        offset: the offset in the row [m], by default that of the design configuration.
         """
         return self._add(Joint, "planar_gear", locals())
 
@@ -293,12 +341,18 @@ class Adding:
         point_b: ArrayLike | None = None,
         user: Any = None,
     ) -> Joint:
-        """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. One row.
+        """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. The joint has one
+        row.
 
-        curve(xy): F [m], F_x, F_y, F_xx, F_xy, F_yy at x and y [m] from body_a's point, in the axes
-        of body_a. Choose F with a gradient of about 1 near the curve, so that F is about the
-        distance from it. point: in ground axes in the design configuration [m]; or point_a,
-        point_b: in the axes of the bodies [m]. user: what a compiled function receives.
+        Choose F such that its gradient is about 1 near the curve. F is then about the distance from
+        the curve. Give either `point`, or both point_a and point_b.
+
+        curve(xy): the numbers F [m], F_x, F_y, F_xx, F_xy, F_yy at the point xy [m]. The
+            coordinates xy are in the axes of body_a, with body_a's point as origin.
+        point: the origin of the curve in the design configuration, in ground axes [m].
+        point_a, point_b: the origin of the curve and the point of body_b, in the axes of the bodies
+            [m].
+        user: the last argument of a compiled function.
         """
         return self._add(Joint, "planar_curve", locals())
 
@@ -315,12 +369,16 @@ class Adding:
         coordinate_a: Coordinate = "first",
         coordinate_b: Coordinate = "first",
     ) -> Joint:
-        """Couple the coordinates a and b of two joints. One row: b = ratio a + offset, or b = f(a).
+        """Couple two joints: their coordinates a and b satisfy b = ratio a + offset, or b = f(a).
 
-        ratio: unit of b per unit of a. offset: in the unit of b, [rad] or [m], by default taken
-        from the design configuration. law(a): f(a) and its first and second derivative, for example
-        of a cam. user: what a compiled function receives. coordinate_a, coordinate_b: as in
-        driver(); the two coordinates of one cylindrical joint make it a screw.
+        The joint has one row. With the two coordinates of one cylindrical joint, the coupling is a
+        screw. With a law, it can be a cam.
+
+        ratio: in the unit of b per unit of a.
+        offset: in the unit of b, [rad] or [m]; by default that of the design configuration.
+        law(a): f(a), its first and its second derivative. It replaces ratio and offset.
+        user: the last argument of a compiled function.
+        coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
         """
         return self._add(Joint, "coupling", locals())
 
@@ -336,15 +394,25 @@ class Adding:
         user: Any = None,
         coordinate: Coordinate = "first",
     ) -> Joint:
-        """Prescribe a coordinate of a joint [rad] or [m]. One row: coordinate = value + rate t +
-        acceleration t^2 / 2, or law(t).
+        """Prescribe a coordinate of a joint as a function of time.
 
-        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. law(t):
-        value, rate and acceleration at the time t [s]. user: what a compiled function receives.
-        coordinate: "angle" of revolute joints, "displacement" of translational joints, pins in a
-        slot, prismatic joints and points on a line; of a cylindrical joint "displacement" or
-        "angle", of a universal joint "angle" or "angle_b", of a planar joint in space "x", "y" or
-        "angle". "first" is the first of these.
+        The driver has one row: the coordinate [rad] or [m] equals value + rate t + acceleration t^2
+            / 2, or law(t).
+
+        value: value at t = 0 [rad] or [m].
+        rate: first derivative at t = 0 [rad/s] or [m/s].
+        acceleration: second derivative, constant [rad/s^2] or [m/s^2].
+        law(t): the value, its first and its second derivative at the time t [s]. It replaces the
+            three numbers.
+        user: the last argument of a compiled function.
+        coordinate: which coordinate of the joint; "first" is the first one in this list.
+
+        - Revolute joints have "angle".
+        - Translational joints, pins in a slot, prismatic joints and points on a line have
+          "displacement".
+        - A cylindrical joint has "displacement" and "angle".
+        - A universal joint has "angle" and "angle_b".
+        - A planar joint in space has "x", "y" and "angle".
         """
         return self._add(Joint, "driver", locals())
 
@@ -358,11 +426,15 @@ class Adding:
         periodic: bool = False,
         coordinate: Coordinate = "first",
     ) -> Joint:
-        """Prescribe a coordinate as driver() does, by a cubic spline. One row.
+        """Prescribe a coordinate of a joint by a cubic spline through given values.
 
-        times: (n) rising [s], n >= 3. values: (n) [rad] or [m]. Before the first and after the last
-        time the spline continues in a straight line. periodic: the spline repeats; the first and
-        the last value must then be equal. coordinate: as in driver().
+        The driver has one row. Before the first and after the last time, the spline continues as a
+        straight line, unless it is periodic.
+
+        times: (n) rising [s], at least 3.
+        values: (n) values of the coordinate at these times [rad] or [m].
+        periodic: True if the spline repeats. The first and the last value must then be equal.
+        coordinate: which coordinate of the joint, as in driver().
         """
         return self._add(Joint, "spline_driver", locals())
 
@@ -378,17 +450,21 @@ class Adding:
         gamma: FunctionOfQV | None = None,
         user: Any = None,
     ) -> Joint:
-        """Add constraints Phi(t, q) = 0 over the coordinates q of one body or several bodies.
+        """Add constraints Phi(t, q) = 0 on the coordinates q of one body or of several bodies.
 
-        rows: number of rows. phi(t, q): Phi (rows). jacobian(t, q): J (rows x nv). nu(t, q):
-        -dPhi/dt (rows). gamma(t, q, v): the right side of J a = gamma (rows). user: what compiled
-        functions receive.
+        rows: number of constraints.
+        phi(t, q): Phi (rows).
+        jacobian(t, q): the Jacobian J (rows x nv).
+        nu(t, q): -dPhi/dt (rows).
+        gamma(t, q, v): gamma, the right-hand side of J a = gamma (rows).
+        user: the last argument of compiled functions.
 
-        Only phi is required. The others are replaced by differences, which call phi often: about
-        140 times in a step of "rk4" for two coordinates, compared with 50 calls in total if
-        jacobian and gamma are given. A call takes one to two microseconds even for a short Python
-        function. If that matters, give the derivatives, or compiled functions: addresses, ctypes
-        function pointers, or Numba's cfunc.
+        Only phi is required. If you do not give the other functions, the library computes them by
+        differences, for which it calls phi often: for two coordinates, about 140 times in a step of
+        "rk4". If you give jacobian and gamma, there are 50 calls of all three functions together. A
+        call of a short Python function takes one to two microseconds. If this time matters, give
+        the derivatives, or give compiled functions, which can be addresses, ctypes function
+        pointers, or Numba's cfunc.
         """
         return self._add(Joint, "user_constraint", locals())
 
@@ -409,13 +485,18 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and damper between two points, linear or by a law.
+        """Add a spring and a damper between two points. They are linear, or a law gives their
+        force.
 
-        point_a, point_b: in the axes of body_a and body_b [m]. stiffness: [N/m]. damping: [N s/m].
-        free_length: [m], by default as in the design configuration. law(length, rate): tension [N]
-        and its derivatives with respect to length and rate; the spring then has no potential
-        energy. depends_on_velocity: False if the law does not read the rate, which "rattle"
-        requires. user: what a compiled function receives.
+        point_a, point_b: the points in the axes of body_a and body_b [m].
+        stiffness: [N/m].
+        damping: [N s/m].
+        free_length: length without force [m], by default the distance in the design configuration.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
+            replaces the three numbers above. The spring then has no potential energy.
+        depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
+            this.
+        user: the last argument of a compiled function.
         """
         return self._add(Force, "planar_spring", locals())
 
@@ -432,12 +513,15 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a torsion spring and damper on angle_b - angle_a, which counts whole revolutions.
+        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle grows
+        continuously over several revolutions.
 
-        stiffness: [N m/rad]. damping: [N m s/rad]. free_angle: [rad], by default as in the design
-        configuration. law(angle, rate): restoring torque [N m] and its derivatives with respect to
-        angle and rate; the spring then has no potential energy. depends_on_velocity, user: as in
-        spring().
+        stiffness: [N m/rad].
+        damping: [N m s/rad].
+        free_angle: angle without torque [rad], by default that of the design configuration.
+        law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
+            rate. It replaces the three numbers above. The spring then has no potential energy.
+        depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
 
@@ -454,12 +538,16 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and damper on a coordinate of a joint, in the plane or in space.
+        """Add a spring and a damper on a coordinate of a joint, in the plane or in space.
 
-        coordinate: as in driver(); runs count revolutions of angles. stiffness: [N m/rad] or [N/m].
-        damping: [N m s/rad] or [N s/m]. free_value: [rad] or [m], by default as in the design
-        configuration. law(coordinate, rate): restoring torque [N m] or force [N] and its
-        derivatives with respect to both; the spring then has no potential energy.
+        coordinate: which coordinate of the joint, as in driver(). A run counts the revolutions of
+            angles.
+        stiffness: [N m/rad] or [N/m].
+        damping: [N m s/rad] or [N s/m].
+        free_value: value without force [rad] or [m], by default that of the design configuration.
+        law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
+            respect to both arguments. It replaces the three numbers above. The spring then has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())
@@ -475,11 +563,14 @@ class Adding:
         follows_body: bool = False,
         input: InputLike | None = None,
     ) -> Force:
-        """Add a force at a point of a body, and a torque.
+        """Add a force at a point of a body, and a torque on the body.
 
-        force: [N]. point: in body axes [m]. torque: [N m]. follows_body: the force rotates with the
-        body; otherwise it keeps its direction in ground axes. input: its value multiplies force and
-        torque.
+        force: [N].
+        point: where the force acts, in body axes [m].
+        torque: [N m].
+        follows_body: True if the force rotates with the body, False if it keeps its direction in
+            ground axes.
+        input: an input whose value multiplies force and torque.
         """
         return self._add(Force, "planar_load", locals())
 
@@ -496,25 +587,33 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a generalized force on one body or several bodies.
+        """Add a generalized force on one body or on several bodies.
 
-        force(t, q, v): the force (nv) of the coordinates q and v of these bodies: x, y [N] and a
-        moment [N m] on a planar body, x, y, z in ground axes and a moment in body axes on a spatial
-        body, both about the centre of mass. force_q, force_v: its derivatives (nv x nv), by default
-        from differences. potential(t, q): energy [J]. inputs: the functions receive their values
-        after v; with inputs=["torque"] they are called as force(t, q, v, torque).
-        depends_on_velocity: False if force() does not read v, which "rattle" requires. user: what
-        compiled functions receive.
+        The arguments q and v of the functions are the coordinates of these bodies. nv is the number
+        of their velocities.
+
+        force(t, q, v): the generalized force (nv). For a planar body it consists of x, y [N] and a
+            moment [N m]. For a spatial body it consists of a force x, y, z in ground axes and a
+            moment x, y, z in body axes. The force acts at the centre of mass.
+        force_q, force_v: derivatives of the force with respect to q and v (nv x nv). By default the
+            library computes them by differences.
+        potential(t, q): potential energy of the force [J].
+        inputs: inputs whose values the functions receive as further arguments after v. With
+            inputs=["torque"] the library calls force(t, q, v, torque).
+        depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
+            this.
+        user: the last argument of compiled functions.
         """
         return self._add(Force, "user_force", locals())
 
     # ---- inputs ----------------------------------------------------------------------------------
 
     def input(self, name: str | None = None, initial: Scalar = 0.0) -> Input:
-        """Add an input: a number that acts from outside, such as the torque of a motor.
+        """Add an input: a number that your program sets during a run, such as the torque of a
+        motor.
 
-        Loads and force functions refer to inputs. Every run and workspace starts with the value
-        `initial`, and keeps it until set_input() of the run or workspace changes it.
+        Loads and force functions refer to inputs. Every run and every workspace starts with the
+        value `initial`, and keeps it until its method set_input() changes it.
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')

@@ -16,11 +16,13 @@ class AddingInSpace:
     """The methods of a Mechanism that add an element in space. The class Adding describes what all
     methods that add elements have in common.
 
-    Points are x, y, z [m]. A joint is placed by `point` (ground axes, design configuration) or by
-    `point_a` and `point_b` (body axes). `axis` is a direction of any length on body_a, and `axis_b`
-    the corresponding direction on body_b: both in ground axes if `point` is given, otherwise in
-    body axes. By default, `axis_b` coincides with `axis` in the design configuration. Spatial
-    joints and springs also connect planar bodies and particles, which stay in the plane z = 0.
+    A point is given by its coordinates x, y, z [m]. The place of a joint is given by `point` in
+    ground axes, in the design configuration, or by `point_a` and `point_b` in the axes of the
+    bodies. `axis` is a direction on body_a, and `axis_b` the corresponding direction on body_b.
+    Both may have any length except 0. They are in ground axes if `point` is given, otherwise in the
+    axes of the bodies. By default, `axis_b` coincides with `axis` in the design configuration.
+    Spatial joints and springs can also connect planar bodies and particles, which stay in the plane
+    z = 0.
     """
 
     if TYPE_CHECKING:
@@ -44,14 +46,20 @@ class AddingInSpace:
     ) -> Body:
         """Add a rigid body in space.
 
-        mass: [kg] > 0. inertia: about the centre of mass in body axes [kg m^2]: xx, yy, zz, xy, xz,
-        yz of the tensor, or the three principal moments, or a 3 x 3 matrix; baum.inertia computes
-        tensors of solids. position: of the centre of mass in the design configuration, x, y, z [m].
-        orientation: in the design configuration: a unit quaternion w, x, y, z, or a rotation matrix
-        3 x 3 whose columns are the body axes, or a Rotation of scipy.spatial.transform. velocity:
-        of the centre of mass at the start, ground axes [m/s]. angular_velocity: at the start, body
-        axes [rad/s]. Velocities None or NaN: assembly chooses them. held: assembly does not move
-        the body. outline: how it is drawn, as Body.outline.
+        mass: [kg], positive.
+        inertia: inertia about the centre of mass in body axes [kg m^2]: the six numbers xx, yy, zz,
+            xy, xz, yz of the tensor, the three principal moments, or a 3 x 3 matrix. baum.inertia
+            computes tensors of solids.
+        position: x, y, z of the centre of mass in the design configuration [m].
+        orientation: orientation in the design configuration: a unit quaternion w, x, y, z, a 3 x 3
+            rotation matrix whose columns are the body axes, or a Rotation of
+            scipy.spatial.transform.
+        velocity: velocity of the centre of mass at the start, in ground axes [m/s]. None or NaN:
+            free, assembly determines it.
+        angular_velocity: angular velocity at the start, in body axes [rad/s]. None or NaN: free,
+            assembly determines it.
+        held: True if assembly must not move the body.
+        outline: how the body is drawn, see Body.outline.
         """
         return self._add(Body, "spatial_body", locals())
 
@@ -67,9 +75,11 @@ class AddingInSpace:
     ) -> Body:
         """Add a point mass in space.
 
-        mass: [kg] > 0. position: in the design configuration, x, y, z [m]. velocity: at the start
-        [m/s]; None or NaN: assembly chooses it. held: assembly does not move the particle. outline:
-        how it is drawn, as Body.outline.
+        mass: [kg], positive.
+        position: x, y, z in the design configuration [m].
+        velocity: velocity at the start [m/s]. None or NaN: free, assembly determines it.
+        held: True if assembly must not move the particle.
+        outline: how the particle is drawn, see Body.outline.
         """
         return self._add(Body, "spatial_particle", locals())
 
@@ -85,11 +95,12 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a spherical joint (ball joint): a point of body_a and one of body_b coincide. Three
-        rows [m].
+        """Add a spherical joint (ball joint): a point of body_a and a point of body_b coincide.
 
-        point: in ground axes in the design configuration [m]; or point_a, point_b: in the axes of
-        body_a and body_b [m].
+        The joint has three rows [m]. Give either `point`, or both point_a and point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
         """
         return self._add(Joint, "spatial_spherical", locals())
 
@@ -105,14 +116,18 @@ class AddingInSpace:
         axis: ArrayLike = (0.0, 0.0, 1.0),
         axis_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a revolute joint (hinge) in space: points coincide, axes are parallel. Five rows:
-        three [m], two [-].
+        """Add a revolute joint (hinge) in space: body_b rotates about an axis of body_a.
 
-        Its coordinate is the angle of body_b relative to body_a about the axis [rad], 0 in the
-        design configuration; runs count its revolutions. point: in ground axes in the design
-        configuration [m]; or point_a, point_b: in the axes of the bodies [m]. axis, axis_b:
-        directions, in ground axes if `point` is given, otherwise in the axes of body_a and body_b;
-        by default, axis_b coincides with axis in the design configuration.
+        The joint has five rows: three let the points of both bodies coincide [m], and two make
+            their axes parallel [-]. The coordinate of the joint is the angle of body_b relative to
+            body_a about the axis [rad]. It is 0 in the design configuration, and a run counts its
+            revolutions. Give either `point`, or both point_a and point_b.
+
+        point: the common point in the design configuration, in ground axes [m].
+        point_a, point_b: the points in the axes of body_a and body_b [m].
+        axis, axis_b: the directions of the axis on body_a and on body_b. They are in ground axes if
+            `point` is given, otherwise in the axes of the bodies. By default, axis_b coincides with
+            axis in the design configuration.
         """
         return self._add(Joint, "spatial_revolute", locals())
 
@@ -128,13 +143,17 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a universal joint (Hooke's joint): points coincide, and `axis` of body_a and `axis_b`
-        of body_b stay perpendicular. Four rows: three [m], one [-].
+        """Add a universal joint (Hooke's joint): a cross connects two bodies.
 
-        Its coordinates are the "angle" of the cross about the axis of body_a, and "angle_b" of
-        body_b relative to the cross about axis_b [rad], both 0 in the design configuration. axis,
-        axis_b: directions, in ground axes if `point` is given, otherwise in the axes of body_a and
-        body_b. point, point_a, point_b: as in spatial_revolute().
+        The cross rotates about `axis` on body_a, and body_b rotates relative to the cross about
+        `axis_b`. The joint has four rows: three let the points of both bodies coincide [m], and one
+        keeps the two axes perpendicular [-]. The joint has two coordinates [rad], which are 0 in
+        the design configuration: "angle" is the angle of the cross relative to body_a about `axis`,
+        and "angle_b" is the angle of body_b relative to the cross about `axis_b`.
+
+        point, point_a, point_b: as in spatial_revolute().
+        axis, axis_b: the directions of the two axes. They are in ground axes if `point` is given,
+            otherwise in the axes of body_a and body_b.
         """
         return self._add(Joint, "spatial_universal", locals())
 
@@ -150,12 +169,16 @@ class AddingInSpace:
         axis: ArrayLike = (0.0, 0.0, 1.0),
         axis_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a cylindrical joint: body_b slides along an axis of body_a and rotates about it. Four
-        rows: two [-], two [m].
+        """Add a cylindrical joint: body_b slides along an axis of body_a and rotates about this
+        axis.
 
-        Its coordinates are the "displacement" of body_b's point along the axis [m] and the "angle"
-        about it [rad], 0 in the design configuration. point, point_a, point_b, axis, axis_b: as in
-        spatial_revolute().
+        The joint has four rows: two make the axes of both bodies parallel [-], and two keep
+            body_b's point on the axis through body_a's point [m]. The joint has two coordinates:
+            "displacement" is the displacement from body_a's point to body_b's point along the axis
+            [m], and "angle" is the angle about the axis [rad], which is 0 in the design
+            configuration.
+
+        point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         """
         return self._add(Joint, "spatial_cylindrical", locals())
 
@@ -172,10 +195,14 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
     ) -> Joint:
         """Add a prismatic joint: body_b slides along an axis of body_a and does not rotate relative
-        to it. Five rows: two [-], two [m], one [-].
+        to body_a.
 
-        Its coordinate is the displacement of body_b's point along the axis [m]. point, point_a,
-        point_b, axis, axis_b: as in spatial_revolute().
+        The joint has five rows: two make the axes of both bodies parallel [-], two keep body_b's
+            point on the axis through body_a's point [m], and one prevents a rotation about the axis
+            [-]. The coordinate of the joint is the displacement from body_a's point to body_b's
+            point along the axis [m].
+
+        point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         """
         return self._add(Joint, "spatial_prismatic", locals())
 
@@ -192,14 +219,18 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
         x_axis: ArrayLike | None = None,
     ) -> Joint:
-        """Add a planar joint: body_b moves in a plane of body_a, whose normal is the axis. Three
-        rows: two [-], one [m].
+        """Add a planar joint: body_b moves in a plane of body_a. The axis is the normal of the
+        plane.
 
-        Its coordinates are the displacements "x" and "y" of body_b's point in the plane [m], and
-        the "angle" about the normal [rad], 0 in the design configuration. point, point_a, point_b,
-        axis, axis_b: as in spatial_revolute(). x_axis: direction of x, in ground axes if `point` is
-        given, otherwise in the axes of body_a; by default the ground x axis, or the ground y axis
-        if the normal is along x.
+        The joint has three rows: two make the normals of both bodies parallel [-], and one keeps
+            body_b's point in the plane [m]. The joint has three coordinates: "x" and "y" are the
+            displacements from body_a's point to body_b's point in the plane [m], and "angle" is the
+            angle about the normal [rad], which is 0 in the design configuration.
+
+        point, point_a, point_b, axis, axis_b: as in spatial_revolute().
+        x_axis: direction of x. It is in ground axes if `point` is given, otherwise in the axes of
+            body_a. By default it is the ground x axis, or the ground y axis if the normal is along
+            x.
         """
         return self._add(Joint, "spatial_planar", locals())
 
@@ -213,8 +244,10 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         point_b: ArrayLike | None = None,
     ) -> Joint:
-        """Add a weld in space: points coincide, and the relative orientation is that of the design
-        configuration. Six rows: three [m], three [-].
+        """Add a weld in space: two bodies do not move relative to each other. They keep the
+        relative orientation of the design configuration.
+
+        The joint has six rows: three for the points [m] and three for the orientation [-].
 
         point, point_a, point_b: as in spherical().
         """
@@ -230,10 +263,11 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points in space. One row [m].
+        """Add a massless rod between two points in space. The joint has one row [m].
 
-        point_a, point_b: in the axes of body_a and body_b [m]. length: [m] > 0, by default the
-        distance in the design configuration.
+        point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
+        length: length of the rod [m], positive; by default the distance in the design
+            configuration.
         """
         return self._add(Joint, "spatial_distance", locals())
 
@@ -248,12 +282,14 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         axis: ArrayLike = (0.0, 0.0, 1.0),
     ) -> Joint:
-        """Keep a point of body_b on a line that is fixed in body_a and passes through body_a's
-        point. Two rows [m].
+        """Keep a point of body_b on a line of body_a.
 
-        Its coordinate is the displacement along the line [m]. body_b may be a particle. axis:
-        direction of the line. axis, point, point_a and point_b are given as in
-        spatial_revolute().
+        The line passes through body_a's point. The joint has two rows [m]. Its coordinate is the
+        displacement from body_a's point to body_b's point along the line [m]. body_b may be a
+        particle.
+
+        axis: direction of the line, as in spatial_revolute().
+        point, point_a, point_b: as in spatial_revolute().
         """
         return self._add(Joint, "spatial_point_on_line", locals())
 
@@ -268,11 +304,12 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         axis: ArrayLike = (0.0, 0.0, 1.0),
     ) -> Joint:
-        """Keep a point of body_b in a plane that is fixed in body_a and contains body_a's point.
-        One row [m].
+        """Keep a point of body_b in a plane of body_a.
 
-        body_b may be a particle. axis: normal of the plane. axis, point, point_a and point_b
-        are given as in spatial_revolute().
+        The plane contains body_a's point. The joint has one row [m]. body_b may be a particle.
+
+        axis: normal of the plane, as in spatial_revolute().
+        point, point_a, point_b: as in spatial_revolute().
         """
         return self._add(Joint, "spatial_point_on_plane", locals())
 
@@ -293,10 +330,11 @@ class AddingInSpace:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and damper between two points in space: linear, or with a law of your own.
+        """Add a spring and a damper between two points in space. They are linear, or a law gives
+        their force.
 
-        Points are x, y, z in body axes [m]; everything else is as in spring(). The force is zero
-        where the length is 0.
+        The points are x, y, z in body axes [m]. All other arguments are as in spring(). The force
+        is zero when the points coincide.
         """
         return self._add(Force, "spatial_spring", locals())
 
@@ -311,10 +349,13 @@ class AddingInSpace:
         follows_body: bool = False,
         input: InputLike | None = None,
     ) -> Force:
-        """Add a force at a point of a body in space and a moment on the body.
+        """Add a force at a point of a body in space, and a moment on the body.
 
-        point: in body axes [m]. force: [N]. moment: [N m]. follows_body: force and moment rotate
-        with the body; otherwise they keep their directions in ground axes. input: an input
-        whose value multiplies force and moment.
+        point: where the force acts, in body axes [m].
+        force: [N].
+        moment: [N m].
+        follows_body: True if force and moment rotate with the body, False if they keep their
+            directions in ground axes.
+        input: an input whose value multiplies force and moment.
         """
         return self._add(Force, "spatial_load", locals())

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Wraps functions of the user so that the library can call them.
+"""Wrap functions of the user so that the library can call them.
 
-A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns the
-result. A shell around this function has the signature that the library calls. The shell passes q
-and v as read-only arrays, checks the returned value and writes it to the library's memory, and
-keeps an exception until the call that it stopped has returned. q and v are valid during the call
-only. A force function that names inputs receives their present values after v, as floats.
+A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
+result. This module wraps such a function in another one, called the shell, which has the signature
+that the library calls. The shell passes q and v as read-only arrays, which are valid only during
+the call. It checks the returned value and writes it to the memory of the library. If the function
+raises an exception, the shell keeps the exception until the call of the library that it stopped has
+returned. A force function that names inputs receives their present values after v, as floats.
 
-Instead of a Python function, the user may give the address of a compiled one: an int, a ctypes
-function pointer, or an object with an integer `address`, such as Numba's cfunc. The library calls
-it directly. A compiled force function receives all inputs of the mechanism, in the order of adding.
+Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
+    function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
+    library calls it directly. A compiled force function receives all inputs of the mechanism, in
+    the order in which they were added.
 """
 
 from __future__ import annotations
@@ -37,8 +39,9 @@ Write = Callable[[int, Any], None]
 
 
 class _Views(dict[int, Array]):
-    """Arrays that share memory with the library, by address. Creating an array is expensive. The
-    library uses few addresses, and an array of the same address can be used again."""
+    """Arrays that share memory with the library, one for each address. Creating an array is
+    expensive. The library uses few addresses, so an array is kept and used again for the same
+    address."""
 
     def __init__(self, shape: Shape, writeable: bool) -> None:
         super().__init__()
@@ -61,8 +64,8 @@ def _without_ones(shape: Shape) -> Shape:
 
 
 def _checked(value: Any, shape: Shape, label: str) -> Array:
-    """A returned value as an array of that shape; dimensions of length 1 may be omitted. Raises
-    TypeError or ValueError for other values."""
+    """Convert a returned value to an array of the given shape. Dimensions of length 1 may be
+    missing. Raise TypeError or ValueError for other values."""
     wanted = _without_ones(shape)
     asked = "a number" if not wanted else f"an array of shape {shape}"
     try:
@@ -77,8 +80,8 @@ def _checked(value: Any, shape: Shape, label: str) -> Array:
 
 
 def _writer(shape: Shape, label: str) -> Write:
-    """A function that writes a returned value to an address. It has a fast path for values of the
-    right type."""
+    """Return a function that writes a returned value to an address. It has a fast path for values
+    of the right type."""
     views = _Views(shape, writeable=True)
     single = int(np.prod(shape)) == 1
     first = (0,) * len(shape)
@@ -134,7 +137,8 @@ def _shell_force(function: Function, write: Write, nq: int, nv: int) -> Shell:
 
 
 def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
-    """A function that makes shells for force functions that receive these inputs after v."""
+    """Return a function that makes the shell of a force function. The force function receives the
+    given inputs after v."""
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
@@ -250,8 +254,8 @@ def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shel
 
 
 def _answer_nan(error: BaseException, out: int, count: int) -> None:
-    """Report an exception of a function that returns no status: write NaN, at which the library
-    stops."""
+    """Report an exception of a function that returns no status: write NaN as its result, which
+    stops the library."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):
@@ -259,7 +263,7 @@ def _answer_nan(error: BaseException, out: int, count: int) -> None:
 
 
 def _answer(error: BaseException) -> int:
-    """The status that tells the library about an exception."""
+    """Keep an exception, and return the status that tells the library about it."""
     asks_again = isinstance(error, Retry)
     _calls.raise_later(None if asks_again else error)
     lib.baum_fail(Status.ERR_CALLBACK, repr(error).encode(errors="replace"))
@@ -284,7 +288,7 @@ SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_differe
 
 
 def address_of(function: Any) -> int | None:
-    """The address of a compiled function, or None for a Python function."""
+    """Return the address of a compiled function, or None for a Python function."""
     if isinstance(function, int) and not isinstance(function, bool):
         return function
     if isinstance(function, CFuncPtr):
@@ -303,11 +307,13 @@ def wrap(
     nv: int = 0,
     inputs: Sequence[int] = (),
 ) -> Any:
-    """A function pointer of type `kind` for a Python function or an address. The caller writes it
-    to the field of a definition and keeps it alive.
+    """Make a function pointer of type `kind` for a Python function or for the address of a compiled
+    one. The caller writes the pointer to the field of a definition, and keeps it alive.
 
-    label names the function in messages. shape is the shape of its value. nq and nv are the lengths
-    of q and v. inputs are the indices of the inputs that a force function receives.
+    label: name of the function in messages.
+    shape: shape of the result of the function.
+    nq, nv: lengths of q and v.
+    inputs: indices of the inputs that a force function receives.
     """
     address = address_of(function)
     if address is not None:
@@ -321,6 +327,6 @@ def wrap(
 
 
 def event_function(function: Function, nq: int, nv: int) -> Any:
-    """A function pointer for the function(t, q, v) of an event."""
+    """Make a function pointer for the function(t, q, v) of an event."""
     shell = _shell_force(function, _writer((1,), "the function of an event"), nq, nv)
     return _abi.baum_force_fn(shell)

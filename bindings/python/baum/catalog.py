@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Named mechanisms whose motion is known.
+"""Ready mechanisms whose motion is known.
 
     from baum import catalog
 
@@ -10,9 +10,10 @@
     run = m.simulate(known.t, "rk8", rtol=1e-8)
     print(catalog.compare(run, "n_four_bar", windows=3).q)
 
-Parameters that are not given have their defaults. Data, times and states are in SI units. A
-reference that holds only for the defaults is refused for other parameters. docs/mechanisms.md lists
-all mechanisms. Unknown names and parameters raise baum.Error.
+Keyword arguments set the parameters of a mechanism; the other parameters have their defaults. Data,
+times and states are in SI units. Some references are known for the default parameters only, and are
+refused for others. docs/mechanisms.md lists all mechanisms. Unknown names and parameters raise
+baum.Error.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ class Reference(NamedTuple):
 
 
 def _values(struct: Any) -> list[Any]:
-    """The fields of a struct except its size, with texts as strings."""
+    """Return the fields of a struct except its size, with texts as strings."""
     values = [getattr(struct, field[0]) for field in struct._fields_[1:]]
     return [value.decode() if isinstance(value, bytes) else value for value in values]
 
@@ -54,7 +55,7 @@ def _read(struct: Any, function: Any, *arguments: Any) -> list[Any]:
 
 
 def entry(name: str) -> Entry:
-    """The entry of that name."""
+    """Return the entry of that name."""
     values = _read(_abi.baum_catalog_entry(), _library.baum_catalog_find, str(name).encode())
     found = Entry._make([*values, {}])
     for k in range(found.parameter_count):
@@ -71,7 +72,7 @@ def entry(name: str) -> Entry:
 
 
 def entries() -> list[Entry]:
-    """All entries of the catalogue."""
+    """Return all entries of the catalogue."""
     names = [
         _read(_abi.baum_catalog_entry(), _library.baum_catalog_entry_at, k)[0]
         for k in range(_library.baum_catalog_count())
@@ -90,7 +91,7 @@ def _choice(name: str, parameters: dict[str, Scalar]) -> ctypes.Structure:
 
 
 def build(name: str, **parameters: Scalar) -> Mechanism:
-    """The frozen mechanism of that name with these parameters."""
+    """Build the mechanism of that name with these parameters. The result is frozen."""
     out = ctypes.c_void_p()
     choice = _choice(name, parameters)
     _calls.make(_library.baum_catalog_build, ctypes.byref(choice), ctypes.byref(out))
@@ -98,15 +99,15 @@ def build(name: str, **parameters: Scalar) -> Mechanism:
 
 
 def times(name: str) -> Array:
-    """Times (n) [s] of the samples of the reference."""
+    """Return the times (n) [s] of the samples of the reference."""
     values: Array = np.empty(max(1, entry(name).sample_count))
     _calls.make(_library.baum_catalog_times, str(name).encode(), address(values))
     return values
 
 
 def reference(name: str, t: ArrayLike | None = None, **parameters: Scalar) -> Reference:
-    """The known motion at times t (n) [s], default all samples. Unless the reference is exact, only
-    times of samples can be given."""
+    """Return the known motion at times t (n) [s], by default at all its samples. Other times than
+    those of the samples are allowed only if the reference is exact."""
     at = times(name) if t is None else vector(np.atleast_1d(t), None, "t")
     nq, nv, _ = build(name, **parameters).sizes
     choice = ctypes.byref(_choice(name, parameters))
@@ -122,8 +123,8 @@ def compare(
     name: str,
     **parameters: Scalar,
 ) -> Error:
-    """Errors of a Run of the mechanism, or of given (t, q, v), against the reference. v may be
-    None."""
+    """Compute the errors of a motion against the reference. The motion is a Run of the mechanism,
+    or a tuple (t, q, v), where v may be None."""
     t, q, v = (run.t, run.q, run.v) if isinstance(run, Run) else run
     known = run.mechanism if isinstance(run, Run) else None
     mechanism = build(name, **parameters) if known is None else known

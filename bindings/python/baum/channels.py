@@ -25,7 +25,8 @@ _Q = _abi.baum_quantity
 
 
 class Channel:
-    """A group of columns. key: its name in a run, such as "slider.pose"."""
+    """A channel: a group of columns that a run records. key: its name in a run, such as
+    "slider.pose"."""
 
     __slots__ = ("key", "struct")
 
@@ -54,7 +55,7 @@ WHOLE = {
 
 
 class Layout:
-    """The positions of several channels in a row of numbers."""
+    """Where the columns of several channels are in one row of numbers."""
 
     def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
         self.channels = {channel.key: channel for channel in channels}
@@ -70,12 +71,12 @@ class Layout:
             self.width = end
 
     def rows(self, count: int) -> Array:
-        """An empty array for that many rows."""
+        """Make an empty array for that many rows."""
         return np.empty((count, self.width))
 
 
 def width(mechanism: Mechanism, channel: Channel) -> int:
-    """Number of columns of a channel."""
+    """Return the number of columns of a channel."""
     count: int = lib.baum_channels_width(mechanism.handle, ctypes.byref(channel.struct), 1)
     if count < 0:
         raise Error(Status.ERR_ARGUMENT, _calls.message())

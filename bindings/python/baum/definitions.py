@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Definitions: from keyword arguments to the library's structs and back.
+"""Convert definitions of elements from keyword arguments to structs of the library, and back.
 
-None keeps the default of a field, or its present value when a definition is changed. NaN is a value
-that means "not given".
+An argument that is None keeps the default of its field. When an existing definition is changed,
+None keeps the present value instead. NaN is a value of its own, which means "not given".
 """
 
 from __future__ import annotations
@@ -22,10 +22,14 @@ from ._values import address, integer, number, numbers, truth, vector, word
 class Kind:
     """A kind of body, joint or force.
 
-    name: of its struct, without "baum_" and "_def". family: "body", "joint" or "force". nq, nv:
-    sizes of q and v of a body. units: of the positions of a body or the rows of a joint; empty if
-    they depend on the user. displacements: units of the displacements (nv) of a body, if q' is not
-    v. coordinates: names of the coordinates of a joint.
+    name: the name of its struct, without "baum_" and "_def".
+    family: "body", "joint" or "force".
+    nq, nv: numbers of positions and velocities of a body.
+    units: units of the positions of a body or of the rows of a joint; empty if they depend on
+        functions of the user.
+    displacements: units of the displacements (nv) of a body whose velocities are not the
+        derivatives of its positions.
+    coordinates: names of the coordinates of a joint.
     """
 
     name: str
@@ -52,11 +56,11 @@ class Kind:
         return found
 
     def coordinate(self, name: str) -> str:
-        """The name of a coordinate of a joint; "first" gives the name of the first one."""
+        """Return the name of a coordinate of a joint; "first" gives the name of the first one."""
         return self.coordinates[0] if name == "first" else name
 
     def function(self, verb: str) -> Any:
-        """The library's function to add, get or set a definition."""
+        """Return the library's function that adds, gets or sets a definition."""
         return getattr(lib, f"baum_mechanism_{verb}_{self.name}")
 
 
@@ -145,8 +149,8 @@ FAMILIES: dict[Any, str] = {
 class Definition:
     """One definition for the library, with the objects that must stay alive as long as it is used.
 
-    label names the element in messages. find(family, value) returns the handle for a handle or a
-    name.
+    label: names the element in messages.
+    find: the function find(family, value), which returns the handle for a handle or a name.
     """
 
     def __init__(self, kind: Kind, label: str, find: Find, struct: Any = None) -> None:
@@ -191,8 +195,9 @@ class Definition:
         return self
 
     def _places(self, inputs: Iterable[Any]) -> tuple[int, ...]:
-        """The indices of inputs in the mechanism. Inputs of other mechanisms are refused here,
-        because the library does not know which inputs a Python function takes."""
+        """Return the indices of inputs in the mechanism. An input of another mechanism is refused
+        here, because the library cannot notice it: it does not know which inputs a Python function
+        receives."""
         own = []
         for given in inputs:
             given = self._find("input", given)
@@ -202,7 +207,7 @@ class Definition:
         return tuple(one.id.index1 - 1 for one in own)
 
     def _set_count(self, given: Mapping[str, Any]) -> None:
-        """Set the number of points of a spline, if its times and values are both given."""
+        """Set the number of points of a spline if both its times and its values are given."""
         if "times" in given and "values" in given:
             self.struct.count = np.size(given["times"])
 
@@ -236,8 +241,8 @@ class Definition:
         self.struct.body_count = len(handles)
 
     def _pointer(self, name: str, value: Any, label: str) -> Any:
-        """The address for a pointer field: `user` is an address or a ctypes object; other fields
-        are arrays."""
+        """Return the address for a pointer field. The field `user` holds an address or a ctypes
+        object; all other pointer fields hold arrays."""
         if name == "user":
             self.keep.append(value)
             if isinstance(value, int):
@@ -275,12 +280,12 @@ class Definition:
         label = f"{self._label}: {name}"
         kind, shape = self._types[name], shapes[name]
         wrapped = callbacks.wrap(kind, name, function, label, shape, nq, nv, inputs)
-        self.keep.append((wrapped, function))
+        self.keep.append((wrapped, function, inputs))
         self.has_python |= callbacks.address_of(function) is None
         setattr(self.struct, name, wrapped)
 
     def _sizes(self) -> tuple[int, int]:
-        """Lengths of the q and v that this definition's functions receive."""
+        """Return the lengths of the q and v that the functions of this definition receive."""
         if self.kind.name == "coordinates":
             # The library refuses negative sizes.
             return max(position_count(self.struct), 0), max(self.struct.size, 0)
@@ -292,20 +297,20 @@ class Definition:
 
 
 def position_count(coordinates: Any) -> int:
-    """Number of positions of user coordinates."""
+    """Return the number of positions of user coordinates."""
     count: int = coordinates.position_count or coordinates.size
     return count
 
 
 def sizes(kind: Kind, struct: Any) -> tuple[int, int]:
-    """nq and nv of a body with that definition; zeros for others."""
+    """Return nq and nv of a body with that definition; zeros for joints and forces."""
     if kind.name == "coordinates":
         return position_count(struct), struct.size
     return kind.nq, kind.nv
 
 
 def length(definition: Any, name: str) -> int:
-    """Number of entries of an array of a definition."""
+    """Return the number of entries of an array of a definition."""
     if name in ("q", "position_scale"):
         return position_count(definition)
     count: int = definition.size if hasattr(definition, "size") else definition.count
@@ -313,7 +318,7 @@ def length(definition: Any, name: str) -> int:
 
 
 def as_dict(definition: Any, find: Find) -> dict[str, Any]:
-    """A definition as Python values; functions and their `user` are omitted."""
+    """Convert a definition to Python values. Functions and their `user` are omitted."""
     values = {}
     for name, kind in definition._fields_:
         value = getattr(definition, name)

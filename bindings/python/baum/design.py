@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers that joints and forces take from the design configuration.
+"""Compute the numbers that planar joints and forces take from the design configuration.
 
-Points of the plane are complex numbers here.
+In this module, points of the plane are complex numbers.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Frame(NamedTuple):
         return cmath.exp(1j * self.angle)
 
     def local(self, axes: tuple[float, float]) -> complex:
-        """Convert a point from ground axes to body axes. The only point of a particle is the
-        origin."""
+        """Convert a point from ground axes to body axes. A particle has only one point, which is
+        its origin."""
         point = complex(*axes)
         s = (point - self.place) / self.turned
         at_origin = not self.has_angle and abs(s) <= 1e-9 * (abs(point) + abs(self.place))
@@ -59,13 +59,13 @@ def _offset(values: Values, a: Frame, b: Frame) -> complex:
 
 
 def _along(values: Values, a: Frame, b: Frame) -> float:
-    """Displacement of body_b's point along the axis."""
+    """Return the displacement from body_a's point to body_b's point along the axis."""
     axis = complex(*values["axis"]) * a.turned
     return (_offset(values, a, b) * axis.conjugate()).real / abs(axis)
 
 
 def _placed(values: Values, a: Frame, b: Frame) -> Values:
-    """Points and axis in body axes for a joint that is placed by `point`."""
+    """Return the points and the axis in body axes for a joint whose place is given by `point`."""
     if math.isnan(values.get("point", NOT_GIVEN)[0]):
         return {}
     point = values["point"]
@@ -102,8 +102,9 @@ def _measured(name: str, values: Values, a: Frame, b: Frame) -> float:
 
 
 def taken(element: Element, moved: Collection[str]) -> Values:
-    """The numbers that a joint or force takes from the design configuration, by field. Empty unless
-    it acts on one of the bodies named in `moved`."""
+    """Return the numbers that a joint or force takes from the design configuration, by the names of
+    their fields. The result is empty if the element acts on none of the bodies named in
+    `moved`."""
     values = element.definition
     if "joint_a" in values:
         a, b = values["joint_a"], values["joint_b"]

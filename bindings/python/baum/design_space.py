@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers that joints and forces in space take from the design configuration."""
+"""Compute the numbers that joints and forces in space take from the design configuration."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Frame(NamedTuple):
 
     @classmethod
     def of(cls, body: Body, changes: Mapping[str, Any] | None = None) -> Frame:
-        """The frame of a body whose definition has these changes."""
+        """Return the frame of a body after these changes of its definition."""
         if body.kind is None:
             return cls(np.zeros(3), np.eye(3), True)
         values = {**body.definition, **(changes or {})}
@@ -40,8 +40,8 @@ class Frame(NamedTuple):
         return cls(place, matrix(p / np.linalg.norm(p)), has_axes)
 
     def local(self, point: Any) -> Array:
-        """Convert a point from ground axes to body axes. The only point of a particle is the
-        origin."""
+        """Convert a point from ground axes to body axes. A particle has only one point, which is
+        its origin."""
         return (np.asarray(point) - self.place) @ self.axes if self.has_axes else np.zeros(3)
 
 
@@ -54,8 +54,8 @@ def _is_given(values: Values, name: str) -> bool:
 
 
 def taken(values: Values) -> Values:
-    """The fields that a joint or force with these values takes from the design configuration, as
-    numbers."""
+    """Return the numbers that a joint or force with these values takes from the design
+    configuration, by the names of their fields."""
     a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
     fields: Values = {}
     axis_a = a.axes
@@ -81,7 +81,7 @@ def taken(values: Values) -> Values:
 
 
 def _x_axis(values: Values, a: Frame) -> Array:
-    """Direction of x of a planar joint in ground axes."""
+    """Return the direction of x of a planar joint in ground axes."""
     axes = np.eye(3) if _is_given(values, "point") else a.axes
     if _is_given(values, "x_axis"):
         return np.array(axes @ values["x_axis"])
@@ -91,7 +91,7 @@ def _x_axis(values: Values, a: Frame) -> Array:
 
 
 def coordinate(values: Values, name: str) -> float:
-    """A coordinate of a joint in the design configuration, where angles are 0."""
+    """Return a coordinate of a joint in the design configuration. Angles are 0 there."""
     if name.startswith("angle") or _is_given(values, "point"):
         return 0.0
     a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])

@@ -20,11 +20,11 @@ from .typing import ArrayLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-HEIGHT = 720  # [px] of a page in a notebook
+HEIGHT = 720  # [px] height of a page in a notebook
 
 
 class Drawing:
-    """A picture of a mechanism. Notebooks show it. str(drawing) is its SVG text."""
+    """A picture of a mechanism. A notebook shows it. str(drawing) is its text in SVG."""
 
     def __init__(self, svg: str) -> None:
         self._svg = svg
@@ -39,9 +39,12 @@ class Drawing:
         return self._svg
 
     def save(self, path: str | os.PathLike[str], *, dpi: float = 192) -> None:
-        """Write the picture to a file: .svg or .pdf, which are vector graphics, or .png with `dpi`
-        pixels per inch. The picture has 96 units per inch. PDF and PNG need Matplotlib: ImportError
-        without it. ValueError for other suffixes."""
+        """Write the picture to a file.
+
+        The suffix of the file determines its format. .svg and .pdf are vector graphics. .png has
+        `dpi` pixels per inch, and 96 units of the picture are one inch. PDF and PNG need
+        Matplotlib. Raises ImportError if it is missing, and ValueError for other suffixes.
+        """
         suffix = Path(path).suffix.lower()
         if suffix == ".svg":
             Path(path).write_text(self._svg, encoding="utf-8")
@@ -50,7 +53,7 @@ class Drawing:
 
 
 class Page:
-    """A page that shows a run. Notebooks show it in a frame. str(page) is its HTML text."""
+    """A page that shows a run. A notebook shows it in a frame. str(page) is its text in HTML."""
 
     def __init__(self, page: str) -> None:
         self._page = page
@@ -70,8 +73,8 @@ class Page:
         Path(path).write_text(self._page, encoding="utf-8")
 
     def open(self) -> None:
-        """Open the page in the browser, from a temporary file that is not deleted. Warns if there
-        is no browser."""
+        """Open the page in the browser. The page is written to a temporary file, which is not
+        deleted. If there is no browser, a warning says so."""
         handle, path = tempfile.mkstemp(prefix="baum-", suffix=".html")
         os.close(handle)
         self.save(path)
@@ -99,6 +102,7 @@ def page(motion: _motion.Motion) -> Page:
 
 
 def figure(motion: _motion.Motion, sample: int, size: tuple[float, float] | None = None) -> Drawing:
-    """The picture of a sample. size: width and height [px], by default those of the library."""
+    """Make the picture of one sample. size: width and height [px], by default those that the
+    library chooses."""
     svg = motion.print(lib.baum_page_svg, sample)
     return Drawing(svg if size is None else pictures.resized(svg, size))

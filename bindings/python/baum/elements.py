@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Handles of bodies, joints, forces and inputs. A handle equals the handle of the same element in a
-copy of the mechanism."""
+"""Handles of bodies, joints, forces and inputs.
+
+If a mechanism is a copy of another one, the handles of an element in both are equal.
+"""
 
 from __future__ import annotations
 
 import ctypes
+import operator
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from . import _abi, outlines
@@ -23,9 +26,9 @@ _Q = _abi.baum_quantity
 
 
 class Entry(NamedTuple):
-    """What a mechanism knows about an element: its Kind (None for ground and inputs), the library's
-    id, and the sizes of q and v of a body. Copies of a mechanism share entries; handles are created
-    on request."""
+    """What a mechanism knows about an element: its Kind, which is None for ground and inputs, the
+    id in the library, and the numbers of positions and velocities of a body. Copies of a mechanism
+    share entries. Handles are created when they are needed."""
 
     family: str
     kind: Kind | None
@@ -38,14 +41,15 @@ GROUND = Entry("body", None, _abi.BAUM_GROUND, 0, 0)
 
 
 def one(family: str) -> str:
-    """The name of a family with its article, such as "a body" or "an input"."""
+    """Return the name of a family with its article, such as "a body" or "an input"."""
     return f"an {family}" if family[0] in "aeiou" else f"a {family}"
 
 
 class Element:
     """Base class of bodies, joints, forces and inputs.
 
-    mechanism: the mechanism that the element belongs to. name: the name of the element.
+    mechanism: the mechanism that the element belongs to.
+    name: the name of the element.
     """
 
     family = ""
@@ -70,66 +74,90 @@ class Element:
     def __hash__(self) -> int:
         return hash(self._identity())
 
+    def __reduce__(self) -> Any:
+        # Ids are valid in one process only.
+        return operator.getitem, (self.mechanism, self.name)
+
     @property
     def definition(self) -> dict[str, Any]:
-        """The definition as a dict: numbers, tuples, arrays and handles by the names of the
-        arguments that add the element. Functions are omitted."""
+        """The definition of the element as a dict. The keys are the names of the arguments of the
+        method that adds the element. The values are numbers, tuples, arrays and handles. Functions
+        are omitted."""
         return as_dict(self.mechanism.read(self), self.mechanism.find)
 
     def set(self: Self, **fields: Any) -> Self:
-        """Change fields of the definition before the mechanism is frozen. None changes nothing.
-        Returns the element. Raises TypeError for unknown fields and baum.Error for values that the
-        library refuses, or if the mechanism is frozen."""
+        """Change fields of the definition before the mechanism is frozen. Fields that are None do
+        not change.
+
+        Returns the element. Raises TypeError for unknown fields, and baum.Error for values that the
+        library refuses, or if the mechanism is frozen.
+        """
         self.mechanism.change(self, fields)
         return self
 
 
 class Body(Element):
-    """A body: anything with coordinates. nq: number of positions. nv: number of velocities."""
+    """A body, which is anything that has coordinates.
+
+    nq: number of its positions.
+    nv: number of its velocities.
+    """
 
     family = "body"
 
     @property
     def columns(self) -> tuple[slice, slice]:
-        """Indices of the body in q and v of a frozen mechanism."""
+        """Where the coordinates of the body are in q and v of a frozen mechanism."""
         return self.mechanism.columns(self)
 
     @property
     def pose(self) -> Channel:
-        """Channel: x, y [m] of the centre of mass and angle [rad] of a planar body; x, y, z [m] of
-        the centre of mass and the quaternion w, x, y, z [-] of a spatial body; x, y or x, y, z [m]
-        of a particle; q of coordinates."""
+        """Channel: the position of the body.
+
+        - Planar body: x, y of the centre of mass [m] and the angle [rad].
+        - Spatial body: x, y, z of the centre of mass [m] and the quaternion w, x, y, z [-].
+        - Particle: x, y, or in space x, y, z [m].
+        - Coordinates: their part of q.
+        """
         return self._channel("pose", _Q.BAUM_BODY_POSE)
 
     @property
     def velocity(self) -> Channel:
-        """Channel: velocities [m/s], [rad/s] that belong to `pose`. The angular velocity of a
-        spatial body is in ground axes here, but in body axes in v."""
+        """Channel: the velocities that belong to `pose` [m/s], [rad/s]. The angular velocity of a
+        spatial body is in ground axes in this channel, although v contains it in body axes."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY)
 
     @property
     def acceleration(self) -> Channel:
-        """Channel: accelerations [m/s^2], [rad/s^2], the derivatives of `velocity`."""
+        """Channel: accelerations [m/s^2], [rad/s^2], which are the time derivatives of
+        `velocity`."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
 
     def pose_of(self, point: ArrayLike) -> Channel:
-        """Channel: `pose` with x, y (in space x, y, z) of a point, given in body axes [m]."""
+        """Channel: like `pose`, with the position of another point instead of the centre of mass.
+        The point is given in body axes [m]."""
         return self._channel("pose", _Q.BAUM_BODY_POSE, point)
 
     def velocity_of(self, point: ArrayLike) -> Channel:
-        """Channel: `velocity` of a point, given in body axes [m]."""
+        """Channel: like `velocity`, for another point than the centre of mass. The point is given
+        in body axes [m]."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY, point)
 
     def acceleration_of(self, point: ArrayLike) -> Channel:
-        """Channel: `acceleration` of a point, given in body axes [m]."""
+        """Channel: like `acceleration`, for another point than the centre of mass. The point is
+        given in body axes [m]."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
 
     @property
     def outline(self) -> list[Outline]:
-        """The shapes that replace the shape of the body in drawings; empty if its shape follows
-        from its joints. Can be set at any time, also for ground, but not while another thread
-        draws: to a shape (baum.Polygon, Circle, Box, Cylinder, Sphere, Mesh), to the corners (n, 2)
-        of a polygon, to an SVG path (str, y upward), to a list of these, or to None."""
+        """The outlines of the body, as a list. Outlines replace the shape that drawings show. The
+        list is empty if the library chooses the shape.
+
+        You can set this property for every body except user coordinates, and also for ground. Its
+        value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
+        of a polygon, an SVG path as a string (with y upward), a list of these, or None. The
+        mechanism may be frozen or not. Do not set it while another thread draws.
+        """
         return outlines.read(self)
 
     @outline.setter
@@ -147,18 +175,18 @@ class Body(Element):
 
 
 class Joint(Element):
-    """A joint: anything with constraint rows."""
+    """A joint, which is anything that adds constraint rows."""
 
     family = "joint"
 
     @property
     def rows(self) -> slice:
-        """Rows of the joint in Phi and lambda of a frozen mechanism."""
+        """Where the rows of the joint are in Phi and lambda of a frozen mechanism."""
         return self.mechanism.rows(self)
 
     @property
     def phi(self) -> Channel:
-        """Channel: constraint violation Phi, one column per row [m], [rad]."""
+        """Channel: constraint violation Phi [m], [rad], with one column for each row."""
         return self._channel("phi", _Q.BAUM_PHI)
 
     @property
@@ -173,17 +201,20 @@ class Joint(Element):
 
     @property
     def reaction(self) -> Channel:
-        """Channel: force [N] and moment [N m] on body_b, in ground axes, about the joint's point on
-        body_b; of a joint in space three of each. For a gear, a coupling or a user constraint: -J^T
-        lambda over the velocities of its bodies."""
+        """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
+        axes. The moment is about the joint's point on body_b. Joints in space have three components
+        of each. For a gear, a coupling or a user constraint: the generalized force -J^T lambda that
+        belongs to the velocities of its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
     def coordinate(self) -> Channel:
-        """Channel: coordinate and joint velocity of a revolute joint [rad], [rad/s], or of a joint
-        along an axis [m], [m/s]. A joint with several coordinates gives the first one: the
-        displacement of a cylindrical joint, the angle of a universal joint, x of a planar joint in
-        space."""
+        """Channel: the coordinate of the joint and its velocity. They are in [rad], [rad/s] for a
+        revolute joint, and in [m], [m/s] for a joint along an axis.
+
+        If a joint has several coordinates, the channel has the first one: the displacement of a
+            cylindrical joint, the angle of a universal joint, or x of a planar joint in space.
+        """
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     @property
@@ -213,8 +244,8 @@ class Joint(Element):
 
     @property
     def effort(self) -> Channel:
-        """Channel: force [N] or torque [N m] of a driver on the coordinate that it prescribes. Its
-        product with the joint velocity is the power that the driver supplies."""
+        """Channel: force [N] or torque [N m] that a driver exerts on the coordinate it prescribes.
+        Its product with the joint velocity is the power that the driver supplies."""
         return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
 
     def _coordinate(self, name: str) -> Channel:
@@ -233,19 +264,18 @@ class Force(Element):
 
 
 class Input(Element):
-    """A number that acts on the mechanism from outside; runs and workspaces set it. See
-    Mechanism.input()."""
+    """An input: a number that your program sets during a run. Mechanism.input() adds one."""
 
     family = "input"
 
     @property
     def initial(self) -> float:
-        """The value with which every run and workspace starts."""
+        """The value with which every run and every workspace starts."""
         return self.mechanism.initial(self)
 
     @property
     def definition(self) -> dict[str, Any]:
-        """Name and initial value as a dict."""
+        """The name and the initial value as a dict."""
         return {"name": self.name, "initial": self.initial}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Statuses, and how they become exceptions and warnings."""
+"""Statuses of the library, and the exceptions and warnings that they become."""
 
 from __future__ import annotations
 
@@ -20,12 +20,15 @@ PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
 
 class Status(enum.IntEnum):
-    """The result of a call: 0 is done, 1 to 9 stopped on request, 10 and more reached the end with
-    warnings. Values below 0 are failures, which are raised as baum.Error."""
+    """The result of a call. OK (0) means that the call has succeeded. A value from 1 to 9 means
+    that a run has stopped because the program asked for it. A value of 10 or more means that a run
+    has reached its end with warnings. A negative value is a failure, which is raised as
+    baum.Error."""
 
     OK = 0
     STOP_CANCELLED = 1
     STOP_EVENT = 2
+    STOP_TIME = 3
     WARNED = 10
     ERR_ARGUMENT = -1
     ERR_STATE = -2
@@ -47,19 +50,22 @@ class Status(enum.IntEnum):
         return self.name
 
 
+STATUSES = {status.value: status for status in Status}
+
+
 def as_status(value: int) -> Status:
-    """The Status of a number, or the number itself if this package does not know it."""
-    try:
-        return Status(value)
-    except ValueError:
-        return value  # type: ignore[return-value]
+    """Convert a number to a Status. Return the number itself if this package does not know it."""
+    return STATUSES.get(value, value)  # type: ignore[arg-type]
 
 
 class Error(Exception):
-    """A call failed.
+    """A call of the library has failed.
 
-    status: the Status. str(error): the message of the library, with the names of this package. run:
-    the samples that a failed simulate() or sample() had recorded, otherwise None.
+    status: the Status.
+    run: if simulate() or sample() has failed, a Run with the samples recorded before the failure;
+        otherwise None.
+
+    str(error) is the message of the library, with the names of this package.
     """
 
     def __init__(self, status: int, message: str) -> None:
@@ -72,18 +78,21 @@ class Error(Exception):
 
 
 class Retry(Exception):
-    """Raise this in a function of the mechanism to request a smaller step."""
+    """Raise this in a function of the mechanism to ask the integrator for a smaller step."""
 
 
 # ---- warnings of runs ----------------------------------------------------------------------------
 
 
 class Warning(UserWarning):
-    """All warnings of one kind in a run. str(warning) is the message of the first warning.
+    """All warnings of one kind in a run. str(warning) is the message of the first one.
 
-    code: a number that never changes. doubts_motion: whether the result may be wrong by far more
-    than its tolerance, which is true for every DoubtWarning. joint: the name of the joint, or None.
-    first, last: times of the first and last warning [s]. count: number of warnings.
+    code: a number that stays the same in later versions.
+    doubts_motion: whether the result may be wrong by far more than its tolerance. This is true for
+        every DoubtWarning.
+    joint: the name of the joint, or None.
+    first, last: times of the first and the last warning [s].
+    count: number of warnings.
     """
 
     code = 0
@@ -106,7 +115,7 @@ class RedundantRowsWarning(Warning):
 
 
 class GainsWarning(Warning):
-    """The stability of the gains is not known, or is marginal."""
+    """The stability of the gains is not known, or the gains are marginally stable."""
 
     code = 2
 
@@ -124,13 +133,13 @@ class Index3Warning(Warning):
 
 
 class LooseVelocitiesWarning(Warning):
-    """Ill-conditioned constraint rows hardly determine the velocities."""
+    """Ill-conditioned constraint rows determine the velocities only inaccurately."""
 
     code = 5
 
 
 class EnergyAccountWarning(Warning):
-    """The energy account has ended."""
+    """The energy account has ended, because an evaluation for it failed."""
 
     code = 6
 
@@ -160,7 +169,7 @@ class ViolationWarning(DoubtWarning):
 
 
 class ContradictionWarning(DoubtWarning):
-    """Omitted redundant rows no longer follow from the others."""
+    """The redundant rows that the run omits no longer follow from the other rows."""
 
     code = 102
 
@@ -172,7 +181,7 @@ class AccuracyWarning(DoubtWarning):
 
 
 class SingularStartWarning(DoubtWarning):
-    """Several motions may leave the initial configuration, which is singular."""
+    """The initial configuration is singular, and several motions may start from it."""
 
     code = 104
 
@@ -186,7 +195,7 @@ KINDS = {
 
 
 def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
-    """Convert a warning of the library about a joint to a baum.Warning."""
+    """Convert a warning of the library to a baum.Warning."""
     base = DoubtWarning if struct.doubts_motion else Warning
     warning = KINDS.get(struct.code, base)(text(struct.text))
     warning.code, warning.joint = struct.code, joint.name if joint else None
@@ -195,7 +204,7 @@ def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
 
 
 def warn(warning: Warning) -> None:
-    """Issue a warning at the line outside this package that made the call."""
+    """Issue a warning. Python reports it at the line outside this package that made the call."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == PACKAGE:
         level, frame = level + 1, frame.f_back

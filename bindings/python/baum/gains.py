@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Baumgarte's gains: rules for alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi = 0.
+"""Rules that choose Baumgarte's gains alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi =
+0.
 
-Each function returns a rule for the option `gains` of a run. It raises TypeError for values that
-are not numbers; the run raises baum.Error for values that are out of range.
+Each function returns a rule, which you pass to a run as the option `gains`. It raises TypeError for
+values that are not numbers. The run raises baum.Error for values that are out of range.
 """
 
 from __future__ import annotations
@@ -13,9 +14,10 @@ from .typing import Scalar
 
 
 class Gains:
-    """A rule with its numbers, made by one of the functions of this module.
+    """A gain rule and its numbers. The functions of this module make it.
 
-    name: the name of that function. values: its arguments by name.
+    name: the name of the function that made the rule.
+    values: the arguments of this function by name.
     """
 
     __slots__ = ("name", "values", "struct")
@@ -36,43 +38,51 @@ class Gains:
 
 
 def fixed(alpha: Scalar, beta: Scalar) -> Gains:
-    """Given gains [1/s], both >= 0."""
+    """Gains that you choose: alpha and beta [1/s], both >= 0."""
     return Gains("fixed", alpha=alpha, beta=beta)
 
 
 def scaled(alpha_h: Scalar, beta2_h2: Scalar) -> Gains:
-    """Gains relative to the step h: alpha h and (beta h)^2 [-], both >= 0. Needs a fixed step."""
+    """Gains given relative to the step h: alpha h and (beta h)^2 [-], both >= 0. They need a fixed
+    step."""
     return Gains("scaled", alpha_h=alpha_h, beta2_h2=beta2_h2)
 
 
 def taylor() -> Gains:
-    """Gains of the Taylor expansion: alpha = 1/h and beta = sqrt(2)/h with the step h. They are
-    marginally stable with explicit Euler."""
+    """Gains that follow from a Taylor expansion: alpha = 1/h and beta = sqrt(2)/h, where h is the
+    step. They need a fixed step. With explicit Euler they are marginally stable, so violations do
+    not decay."""
     return Gains("taylor")
 
 
 def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
-    """Gains given as an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta. hertz:
-    natural frequency [Hz] > 0. damping_ratio: [-] > 0, 1 is critical."""
+    """Gains given as those of an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta.
+
+    hertz: natural frequency [Hz], positive.
+    damping_ratio: [-] positive; 1 is critical damping.
+    """
     return Gains("frequency", hertz=hertz, damping_ratio=damping_ratio)
 
 
 def deadbeat() -> Gains:
-    """Gains with the fastest decay per step. Needs a fixed step. Runge-Kutta methods of order above
-    1 lose their order with these gains. Multistep methods have no such gains and refuse the rule.
-    """
+    """Gains with the fastest decay: a violation vanishes after at most two steps. They need a fixed
+    step. Runge-Kutta methods of order above 1 lose order with these gains. Multistep methods have
+    no such gains and refuse the rule."""
     return Gains("deadbeat")
 
 
 def best_damping() -> Gains:
-    """Gains of least spectral radius, which is the dead-beat point if there is one. This is the
-    default rule of "ab2", "ab3" and "ab4", which keep their order with these gains. Needs a fixed
-    step."""
+    """Gains of least spectral radius. If a method has dead-beat gains, these are the ones. The rule
+    needs a fixed step. It is the default rule of "ab2", "ab3" and "ab4", which keep their order
+    with these gains."""
     return Gains("best_damping")
 
 
 def auto() -> Gains:
-    """alpha = beta = 0.05 to 0.35 times the mean angular velocity over the first radians of the
-    motion; the factor depends on the integrator, which keeps its order. Gains are larger if drivers
-    prescribe all degrees of freedom."""
+    """Gains that suit the speed of the motion: alpha = beta = 0.05 to 0.35 times the mean angular
+    velocity of the first radians of the motion.
+
+    The factor depends on the integrator, which keeps its order. If drivers prescribe all degrees of
+    freedom, the gains are larger.
+    """
     return Gains("auto")

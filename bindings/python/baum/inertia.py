@@ -6,10 +6,12 @@
     plate = inertia.box(2.0, 0.3, 0.2, 0.01)
     shaft = inertia.cylinder(0.5, radius=0.02, length=0.4, axis="x")
 
-The density of a solid is uniform. Tensors are about the centre of mass, in axes along the edges or
-the axis of the solid. The tensor of a body of several parts is the sum of the tensors of the parts,
-each rotated by rotate() into the axes of the body and moved by shift() to the centre of mass of the
-body.
+The density of a solid is uniform. Its tensor is about the centre of mass, in axes along the edges
+or along the axis of the solid.
+
+To compute the tensor of a body that consists of several parts, add the tensors of the parts. Before
+that, use rotate() to rotate the tensor of each part into the axes of the body, and shift() to move
+it to the centre of mass of the body.
 """
 
 from __future__ import annotations
@@ -31,43 +33,61 @@ def _positive(value: Scalar, label: str) -> float:
 
 
 def _about(axis: Axis, along: float, across: float) -> Array:
-    """The tensor with one moment about an axis and another about those perpendicular to it."""
+    """Return the tensor with one moment about an axis and another moment about the two
+    perpendicular axes."""
     if axis not in ("x", "y", "z"):
         raise ValueError(f'axis: "x", "y" or "z" is wanted, not {axis!r}')
     return np.diag([along if axis == name else across for name in "xyz"])
 
 
 def box(mass: Scalar, x: Scalar, y: Scalar, z: Scalar) -> Array:
-    """A cuboid. mass: [kg]. x, y, z: lengths of its edges [m]."""
+    """Return the tensor of a cuboid.
+
+    mass: [kg].
+    x, y, z: lengths of its edges [m].
+    """
     m = _positive(mass, "mass")
     squares = np.array([_positive(x, "x"), _positive(y, "y"), _positive(z, "z")]) ** 2
     return np.diag(m / 12.0 * (squares.sum() - squares))
 
 
 def cylinder(mass: Scalar, radius: Scalar, length: Scalar, axis: Axis = "z") -> Array:
-    """A circular cylinder. mass: [kg]. radius, length: [m]. axis: "x", "y" or "z"."""
+    """Return the tensor of a circular cylinder.
+
+    mass: [kg].
+    radius, length: [m].
+    axis: "x", "y" or "z".
+    """
     m, r, h = _positive(mass, "mass"), _positive(radius, "radius"), _positive(length, "length")
     return _about(axis, m * r * r / 2.0, m * (3.0 * r * r + h * h) / 12.0)
 
 
 def sphere(mass: Scalar, radius: Scalar) -> Array:
-    """A ball. mass: [kg]. radius: [m]."""
+    """Return the tensor of a solid ball.
+
+    mass: [kg].
+    radius: [m].
+    """
     return np.eye(3) * (0.4 * _positive(mass, "mass") * _positive(radius, "radius") ** 2)
 
 
 def rod(mass: Scalar, length: Scalar, axis: Axis = "z") -> Array:
-    """A thin rod. mass: [kg]. length: [m]. axis: "x", "y" or "z".
+    """Return the tensor of a thin rod. Its moment about its own axis is 0.
 
-    Its moment about its own axis is 0.
+    mass: [kg].
+    length: [m].
+    axis: "x", "y" or "z".
     """
     return _about(axis, 0.0, _positive(mass, "mass") * _positive(length, "length") ** 2 / 12.0)
 
 
 def shift(inertia: ArrayLike, mass: Scalar, offset: ArrayLike) -> Array:
-    """The tensor about a point that is `offset` away from the centre of mass (parallel axes).
+    """Return the tensor about another point than the centre of mass (parallel axis theorem).
 
-    inertia: about the centre of mass, in any form that spatial_body() takes. mass: [kg]. offset: x,
-    y, z [m] from the centre of mass to the point, in the axes of the tensor.
+    inertia: tensor about the centre of mass, in any form that spatial_body() accepts.
+    mass: [kg].
+    offset: x, y, z of the other point relative to the centre of mass, in the axes of the tensor
+        [m].
     """
     d = vector(offset, 3, "offset")
     steiner = number(mass, "mass") * (d @ d * np.eye(3) - np.outer(d, d))
@@ -75,10 +95,11 @@ def shift(inertia: ArrayLike, mass: Scalar, offset: ArrayLike) -> Array:
 
 
 def rotate(inertia: ArrayLike, orientation: OrientationLike) -> Array:
-    """The tensor R I R^T of a part in the axes of the body.
+    """Return the tensor R I R^T of a part in the axes of the body.
 
-    inertia: in axes of the part, in any form that spatial_body() takes. orientation: of the part in
-    the axes of the body, in any form that spatial_body() takes.
+    inertia: tensor I in the axes of the part, in any form that spatial_body() accepts.
+    orientation: orientation R of the part in the axes of the body, in any form that spatial_body()
+        accepts.
     """
     p = quaternion(orientation, "orientation")
     r = matrix(p / np.linalg.norm(p))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Integrators by name, and their stability with Baumgarte's gains.
+"""Integrators by name, and the stability of Baumgarte's gains with them.
 
-The functions stability...() take an integrator or its name. They raise ValueError for a name that
-does not exist, TypeError for values that are not numbers, and baum.Error for an integrator without
-a region of stability, such as "cvode_bdf" and "rattle".
+The functions stability...() take an integrator or its name. Some integrators have no region of
+stability, such as "cvode_bdf" and "rattle". For these, most of the functions raise baum.Error. They
+raise ValueError for a name that does not exist, and TypeError for values that are not numbers.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .typing import Array, ArrayLike, Scalar
 
 
 def names(enum: type[IntEnum], prefix: str) -> dict[str, int]:
-    """The values of an enum of the library by their names in lower case."""
+    """Return the values of an enum of the library by their names in lower case."""
     return {value.name[len(prefix) :].lower(): value for value in enum}
 
 
@@ -32,9 +32,12 @@ STABILITIES = {value: name for name, value in names(_abi.baum_stability, "BAUM_"
 class Integrator:
     """An integration method.
 
-    name: for the argument `integrator`. order: of accuracy, 0 if it varies. fixed_step: it takes
-    `step`. variable_step: it takes `rtol`. formulations: names, the default first. If a method
-    offers both, give a run one of `step` and `rtol`; "kinematics" takes neither.
+    name: its name for the argument `integrator`.
+    order: order of accuracy; 0 if it varies.
+    fixed_step: whether the method takes `step`.
+    variable_step: whether the method takes `rtol`. If it takes both, give a run one of the two;
+        "kinematics" takes neither.
+    formulations: names of the formulations that it offers. The first one is the default.
     """
 
     def __init__(self, address: int) -> None:
@@ -66,14 +69,14 @@ _ALL = _find_all()
 
 
 def integrators() -> dict[str, Integrator]:
-    """All integrators by name: euler, semi_implicit_euler, rk2, rk3, rk4, dp5, rk8, ab2, ab3, ab4,
-    rattle, generalized_alpha, kinematics, cvode_adams, cvode_bdf and ida. The last three can run
-    only if baum.has("sundials")."""
+    """Return all integrators by name: euler, semi_implicit_euler, rk2, rk3, rk4, dp5, rk8, ab2,
+    ab3, ab4, rattle, generalized_alpha, kinematics, cvode_adams, cvode_bdf and ida. The last three
+    can run only if baum.has("sundials") is true."""
     return dict(_ALL)
 
 
 def lookup(value: Any) -> Integrator:
-    """The Integrator for an Integrator or its name."""
+    """Return the Integrator for an Integrator or its name."""
     if isinstance(value, Integrator):
         return value
     try:
@@ -83,12 +86,15 @@ def lookup(value: Any) -> Integrator:
 
 
 class Amplification(NamedTuple):
-    """How one step amplifies a constraint violation.
+    """How one step changes a constraint violation.
 
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
-    spectral_radius: the largest |z| [-]. roots: the largest root z of each of the two modes.
-    damping: 1 - spectral_radius without cancellation, the fraction of the slowest violation that a
-    step removes. Numbers are NaN for methods without a region.
+    spectral_radius: the largest |z| [-].
+    roots: the largest root z of each of the two modes of a violation.
+    damping: 1 - spectral_radius, computed without cancellation. This is the fraction of a violation
+        that one step removes, for the mode that decays most slowly.
+
+    The numbers are NaN for methods without a region of stability.
     """
 
     stability: str
@@ -98,7 +104,7 @@ class Amplification(NamedTuple):
 
 
 def stability(integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar) -> Amplification:
-    """Amplification with the gains alpha h [-] and (beta h)^2 [-]."""
+    """Compute the amplification of a violation with the gains alpha h [-] and (beta h)^2 [-]."""
     out = _abi.baum_amplification()
     _calls.make(
         lib.baum_stability_at,
@@ -114,40 +120,42 @@ def stability(integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar) -
 
 
 def stability_limit(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
-    """Largest alpha h [-] up to which alpha = damping_ratio x beta is stable; 0 if small gains are
-    unstable."""
+    """Return the stability limit for gains with alpha = damping_ratio x beta: they are stable from
+    alpha h = 0 up to this limit [-]. It is 0 if even small gains are unstable."""
     ratio = number(damping_ratio, "damping_ratio")
     return _numbers(lib.baum_stability_limit, 1, integrator, ratio)[0]
 
 
 def stability_intervals(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> Array:
-    """All intervals of alpha h [-] for which alpha = damping_ratio x beta is stable (n x 2)."""
+    """Return all intervals of alpha h [-] in which gains with alpha = damping_ratio x beta are
+    stable (n x 2)."""
     ratio = number(damping_ratio, "damping_ratio")
     return _arrays(lib.baum_stability_intervals, integrator, ratio)
 
 
 def stability_best(integrator: str | Integrator) -> tuple[float, float]:
-    """The point (alpha h, (beta h)^2) [-] of least spectral radius."""
+    """Return the point (alpha h, (beta h)^2) [-] of least spectral radius."""
     return _point(lib.baum_stability_best, integrator)
 
 
 def stability_best_on_ray(integrator: str | Integrator, damping_ratio: Scalar = 1.0) -> float:
-    """The alpha h [-] of least spectral radius for alpha = damping_ratio x beta; 0 if none is
-    stable."""
+    """Return the alpha h [-] of least spectral radius among gains with alpha = damping_ratio x
+    beta; 0 if none of them is stable."""
     ratio = number(damping_ratio, "damping_ratio")
     return _numbers(lib.baum_stability_best_on_ray, 1, integrator, ratio)[0]
 
 
 def stability_deadbeat(integrator: str | Integrator) -> tuple[float, float]:
-    """The point (alpha h, (beta h)^2) [-] where all roots are zero. Only one-step methods have
-    one."""
+    """Return the point (alpha h, (beta h)^2) [-] where all roots are zero. Only one-step methods
+    have such a point."""
     return _point(lib.baum_stability_deadbeat, integrator)
 
 
 def stability_nearest(
     integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar
 ) -> tuple[float, float]:
-    """The nearest point (alpha h, (beta h)^2) [-] with a spectral radius of at most 0.9."""
+    """Return the point (alpha h, (beta h)^2) [-] with a spectral radius of at most 0.9 that is
+    nearest to the given point."""
     return _point(
         lib.baum_stability_nearest,
         integrator,
@@ -162,8 +170,12 @@ def stability_grid(
     beta2_h2: ArrayLike,
     shape: tuple[int, int] = (100, 100),
 ) -> Array:
-    """Spectral radii over a rectangle: an array of `shape`, rows along beta2_h2 and columns along
-    alpha_h. alpha_h, beta2_h2: first and last value [-], both included."""
+    """Compute spectral radii on a rectangular grid of alpha h and (beta h)^2.
+
+    alpha_h, beta2_h2: first and last value of each [-].
+    shape: number of rows, which belong to values of beta2_h2, and of columns, which belong to
+        values of alpha_h.
+    """
     rows, columns = shape
     columns_range = vector(alpha_h, 2, "alpha_h")
     rows_range = vector(beta2_h2, 2, "beta2_h2")
@@ -181,18 +193,21 @@ def stability_grid(
 
 
 def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Array:
-    """Points (alpha h, (beta h)^2) [-] where the spectral radius is `radius` (n x 2): closed curves
-    with a row of NaN between them, so that Matplotlib draws them separately."""
+    """Return points (alpha h, (beta h)^2) [-] at which the spectral radius is `radius` (n x 2).
+    They form closed curves. A row of NaN separates two curves, so that Matplotlib draws them
+    separately."""
     return _arrays(lib.baum_stability_outline, integrator, number(radius, "radius"))
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """The effect of gains with a method in words, also for a method without a region."""
+    """Describe in words what gains do with a method. Methods without a region of stability have
+    such a text, too."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 
 def _arrays(function: Any, integrator: Any, value: float) -> Array:
-    """Call a function that fills two arrays, once for their length and once to fill them."""
+    """Call a function that fills two arrays. The first call asks for their length, and the second
+    call fills them."""
     address = lookup(integrator).address
     count = ctypes.c_int32()
     _calls.make(function, address, value, 0, None, None, ctypes.byref(count))
@@ -210,7 +225,7 @@ def _arrays(function: Any, integrator: Any, value: float) -> Array:
 
 
 def _numbers(function: Any, count: int, integrator: Any, *arguments: float) -> list[float]:
-    """Call a function that returns `count` numbers."""
+    """Call a function that writes `count` numbers, and return these."""
     outs = [ctypes.c_double() for _ in range(count)]
     _calls.make(function, lookup(integrator).address, *arguments, *map(ctypes.byref, outs))
     return [out.value for out in outs]

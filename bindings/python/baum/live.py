@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pages that follow a run in progress.
 
-A View is a small web server for this computer only, with a thread of its own. The run leaves the
-newest frame in a Live object, at most 60 times a second, and never waits for a page: each page has
-a thread that sends the newest frame, and what a slow page misses is omitted. Only a page that
-pauses the run makes it wait, in the thread that advances it.
+A View is a small web server with a thread of its own. It serves only programs on this computer. The
+run leaves its newest frame in a Live object, at most 60 times a second. Each page has a thread of
+the server that sends it the newest frame; if a page is slow, it misses frames. A run therefore
+never waits for a page, with one exception: while a page pauses the run, the thread that advances
+the run waits.
 """
 
 from __future__ import annotations
 
 import html
+import queue
 import threading
 import time
 import warnings
@@ -33,21 +35,28 @@ if TYPE_CHECKING:
 Watcher = Union[Callable[[float], object], None]
 
 FRAME = 1 / 60  # [s] least time between two frames
-AWAY = 2.0  # [s] without a page until a run that a page has paused goes on
+AWAY = 2.0  # [s] a paused run continues if no page is connected for this time
 
 
 class Frame(NamedTuple):
-    """t: [s]. q: positions (nq)."""
+    """The state of a run at one time.
+
+    t: time [s].
+    q: positions (nq).
+    """
 
     t: float
     q: Array
 
 
-class Live:
-    """What a run and its views know of each other: the newest frame, and whether the run waits.
+NO_FRAME = Frame(0.0, np.empty(0))
 
-    The library's progress function calls call(). function: the user's progress function of the
-    present call, which is called every `interval` seconds.
+
+class Live:
+    """What a run and its views share: the newest frame, and whether the run waits.
+
+    The progress function that the library calls is call(). The user's progress function is
+    `function`; it is called every `interval` seconds during the present call.
     """
 
     def __init__(self, interval: float) -> None:
@@ -55,19 +64,20 @@ class Live:
         self.servers: list[Server] = []
         self.pages = 0
         self.paused = False
-        self.frame = Frame(0.0, np.empty(0))
+        self.frame = NO_FRAME
         self.cancelled = False
         self._interval = self._interval_now = interval
         self._due = self._function_due = 0.0
         self._held_at = float("nan")
         self._left_at: float | None = None
-        self._steps = threading.Semaphore(0)
+        self._steps: queue.SimpleQueue[None] = queue.SimpleQueue()
         self._lock = threading.Lock()
 
     # ---- in the thread that advances the run -----------------------------------------------------
 
     def call(self, address: int, t: float) -> bool:
-        """Whether the user cancels the run, at a step within a call of the library."""
+        """Handle one call of the library's progress function. Return whether the user cancels the
+        run."""
         if not self.servers:
             self.set_interval(address)
             return self.function is not None and bool(self.function(t))
@@ -79,13 +89,19 @@ class Live:
         self._function_due = now + self._interval
         return bool(self.function(t))
 
+    def is_silent(self, seconds: float) -> bool:
+        """Whether the library does not call call() within this time."""
+        return self.function is None and not self.servers and self._interval_now > seconds
+
     def begin(self, address: int) -> None:
-        """Prepare for a call, if the run is paused or has a progress function."""
+        """Prepare for a call that advances the run, if the run is paused or has a progress
+        function."""
         self._function_due = time.perf_counter() + self._interval
         self.set_interval(address)
 
     def returned(self, owner: Handle) -> None:
-        """Follow the run at the end of a call. Loops of short calls come here very often."""
+        """Update the views at the end of a call. This function must be fast, because programs may
+        advance a run in a loop of many short calls."""
         if time.perf_counter() >= self._due or self.paused:
             self._follow(owner.address)
 
@@ -107,19 +123,22 @@ class Live:
                 self.frame = Frame(t, q)
 
     def _hold(self) -> None:
-        """Wait until a page steps or resumes, but only once where the run has not moved."""
+        """Wait until a page steps or resumes the run. If the run has not moved since the last wait,
+        do not wait again."""
         if self.frame.t == self._held_at:
             return
         self._held_at = self.frame.t
         while self.paused and self.servers and not self.cancelled:
-            if self._steps.acquire(timeout=0.05):
-                return
-            left = self._left_at
+            try:
+                return self._steps.get(timeout=0.05)
+            except queue.Empty:
+                left = self._left_at
             if self.pages == 0 and left is not None and time.monotonic() > left + AWAY:
                 self.paused = False
 
     def set_interval(self, address: int) -> None:
-        """Have the library call at every step while paused, otherwise for every frame."""
+        """Set how often the library calls the progress function: at every step while the run is
+        paused, otherwise once for each frame."""
         wanted = self._interval
         if self.servers:
             wanted = 0.0 if self.paused else min(FRAME, wanted)
@@ -135,8 +154,8 @@ class Live:
     # ---- in the threads of pages -----------------------------------------------------------------
 
     def pause(self) -> None:
-        while self._steps.acquire(blocking=False):
-            pass
+        while not self._steps.empty():
+            self._steps.get()
         self._held_at = float("nan")
         self.paused = True
 
@@ -144,7 +163,7 @@ class Live:
         self.paused = False
 
     def step(self) -> None:
-        self._steps.release()
+        self._steps.put(None)
 
     def enter(self) -> None:
         with self._lock:
@@ -160,10 +179,12 @@ class Live:
 
 
 class View:
-    """A page that follows a run, made by Simulation.view(). url: its address, which only programs
-    of this computer can reach and which contains a secret.
+    """A page that follows a run. Simulation.view() makes it.
 
-    It ends with close(), at the end of a `with` block, or with the simulation.
+    url: the address of the page. It contains a secret, and only programs on this computer can reach
+        it.
+
+    A view ends with close(), at the end of a `with` block, or when the simulation ends.
     """
 
     def __init__(self, server: Server) -> None:
@@ -191,8 +212,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages keep what they show. A run that waits goes on if this was its
-        last view."""
+        """End the view. Its pages keep what they show. If the run waits and this was its last view,
+        the run continues."""
         self._server.end()
         self._server.thread.join(5)
 

@@ -23,6 +23,7 @@ from .definitions import KINDS, Definition, sizes
 from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
 from .run import Run
+from .scenes import Scenes
 from .simulation import Simulation, takes_options
 from .typing import Array, ArrayLike, Axis, BodyLike, ChannelLike, InputLike, JointLike, Scalar
 
@@ -32,14 +33,15 @@ if TYPE_CHECKING:
     from .integrators import Integrator
     from .typing import SimulationOptions
 
-LISTED = 30  # names in a message
+LISTED = 30  # largest number of names in a message
+MANY = 1000  # elements of a mechanism whose evaluation may take longer than a few ms
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
 
 
 class Sizes(NamedTuple):
-    """Numbers of positions nq, velocities nv and constraint rows nc."""
+    """The sizes of a mechanism: numbers of positions nq, velocities nv and constraint rows nc."""
 
     nq: int
     nv: int
@@ -63,7 +65,7 @@ class Report(_records.Report):
 
 
 def _against(up: str, gravity: Any) -> list[float]:
-    """The default gravity, opposite to an axis."""
+    """Return the default gravity in the direction opposite to an axis."""
     if up not in ("x", "y", "z"):
         raise ValueError(f'up: "x", "y" or "z" is wanted, not {up!r}')
     if gravity is not GRAVITY:
@@ -72,8 +74,8 @@ def _against(up: str, gravity: Any) -> list[float]:
 
 
 def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
-    """The entry of an element. The library returns a definition only to a caller that knows its
-    kind, so all kinds are tried."""
+    """Make the entry of an element. The library returns a definition only to a caller that names
+    the right kind, so this function tries all kinds."""
     if family == "input":
         return Entry(family, None, id, 0, 0)
     for kind in KINDS.values():
@@ -86,24 +88,30 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
 
 
 def _channels(element: Any) -> list[str]:
-    """The names of the properties that are channels."""
+    """Return the names of the properties that are channels."""
     properties = inspect.getmembers(type(element), lambda p: isinstance(p, property))
     return [name for name, p in properties if p.fget.__annotations__.get("return") == "Channel"]
 
 
-class Mechanism(Adding, AddingInSpace):
-    """Bodies, joints, forces and inputs. Elements are added; freeze() then makes the mechanism
-    constant, so that it can be simulated and shared between threads.
+class Mechanism(Adding, AddingInSpace, Scenes):
+    """A mechanism: bodies, joints, forces and inputs.
 
-    gravity: (x, y) or (x, y, z) [m/s^2]. characteristic_length: the length [m] that tolerances
-    refer to, default the size of the design configuration. up: "x", "y" or "z", instead of gravity:
-    gravity is 9.81 m/s^2 opposite to this axis. Any consistent units can be used; angles are in
-    radians.
+    First add elements. Then freeze() makes the mechanism constant, so that it can be simulated and
+    shared between threads.
 
-    A joint is placed by `point` (ground axes, design configuration) or by `point_a` and `point_b`
-    (body axes); joints in space also have an `axis`, and may have an `axis_b`. m["A"] is the handle
-    of the element "A". Your functions receive (t, q) or (t, q, v) of the bodies of their element,
-    and return their value.
+    gravity: (x, y) or (x, y, z) [m/s^2].
+    up: "x", "y" or "z", instead of gravity. Gravity is then 9.81 m/s^2 in the direction opposite to
+        this axis.
+    characteristic_length: the length [m] to which tolerances are relative, by default the size of
+        the design configuration.
+
+    You may use any consistent set of units. Angles are in radians.
+
+    The place of a joint is given by `point` in ground axes, in the design configuration, or by
+    `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
+    `axis_b`. m["A"] is the handle of the element with the name "A". Functions of yours receive the
+    time t, the positions q and some of them the velocities v of the bodies that belong to their
+    element, and return their result.
     """
 
     def __init__(
@@ -120,9 +128,10 @@ class Mechanism(Adding, AddingInSpace):
             self.characteristic_length = characteristic_length
 
     def _adopt(self, address: Any, like: Mechanism | None = None) -> None:
-        """Take over a mechanism of the library and the elements of another Mechanism."""
+        """Take over a mechanism of the library, with the elements of another Mechanism."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
+        self._sizes: Sizes | None = None  # once they are known, after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
@@ -147,7 +156,7 @@ class Mechanism(Adding, AddingInSpace):
         return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
     def _repr_html_(self) -> str:
-        """A drawing and a table of the elements for notebooks."""
+        """Show a drawing and a table of the elements in notebooks."""
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
         table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
         drawing = str(self.draw())
@@ -161,15 +170,16 @@ class Mechanism(Adding, AddingInSpace):
     # ---- finding and changing --------------------------------------------------------------------
 
     def __getitem__(self, name: str) -> Any:
-        """The Body, Joint, Force or Input of that name. Raises KeyError if there is none."""
+        """Return the Body, Joint, Force or Input of that name. Raises KeyError if there is
+        none."""
         return self._handle(name, list(CLASSES))
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._entries)
 
     def _handle(self, name: str, families: Sequence[str]) -> Element:
-        """The handle of an element of one of these families. It is the same object as long as a
-        reference to it exists."""
+        """Return the handle of an element of one of these families. As long as a reference to the
+        handle exists, this is always the same object."""
         entry = self._entries.get(name)
         if entry is None:
             known = [known for known, entry in self._entries.items() if entry.family in families]
@@ -187,7 +197,7 @@ class Mechanism(Adding, AddingInSpace):
         return name in self._entries
 
     def __iter__(self) -> Iterator[Any]:
-        """Handles of all added elements, in the order of adding."""
+        """Return the handles of all added elements, in the order of adding."""
         return (self[name] for name, entry in self._entries.items() if entry is not GROUND)
 
     @property
@@ -197,8 +207,8 @@ class Mechanism(Adding, AddingInSpace):
         return found
 
     def find(self, family: str, value: Any) -> Any:
-        """The body, joint or input for a handle, a name or an id of the library; None for the id
-        "none". Raises KeyError or TypeError for anything else."""
+        """Return the body, joint or input for a handle, a name or an id of the library. The id
+        "none" gives None. Raises KeyError or TypeError for other values."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
@@ -213,7 +223,7 @@ class Mechanism(Adding, AddingInSpace):
         return None
 
     def read(self, element: Element) -> ctypes.Structure:
-        """The library's definition of an element."""
+        """Read the definition of an element from the library."""
         if element.kind is None:
             raise TypeError("ground has no definition")
         struct = element.kind.struct()
@@ -226,8 +236,21 @@ class Mechanism(Adding, AddingInSpace):
         )
         return struct
 
+    def kept_objects(self) -> Iterator[tuple[int, tuple[Any, tuple[int, ...]]]]:
+        """The functions and `user` objects of definitions by address, with the numbers of the
+        inputs that they receive."""
+        for kept in self._keep:
+            wrapped, value, inputs = kept if isinstance(kept, tuple) else (kept, kept, ())
+            try:
+                address = ctypes.cast(wrapped, ctypes.c_void_p).value
+            except ctypes.ArgumentError:
+                continue  # an array
+            if address:
+                yield address, (value, inputs)
+
     def change(self, element: Element, fields: Mapping[str, Any]) -> None:
-        """Replace some fields of a definition, before freezing. None changes nothing."""
+        """Replace some fields of a definition, before freezing. Fields that are None do not
+        change."""
         if not isinstance(fields, dict):
             raise TypeError(f'{element.family} "{element.name}": a dict is wanted, not {fields!r}')
         if "name" in fields:
@@ -252,7 +275,7 @@ class Mechanism(Adding, AddingInSpace):
             self._owner.call(lib.baum_mechanism_set_input, element.id, initial)
 
     def initial(self, input: InputLike) -> float:
-        """Initial value of an input."""
+        """Return the initial value of an input."""
         value = ctypes.c_double()
         _calls.make(
             lib.baum_mechanism_get_input,
@@ -271,8 +294,8 @@ class Mechanism(Adding, AddingInSpace):
 
     @property
     def gravity(self) -> tuple[float, float, float]:
-        """(x, y, z) [m/s^2], acts on particles and rigid bodies. Can be set before freezing, also
-        to (x, y)."""
+        """Gravity (x, y, z) [m/s^2], which acts on particles and rigid bodies. Before freezing, you
+        can set it to (x, y, z) or (x, y)."""
         values = np.empty(3)
         _calls.make(lib.baum_mechanism_get_gravity, self.handle, values.ctypes.data)
         x, y, z = values.tolist()
@@ -287,8 +310,8 @@ class Mechanism(Adding, AddingInSpace):
 
     @property
     def characteristic_length(self) -> float:
-        """The length [m] that tolerances refer to; NaN if it was not set and the mechanism is not
-        frozen. Can be set before freezing."""
+        """The length [m] to which tolerances are relative. It is NaN if it was not set and the
+        mechanism is not frozen. You can set it before freezing."""
         value = ctypes.c_double()
         _calls.make(lib.baum_mechanism_get_characteristic_length, self.handle, ctypes.byref(value))
         return value.value
@@ -299,8 +322,8 @@ class Mechanism(Adding, AddingInSpace):
         _calls.make(lib.baum_mechanism_set_characteristic_length, self.handle, length)
 
     def add_break_times(self, times: ArrayLike) -> None:
-        """Declare times [s] at which functions of time jump, before freezing. Steps end at these
-        times."""
+        """Declare times [s] at which functions of time jump. Steps then end at these times. Call
+        this before freezing."""
         given = vector(np.atleast_1d(times), None, "break times")
         self._owner.call(lib.baum_mechanism_add_break_times, given.ctypes.data, len(given))
 
@@ -313,8 +336,11 @@ class Mechanism(Adding, AddingInSpace):
         return np.empty(0) if found is None else found
 
     def freeze(self) -> Mechanism:
-        """Check everything and make the mechanism constant. Returns the mechanism. Raises
-        baum.Error if it cannot be simulated, for example if it has no body."""
+        """Check all definitions, and make the mechanism constant, so that it can be simulated.
+
+        Returns the mechanism. Raises baum.Error if the mechanism cannot be simulated, for example
+        if it has no body.
+        """
         self._long(lib.baum_mechanism_freeze)
         return self
 
@@ -324,25 +350,32 @@ class Mechanism(Adding, AddingInSpace):
         return bool(lib.baum_mechanism_is_frozen(self.handle))
 
     def copy(self, **changes: Mapping[str, Any]) -> Mechanism:
-        """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
-        frozen if this mechanism is. Handles of either mechanism are valid in the other until
-        elements are added.
+        """Copy the mechanism, with changes of some definitions: m.copy(rod=dict(mass=0.04)) changes
+        one mass.
 
-        With another position, angle or orientation of a body, the copy is the same mechanism in
-        another design configuration: joints and forces keep their points and axes in body axes, and
-        they keep the lengths, angles and offsets that they took from the design configuration. In
-        the copy's definitions all of these are given as numbers. Assembly closes the joints, which
-        may move the changed body too: give position and angle that fit, or held=True. A joint or
-        force whose `point`, `point_a` or `point_b` is also changed is placed in the new design
-        configuration. Angles of spatial joints are 0 in the new design configuration. Raises
-        ValueError if the changes would alter the angle of a spatial joint that a driver, a coupling
-        or a spring uses, or the relative orientation of a spatial weld or prismatic joint.
+        The copy is frozen if this mechanism is frozen. Handles of each of the two mechanisms are
+        valid in the other until elements are added.
+
+        If you change the position, angle or orientation of a body, the copy is the same mechanism
+        in another design configuration. Joints and forces keep their points and axes on the bodies.
+        They also keep the lengths, angles and offsets that they took from the first design
+        configuration. The definitions of the copy contain all these values as numbers. In the new
+        design configuration the joints may be open. Assembly then closes them, and for this purpose
+        it may also move the body that you changed; to avoid this, give a position and an angle that
+        fit, or held=True.
+
+        If you also change the `point`, `point_a` or `point_b` of a joint or a force, it is placed
+        in the new design configuration. Angles of spatial joints are 0 in the new design
+        configuration. Therefore some changes raise ValueError: those that alter the angle of a
+        spatial joint that a driver, a coupling or a spring uses, and those that alter the relative
+        orientation of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
 
     def thawed(self, **changes: Mapping[str, Any]) -> Mechanism:
-        """As copy(), but not frozen, so that elements can be added."""
+        """Copy the mechanism like copy(). The copy is not frozen, so you can add elements to
+        it."""
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_copy, self.handle, ctypes.byref(out))
         copy = Mechanism.__new__(Mechanism)
@@ -354,8 +387,8 @@ class Mechanism(Adding, AddingInSpace):
     def _kept_when_moved(
         self, changes: Mapping[str, Any]
     ) -> Iterator[tuple[str, Mapping[str, Any]]]:
-        """For each joint and force, its name and the numbers that it takes from the present design
-        configuration and must keep when bodies are moved."""
+        """For each joint and each force, return its name and the numbers that it takes from the
+        present design configuration. The element must keep these numbers when bodies are moved."""
         given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
         moved = {name for name in given if self[name].family == "body"}
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
@@ -367,7 +400,7 @@ class Mechanism(Adding, AddingInSpace):
                 yield element.name, design.taken(element, moved)
 
     def _used_angles(self) -> Iterator[Joint]:
-        """The joints whose angles drivers, couplings and springs use."""
+        """Return the joints whose angles are used by drivers, couplings or springs."""
         for element in self:
             values = element.definition if element.family in ("joint", "force") else {}
             for end in ("", "_a", "_b"):
@@ -376,14 +409,22 @@ class Mechanism(Adding, AddingInSpace):
                     yield joint
 
     @property
+    def is_quick(self) -> bool:
+        """Whether calls that only evaluate this mechanism, such as the start of a run, take at most
+        a few ms and call no Python function."""
+        return len(self._entries) < MANY and not self.has_python
+
+    @property
     def sizes(self) -> Sizes:
-        """Numbers nq, nv and nc of a frozen mechanism."""
-        counts = [ctypes.c_int32() for _ in range(3)]
-        _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
-        return Sizes(*(count.value for count in counts))
+        """The numbers nq, nv and nc of a frozen mechanism."""
+        if self._sizes is None:
+            counts = [ctypes.c_int32() for _ in range(3)]
+            _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
+            self._sizes = Sizes(*(count.value for count in counts))
+        return self._sizes
 
     def rows(self, joint: JointLike) -> slice:
-        """Rows of a joint in Phi and lambda of a frozen mechanism."""
+        """Return where the rows of a joint are in Phi and lambda of a frozen mechanism."""
         first, count = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
             lib.baum_mechanism_rows,
@@ -395,7 +436,7 @@ class Mechanism(Adding, AddingInSpace):
         return slice(first.value, first.value + count.value)
 
     def columns(self, body: BodyLike) -> tuple[slice, slice]:
-        """Indices of a body in q and v of a frozen mechanism."""
+        """Return where the coordinates of a body are in q and v of a frozen mechanism."""
         found = self.find("body", body)
         q, v = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
@@ -404,37 +445,40 @@ class Mechanism(Adding, AddingInSpace):
         return slice(q.value, q.value + found.nq), slice(v.value, v.value + found.nv)
 
     def mobility(self) -> Mobility:
-        """Degrees of freedom, redundant and conflicting rows and bodies without a joint, at the
-        assembled initial configuration. str() of the result explains it."""
+        """Count degrees of freedom, redundant rows, conflicting rows, and bodies without a joint,
+        in the assembled initial configuration. str() of the result explains it."""
         values = self._snapshot(lib.baum_mechanism_mobility, _abi.baum_mobility())
         values["worst_joint"] = self.find("joint", values["worst_joint"])
         return Mobility(**values)
 
     def report(self) -> Report:
-        """What an evaluation of the accelerations costs (nodes, couplings, islands), and which work
-        it skips, such as bodies that cannot move. str() of the result explains it."""
+        """Report what an evaluation of the accelerations costs, and which work it skips because the
+        mechanism does not need it. str() of the result explains it."""
         values = self._snapshot(lib.baum_mechanism_report, _abi.baum_report())
         values["most_joined"] = self.find("body", values["most_joined"])
         return Report(**values)
 
     def _snapshot(self, function: Any, struct: Any) -> dict[str, Any]:
-        """The fields of a struct that a function of the library fills."""
+        """Return the fields of a struct that a function of the library fills."""
         self._long(function, ctypes.byref(struct), ctypes.sizeof(struct))
         values = {field[0]: getattr(struct, field[0]) for field in struct._fields_[1:]}
         values["text"] = text(struct.text)
         return values
 
     def check_derivatives(self) -> None:
-        """Compare the derivatives that functions return with differences. Raises baum.Error, whose
-        message names the wrong entry."""
+        """Compare the derivatives that your functions return with differences. Raises baum.Error if
+        a derivative is wrong; the message names the wrong entry."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:
-        _calls.interruptible(_calls.make, function, self.handle, *arguments)
+        if self.is_quick:
+            _calls.make(function, self.handle, *arguments)
+        else:
+            _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
     def channel(self, value: ChannelLike) -> Channel:
-        """The channel for a channel or its name, such as "energy" or "B.phi". Raises KeyError if
-        there is none."""
+        """Return the channel for a channel or its name, such as "energy" or "B.phi". Raises
+        KeyError if there is none."""
         if isinstance(value, Channel):
             return value
         if not isinstance(value, str):
@@ -454,13 +498,17 @@ class Mechanism(Adding, AddingInSpace):
         return channel
 
     def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
-        """A picture of the design configuration, of the "assembled" configuration, or of positions
-        q (nq) [m], [rad], which need a frozen mechanism. Notebooks show it; save("x.svg") writes
-        it, and so do "x.pdf" and "x.png" with Matplotlib.
+        """Draw the mechanism.
 
-        Red lines show where the constraints of a joint are violated: between points that should
-        coincide, from a point to the line, plane or curve on which it should be, and between axes
-        that should be parallel. If the mechanism cannot be assembled, "assembled" shows the
+        q: None for the design configuration, "assembled" for the assembled
+            configuration at t = 0, or positions q (nq) of a frozen mechanism [m], [rad].
+
+        A notebook shows the returned picture. Its method save("x.svg") writes it; "x.pdf" and
+        "x.png" need Matplotlib.
+
+        Red lines show where the constraints of a joint are violated. They connect points that
+        should coincide, a point with the line, plane or curve on which it should be, and the tips
+        of axes that should be parallel. If the mechanism cannot be assembled, "assembled" shows the
         configuration in which assembly stopped.
         """
         return drawings.draw(self, q)
@@ -476,13 +524,16 @@ class Mechanism(Adding, AddingInSpace):
         plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
         marks: Sequence[tuple[Scalar, str]] = (),
     ) -> Page:
-        """A page that shows any motion of a frozen mechanism, for example a motion that was
-        computed elsewhere or joined from several runs. Run.page() shows a run.
+        """Make a page that shows any motion of a frozen mechanism, for example a motion that was
+        computed elsewhere, or several runs joined together. To show one run, use Run.page().
 
-        t: times (n) [s], rising or falling. q: positions (n x nq). path: of a file to write.
-        traces: as in Run.page(). plots: curves (n) by label, such as {"height [m]": q[:, 1]};
-        consecutive curves with the same unit share a plot. marks: times [s] and texts of events on
-        the time axis. Constraint violations of q are shown as they are.
+        t: times (n) [s], rising or falling.
+        q: positions (n x nq). They are shown as they are, with their constraint violations.
+        path: file to write.
+        traces: paths to draw, as in Run.page().
+        plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
+            same unit are drawn in the same plot.
+        marks: times [s] and texts of marks on the time axis.
         """
         motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
         made = drawings.page(motion)
@@ -496,7 +547,7 @@ class Mechanism(Adding, AddingInSpace):
     def simulation(
         self, integrator: str | Integrator | None = None, **options: Unpack[SimulationOptions]
     ) -> Simulation:
-        """Start a run that is advanced step by step. baum.Simulation describes the options."""
+        """Start a run that you advance step by step. baum.Simulation describes the options."""
         return Simulation(self, integrator, **options)
 
     @takes_options
@@ -508,10 +559,11 @@ class Mechanism(Adding, AddingInSpace):
         record: ChannelLike | Sequence[ChannelLike] = (),
         **options: Unpack[SimulationOptions],
     ) -> Run:
-        """Run through times (n) [s] and return a Run with q, v and the channels in `record` at each
-        of them.
+        """Run through times (n) [s]. Return a Run with q, v and the channels in `record` at each
+        time.
 
         The run starts at the option start_time. baum.Simulation describes the options and the
-        errors. Exceptions have the attribute `run` with the samples recorded so far.
+        errors. Exceptions that this method raises have the attribute `run` with the samples
+        recorded so far.
         """
         return Simulation(self, integrator, **options).sample(times, record)

@@ -18,8 +18,8 @@ from .typing import Array, Progress, Scalar
 if TYPE_CHECKING:
     from .run import Run
 
-MOST = 100_000  # frames
-MOST_PIXELS = 8192  # in width and height
+MOST = 100_000  # largest number of frames
+MOST_PIXELS = 8192  # largest width and height
 TICK = 100  # [Hz] delays between the frames of a GIF are multiples of 1/TICK
 
 
@@ -58,7 +58,7 @@ def _positive(value: Scalar, label: str) -> float:
 
 
 def _times(t: Array, step: float) -> Array:
-    """The times of the frames."""
+    """Return the times of the frames."""
     low, high = min(t[0], t[-1]), max(t[0], t[-1])
     count = int((high - low) / step * (1 + 1e-9)) + 1
     if count > MOST:
@@ -68,12 +68,13 @@ def _times(t: Array, step: float) -> Array:
 
 
 def _writer(suffix: str, rate: Any) -> Any:
-    """A writer of Matplotlib, whose type hints want an int for the rate."""
+    """Make a writer of Matplotlib. Its type hints demand an int for the frame rate, although it
+    accepts floats."""
     pictures.import_matplotlib("Run.movie()")
     from matplotlib import animation
 
     if suffix == ".gif":
-        return animation.PillowWriter(fps=rate * (1 - 1e-9))  # it rounds the delay down
+        return animation.PillowWriter(fps=rate * (1 - 1e-9))  # Pillow rounds the delay down
     if not animation.FFMpegWriter.isAvailable():
         raise RuntimeError(
             "Run.movie() of .mp4 needs the program ffmpeg, which was not found: install it, name "

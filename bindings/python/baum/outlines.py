@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outlines of bodies, which replace the shapes that follow from their joints."""
+"""Outlines of bodies. Outlines replace the shapes that the library chooses for drawings."""
 
 from __future__ import annotations
 
@@ -23,14 +23,15 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 def _numbers(value: Any) -> Array:
-    """A new array of any shape. Text is refused, even where it reads like numbers."""
+    """Convert a value to a new array of any shape. Text is refused, even if it looks like
+    numbers."""
     if np.asarray(value).dtype.kind not in "biufO":
         raise TypeError
     return np.array(value, dtype=np.float64, order="C")
 
 
 def _point(value: ArrayLike, label: str) -> tuple[float, float, float]:
-    """x, y, z from two or three numbers."""
+    """Convert two or three numbers to x, y, z."""
     given = vector(value, None, label).tolist()
     if len(given) not in (2, 3):
         raise ValueError(f"{label}: 2 or 3 numbers are wanted, not {len(given)}")
@@ -39,7 +40,7 @@ def _point(value: ArrayLike, label: str) -> tuple[float, float, float]:
 
 
 def _table(value: Any, widths: Sequence[int], label: str) -> Array:
-    """A new array (n, 3); missing z are 0."""
+    """Convert a value to a new array (n, 3). If z is missing, it is 0."""
     try:
         array = _numbers(value)
     except (TypeError, ValueError):
@@ -51,7 +52,7 @@ def _table(value: Any, widths: Sequence[int], label: str) -> Array:
 
 
 def _triples(value: Any, count: int) -> NDArray[np.int32]:
-    """A new array (m, 3) of indices below count."""
+    """Convert a value to a new array (m, 3) of indices below count."""
     given = np.asarray(value)
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError(f"triangles: the shape (m, 3) is wanted, not {given.shape}")
@@ -63,9 +64,11 @@ def _triples(value: Any, count: int) -> NDArray[np.int32]:
 
 
 class Outline:
-    """Base class of the shapes that a body can be given: Polygon, Circle, Box, Cylinder, Sphere,
-    Mesh. Lengths are in metres, in the axes of the body. color: "#rrggbb"; None: chosen for each
-    body."""
+    """Base class of the outlines Polygon, Circle, Box, Cylinder, Sphere and Mesh. All lengths are
+    in metres, in the axes of the body.
+
+    color: "#rrggbb"; None lets the library choose a colour for each body.
+    """
 
     color: str | None
 
@@ -74,12 +77,13 @@ class Outline:
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def _fill(self, struct: Any) -> list[Any]:
-        """Set the fields for the library. Returns what must stay alive with them."""
+        """Set the fields of the struct for the library. Return the objects that must stay alive
+        with it."""
         raise NotImplementedError
 
 
 class Polygon(Outline):
-    """A polygon in the x-y plane of the body, which may be concave.
+    """A polygon in the x-y plane of the body, or parallel to it. It may be concave.
 
     points: its corners (n, 2), or (n, 3) with equal z.
     """
@@ -98,7 +102,8 @@ class Polygon(Outline):
 class Circle(Outline):
     """A disc parallel to the x-y plane of the body.
 
-    radius: > 0. center: x, y or x, y, z.
+    radius: positive.
+    center: x, y or x, y, z.
     """
 
     def __init__(self, radius: Scalar, center: ArrayLike = ZERO, color: str | None = None) -> None:
@@ -115,7 +120,8 @@ class Circle(Outline):
 class Sphere(Circle):
     """A sphere.
 
-    radius: > 0. center: x, y or x, y, z.
+    radius: positive.
+    center: x, y or x, y, z.
     """
 
     def _fill(self, struct: Any) -> list[Any]:
@@ -127,7 +133,8 @@ class Sphere(Circle):
 class Box(Outline):
     """A box whose edges are parallel to the axes of the body.
 
-    size: lengths of its edges in x, y, z; one of them may be 0. center: x, y or x, y, z.
+    size: lengths of its edges in x, y, z; one of them may be 0.
+    center: x, y or x, y, z.
     """
 
     def __init__(self, size: ArrayLike, center: ArrayLike = ZERO, color: str | None = None) -> None:
@@ -145,7 +152,8 @@ class Box(Outline):
 class Cylinder(Outline):
     """A circular cylinder.
 
-    radius: > 0. start, end: the centres of its ends, x, y, z.
+    radius: positive.
+    start, end: x, y, z of the centres of its two ends.
     """
 
     def __init__(
@@ -164,9 +172,11 @@ class Cylinder(Outline):
 
 
 class Mesh(Outline):
-    """Triangles, at most 200 000.
+    """A mesh of at most 200 000 triangles.
 
-    vertices: (n, 3). triangles: (m, 3) indices of rows of `vertices`, from 0.
+    vertices: (n, 3).
+    triangles: (m, 3) the three vertices of each triangle, as indices of rows of `vertices`, counted
+        from 0.
     """
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, color: str | None = None) -> None:
@@ -180,11 +190,13 @@ class Mesh(Outline):
     ) -> Mesh:
         """Read an STL file (binary or text) or an OBJ file.
 
-        scale: a factor for all lengths, such as 0.001 for a file in millimetres. The origin of the
-        file becomes the origin of the body; move or rotate `vertices` if it is not. Equal corners
-        of an STL file become one vertex. Faces of an OBJ file with more than three corners must be
-        convex; materials are ignored. Raises ValueError for files that cannot be read; it names the
-        line or byte.
+        scale: a factor for all lengths, such as 0.001 for a file in millimetres.
+
+        The origin of the file becomes the origin of the body, which is its centre of mass. If the
+        origin of the file is another point, move or rotate `vertices` afterwards. Equal corners of
+        an STL file become one vertex. Faces of an OBJ file with more than three corners must be
+        convex. Materials are ignored. Raises ValueError for a file that cannot be read; the message
+        names the line or the byte.
         """
         vertices, triangles = _mesh_files.load(path)
         return cls(vertices * number(scale, "scale"), triangles, color)
@@ -206,7 +218,7 @@ OutlineLike = Union[Outline, ArrayLike, Sequence[Any], None]
 
 
 def _is_table(value: Any) -> bool:
-    """Whether a value is the corners of one polygon, not a list of outlines."""
+    """Whether a value contains the corners of one polygon. Otherwise it is a list of outlines."""
     try:
         return _numbers(value).ndim == 2
     except (TypeError, ValueError):
@@ -214,7 +226,7 @@ def _is_table(value: Any) -> bool:
 
 
 def shapes(value: Any, nested: bool = False) -> list[Outline]:
-    """The shapes for a value that a user gave."""
+    """Convert a value that a user gave to a list of outlines."""
     if value is None:
         return []
     if isinstance(value, Outline):
@@ -232,7 +244,7 @@ def shapes(value: Any, nested: bool = False) -> list[Outline]:
 
 
 class Structs:
-    """Outlines as an array for the library."""
+    """Outlines as an array of structs for the library."""
 
     def __init__(self, value: OutlineLike) -> None:
         outlines = shapes(value)
@@ -248,8 +260,8 @@ class Structs:
             self.array[k] = struct
 
     def check(self) -> None:
-        """Raise the error of the library for outlines that it refuses, before their body is added.
-        For this purpose they are given to the ground of a temporary mechanism."""
+        """Raise the error of the library if it refuses these outlines, before their body is added.
+        To find out, give the outlines to the ground of a temporary mechanism."""
         if self.count == 0:
             return
         mechanism = ctypes.c_void_p()
@@ -289,7 +301,7 @@ OF: dict[int, Callable[[Any, Any], Outline]] = {
 
 
 def read(body: Body) -> list[Outline]:
-    """The outlines of a body."""
+    """Return the outlines of a body."""
     handle, found = body.mechanism.handle, []
     for k in range(lib.baum_mechanism_outline_count(handle, body.id)):
         struct = _abi.baum_outline()

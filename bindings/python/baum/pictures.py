@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the library in Matplotlib, which writes them as PDF and PNG and makes movies of them.
+"""Draw the pictures of the library with Matplotlib, which writes PDF and PNG files and movies.
 
-The library writes a small part of SVG: paths with absolute commands, circles and one-line texts,
-with fill, stroke, width and dashes, in groups without attributes. Only this part is read here.
+The library writes only a small part of SVG: paths with absolute commands, circles and one-line
+    texts. They have fill, stroke, stroke width and dashes, and are in groups without attributes.
+    This module reads only this part.
 """
 
 from __future__ import annotations
@@ -29,13 +30,13 @@ def _tag(element: xml.Element) -> str:
 
 
 def size_of(svg: str) -> tuple[float, float]:
-    """Width and height of a picture [px]."""
+    """Return width and height of a picture [px]."""
     root = xml.fromstring(svg)
     return float(root.attrib["width"]), float(root.attrib["height"])
 
 
 def pixels(size: Any, most: float) -> Array:
-    """Width and height."""
+    """Check a width and a height."""
     given = vector(size, 2, "size")
     if not ((given >= 1) & (given <= most)).all():
         raise ValueError(
@@ -45,7 +46,8 @@ def pixels(size: Any, most: float) -> Array:
 
 
 def resized(svg: str, size: Any) -> str:
-    """The picture in another size [px]; the drawing is scaled to fit and centred."""
+    """Return the picture in another size [px]. The drawing is scaled to fit into the new size, and
+    centred."""
     width, height = pixels(size, 1e5)
     return re.sub(
         r'width="\d+" height="\d+"', f'width="{width:g}" height="{height:g}"', svg, count=1
@@ -53,7 +55,7 @@ def resized(svg: str, size: Any) -> str:
 
 
 def import_matplotlib(caller: str) -> None:
-    """Raise an ImportError that says what needs Matplotlib."""
+    """Import Matplotlib. If it is missing, raise an ImportError that says what needs it."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError as error:
@@ -77,7 +79,7 @@ def save(svg: str, path: str | os.PathLike[str], suffix: str, dpi: float) -> Non
 
 
 def draw(svg: str, figure: Figure) -> None:
-    """Draw a picture into a figure, in place of what it shows."""
+    """Draw a picture into a figure. The picture replaces what the figure shows."""
     from matplotlib.transforms import Affine2D
 
     root = xml.fromstring(svg)
@@ -95,8 +97,8 @@ def draw(svg: str, figure: Figure) -> None:
 
 
 def _artist(element: xml.Element, given: dict[str, str], zoom: float) -> Any:
-    """A patch or text of Matplotlib; None for an element without a picture. given: its attributes
-    and those that it inherits."""
+    """Make a patch or a text of Matplotlib from an element of SVG. Return None for elements that
+    draw nothing. given: the attributes of the element, including those that it inherits."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
     from matplotlib.text import Text
@@ -128,7 +130,7 @@ def _artist(element: xml.Element, given: dict[str, str], zoom: float) -> Any:
 
 
 def _path(text: str) -> Any:
-    """A path of Matplotlib from the commands of SVG."""
+    """Make a path of Matplotlib from the commands of an SVG path."""
     from matplotlib.path import Path
 
     points: list[tuple[float, float]] = []

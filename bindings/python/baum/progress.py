@@ -14,8 +14,8 @@ BAR = 20  # characters
 
 
 def stream() -> TextIO | None:
-    """The stream that shows progress: standard output in a notebook, standard error in a terminal,
-    otherwise None."""
+    """Return the stream on which to show progress: standard output in a notebook, standard error in
+    a terminal, otherwise None."""
     ipython: Any = sys.modules.get("IPython")
     shell = ipython and ipython.get_ipython()
     if shell is not None and hasattr(shell, "kernel"):
@@ -24,7 +24,8 @@ def stream() -> TextIO | None:
 
 
 class Line:
-    """One line that is overwritten again and again: a bar, the percentage and the time left."""
+    """A line of text that is overwritten again and again. It shows a bar, the percentage and the
+    time left."""
 
     def __init__(self, out: TextIO, title: str) -> None:
         self._out = out
@@ -33,8 +34,7 @@ class Line:
         self._first: float | None = None
 
     def update(self, fraction: float) -> None:
-        """Show the fraction that is done, 0 to 1, and the time that the rest takes at the same
-        speed."""
+        """Show the fraction that is done, 0 to 1, and an estimate of the time left."""
         now = time.monotonic()
         if self._first is None:
             self._first = fraction
@@ -61,7 +61,7 @@ class Line:
 
 
 class RunLine(Line):
-    """Progress line of a run between two times [s]."""
+    """The progress line of a run between two times [s]."""
 
     def __init__(self, out: TextIO, start: float, end: float) -> None:
         super().__init__(out, f"run to t = {end:g} s")
@@ -74,11 +74,13 @@ class RunLine(Line):
 
 
 class StudyLine(Line):
-    """Progress line of a study.
+    """The progress line of a study.
 
-    methods: the index of the method of each entry. Every setting of a method is assumed to cost
-    twice as much as the coarser one before it. The study first runs all entries from coarse to
-    fine. It then measures their times in the order of adding.
+    methods: the index of the method of each entry.
+
+    The time left is estimated with an assumption: each setting of a method costs twice as much as
+        the next coarser one. The study first computes the errors of all entries, from coarse to
+        fine. It then measures their times in the order of adding.
     """
 
     def __init__(self, out: TextIO, methods: Sequence[int]) -> None:
@@ -102,13 +104,13 @@ class StudyLine(Line):
 
 
 def bar(fraction: float) -> str:
-    """A bar that is filled to this fraction."""
+    """Return a bar that is filled to this fraction."""
     filled = int(BAR * fraction)
     return f"[{'#' * filled}{'.' * (BAR - filled)}]"
 
 
 def duration(seconds: float) -> str:
-    """A duration as text, rounded as an estimate should be."""
+    """Return a duration as text, rounded as is appropriate for an estimate."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

@@ -54,8 +54,9 @@ class NearSingular(_ByName, _records.NearSingular):
 class Event(NamedTuple):
     """An event that has happened.
 
-    t: [s]. event: its number, which Simulation.event() has returned. direction: 1 rising, -1
-    falling in time.
+    t: its time [s].
+    event: its number, which Simulation.event() has returned.
+    direction: 1 if the function rises in time, -1 if it falls.
     """
 
     t: float
@@ -64,8 +65,8 @@ class Event(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Indices of a body in q and v. in_body_axes: v contains the angular velocity in body axes,
-    while the channel of the body has it in ground axes."""
+    """Where the coordinates of a body are in q and v. in_body_axes: True if v contains its angular
+    velocity in body axes, while the channel of the body has it in ground axes."""
 
     q: slice
     v: slice
@@ -73,7 +74,7 @@ class Place(NamedTuple):
 
 
 class Account(NamedTuple):
-    """The state of a simulation at the end of a run."""
+    """What a simulation reports at the end of a run."""
 
     counters: Counters
     explain: str
@@ -84,19 +85,25 @@ class Account(NamedTuple):
 
 
 class Run:
-    """Samples of a run.
+    """The samples of a run.
 
-    t: times (n) [s]. q: positions (n x nq). v: velocities (n x nv). run["B.phi"] or run[m["B"].phi]
-    is a recorded channel (n x columns). Poses and velocities of bodies need no recording, because
-    they are parts of q and v: run["slider.pose"].
+    t: times (n) [s].
+    q: positions (n x nq).
+    v: velocities (n x nv).
+    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early.
+    failure: the message of the error if the run has failed, otherwise None. The attribute `run` of
+        the exception is then this Run.
+    counters: what the run has cost.
+    explain: the methods of the run in words.
+    warnings: a list with a baum.Warning for each kind of warnings.
+    near_singular, events: lists for the whole simulation up to the last sample.
+    energy_account: the energy account at the last sample; None without the option energy_account.
 
-    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early. failure: the
-    message of the error, if the run failed; its samples are `run` of the error. counters: what the
-    run has cost. explain: the methods of the run, as text. warnings: a baum.Warning for each kind.
-    near_singular, events: lists for the whole simulation so far. energy_account: at the end; None
-    without the option energy_account.
+    run["B.phi"] or run[m["B"].phi] is a recorded channel (n x columns). Poses and velocities of
+    bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
+    there.
 
-    A run can be pickled; its `mechanism` is then None.
+    A run can be pickled. Its `mechanism` is then None.
     """
 
     def __init__(
@@ -153,7 +160,7 @@ class Run:
         return f"<run of {len(self.t)} samples, {self.counters.steps} steps, {name}>"
 
     def _repr_html_(self) -> str:
-        """A table of the channels for notebooks."""
+        """Show a table of the channels in notebooks."""
         rows = []
         for key in self:
             values = self[key]
@@ -178,8 +185,8 @@ class Run:
         return name in self._slices or self._of_body(name) is not None
 
     def __getitem__(self, key: ChannelLike) -> Array:
-        """The columns (n x columns) of a channel, given as a channel or by name. Raises KeyError
-        for a channel that was not recorded."""
+        """Return the columns (n x columns) of a channel, which is given as a channel or by its
+        name. Raises KeyError for a channel that was not recorded."""
         name = key.key if isinstance(key, Channel) else key
         recorded = self._slices.get(name)
         if recorded is not None:
@@ -204,7 +211,8 @@ class Run:
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
-        """The indices of a body's pose or velocity in q or v, or None."""
+        """Return where the pose or the velocity of a body is: "q" or "v", and its indices. Return
+        None for other names."""
         body, _, what = str(name).rpartition(".")
         place = self._place_of(body) if what in ("pose", "velocity") else None
         if place is None:
@@ -212,7 +220,7 @@ class Run:
         return ("q", place.q, place) if what == "pose" else ("v", place.v, place)
 
     def _place_of(self, body: str) -> Place | None:
-        """Indices of a body in q and v, or None."""
+        """Return where the coordinates of a body are in q and v, or None."""
         if self._bodies is not None:
             return self._bodies.get(body)
         if self.mechanism is None or body not in self.mechanism:
@@ -224,8 +232,8 @@ class Run:
 
     @property
     def columns(self) -> dict[str, str]:
-        """The unit of each column of to_dict() by its name; "-" for pure numbers, "" if it depends
-        on your functions."""
+        """The unit of each column of to_dict(), by the name of the column. It is "-" for pure
+        numbers, and "" if the unit depends on functions of yours."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))
@@ -236,26 +244,27 @@ class Run:
         return [key] if count == 1 else [f"{key}[{k}]" for k in range(count)]
 
     def _units_of(self, key: str) -> units.Units:
-        """The unit of each column of a channel."""
+        """Return the unit of each column of a channel."""
         if key not in self._units:
             found = self._of_body(key)
             if found is not None:
                 return self._units_of(found[0])[found[1]]
-            assert self.mechanism is not None  # a run without one knows its units
+            assert self.mechanism is not None  # a run without a mechanism knows its units
             self._units[key] = units.of_channel(self.mechanism, self._channels[key])
         return self._units[key]
 
     def to_dict(self) -> dict[str, Array]:
-        """All columns (n) by name. The names are "t" and the keys of the recorded channels, with
-        the index of the column if a channel has several, such as "energy[1]"."""
+        """Return all columns (n) by name. The names are "t" and the names of the recorded channels.
+        If a channel has several columns, the name ends with the index of the column, such as
+        "energy[1]"."""
         named = {"t": self.t}
         for key in self:
             named.update(zip(self._names(key), self[key].T))
         return named
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """All columns as a pandas.DataFrame with the time [s] as its index. attrs["units"] has the
-        unit of each column. Raises ImportError without pandas."""
+        """Return all columns as a pandas.DataFrame with the time [s] as its index. Its
+        attrs["units"] contains the unit of each column. Raises ImportError without pandas."""
         try:
             import pandas
         except ImportError as error:
@@ -267,9 +276,11 @@ class Run:
     def plot(self, *channels: ChannelLike, axes: Any = None) -> list[Axes]:
         """Plot channels over time with Matplotlib, such as run.plot("slider.velocity").
 
-        channels: by default all recorded ones except q and v. axes: Matplotlib axes to draw into,
-        one for each unit; by default a new figure. Returns the axes, one for each unit. Raises
-        KeyError for a channel that was not recorded, and ImportError without Matplotlib.
+        channels: by default all recorded channels except q and v.
+        axes: Matplotlib axes to draw into, one for each unit; by default those of a new figure.
+
+        Returns the axes, one for each unit. Raises KeyError for a channel that was not recorded,
+        and ImportError without Matplotlib.
         """
         keys = [one.key if isinstance(one, Channel) else one for one in channels]
         curves: dict[str, list[tuple[str, Array]]] = {}
@@ -298,15 +309,21 @@ class Run:
         forces: Forces = None,
         plots: Sequence[ChannelLike] | None = None,
     ) -> None:
-        """Write a page that shows the motion in any browser: one HTML file that loads nothing.
+        """Write a page that shows the motion in any browser: one HTML file, which loads no other
+        file.
 
-        traces: paths to draw, of bodies or channels such as m["rod"].pose_of((0.1, 0)). forces:
-        recorded reactions to show as arrows, by default all. True is all, but raises ValueError if
-        there are none; a list chooses some, such as ["A.reaction"]; False is none. plots: channels
-        to plot beside the picture, by default all recorded ones but q, v and reactions. Warnings
-        and events are marked on the time axis. At most 600 samples are kept, among them the
-        extremes of plotted columns. Raises ValueError for a run without its mechanism, KeyError for
-        a channel that was not recorded.
+        traces: paths to draw. A path is given as a body or as a channel such as
+            m["rod"].pose_of((0.1, 0)).
+        forces: which recorded reactions are shown as arrows. None, the default, shows all. True
+            shows all, too, but raises ValueError if none was recorded. A list such as
+            ["A.reaction"] chooses some, and False shows none.
+        plots: channels to plot beside the picture, by default all recorded channels except q, v and
+            reactions.
+
+        Warnings and events are marks on the time axis. A page keeps at most 600 samples, and among
+        these the samples at which a plotted column has its largest and its smallest value. Raises
+        ValueError for a run without its mechanism, and KeyError for a channel that was not
+        recorded.
         """
         self._page(title, traces, forces, plots).save(path)
 
@@ -318,7 +335,8 @@ class Run:
         forces: Forces = None,
         plots: Sequence[ChannelLike] | None = None,
     ) -> Page:
-        """The page of page(), shown at once: in a notebook in a frame, else in the browser."""
+        """Show the page of page() at once. A notebook shows it in a frame; otherwise the browser
+        opens it."""
         made = self._page(title, traces, forces, plots)
         if not drawings.is_notebook():
             made.open()
@@ -350,13 +368,18 @@ class Run:
         forces: Forces = None,
         size: tuple[float, float] | None = None,
     ) -> Drawing:
-        """A picture of the run at the time t [s], for papers: figure(t).save("x.pdf"), or "x.svg".
+        """Draw the run at the time t [s], for example for a paper: figure(t).save("x.pdf"), or
+        "x.svg".
+
+        traces: paths to draw, from the start to t; given as in page().
+        forces: reactions to draw, as in page().
+        size: width and height [px]; 96 pixels are one inch.
 
         Between two samples, positions are interpolated by cubic polynomials with the recorded
-        velocities, and reactions linearly. traces: paths from the start to t. forces: as in page().
-        size: width and height [px], 96 per inch. The view holds the whole motion, so that pictures
-        at several times have the same scale; m.draw(run.q[k]) fits one configuration. Raises
-        ValueError for a time outside of the run and for a run without its mechanism.
+        velocities, and reactions are interpolated linearly. The frame of the picture is large
+        enough for the whole motion, so that pictures at several times have the same scale;
+        m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a time outside
+        of the run, and for a run without its mechanism.
         """
         motion = _motion.of_run(self, self._channels.values(), traces, forces)
         time = number(t, "t")
@@ -377,15 +400,18 @@ class Run:
         forces: Forces = None,
         progress: Progress = True,
     ) -> None:
-        """Write a movie of the run: .mp4 by the program ffmpeg, or .gif by Pillow.
+        """Write a movie of the run. The program ffmpeg writes .mp4 files, and Pillow writes .gif
+        files.
 
-        fps: frames per second of the movie; delays in a GIF are rounded to 1/100 s. speed: seconds
-        of the run per second of the movie. size: width and height [px]. traces, forces and the
-        interpolation between samples: as in figure(). progress: True shows a bar in a terminal or a
-        notebook; a function progress(t) is called after each frame.
+        fps: frames per second of the movie. In a GIF the time between frames is rounded to 1/100 s.
+        speed: seconds of the run per second of the movie.
+        size: width and height [px].
+        traces, forces: as in figure(), which also describes the interpolation between samples.
+        progress: True shows a bar in a terminal or a notebook. A function progress(t) is called
+            after each frame.
 
-        Raises ImportError without Matplotlib, RuntimeError without ffmpeg, ValueError for
-        other suffixes and for a run without its mechanism.
+        Raises ImportError without Matplotlib, RuntimeError without ffmpeg, and ValueError for other
+        suffixes and for a run without its mechanism.
         """
         motion = _motion.of_run(self, self._channels.values(), traces, forces)
         movies.write(self, motion, path, fps, speed, size, progress)
@@ -396,13 +422,13 @@ def _place(body: Body) -> Place:
 
 
 def _common(names: list[str]) -> str:
-    """The name of the channel that all these columns belong to, or ""."""
+    """Return the name of the channel to which all these columns belong, or "" if there is none."""
     channels = {name.rpartition("[")[0] or name for name in names}
     return channels.pop() if len(channels) == 1 else ""
 
 
 def _axes(count: int, given: Any) -> list[Axes]:
-    """Matplotlib axes, one for each unit: the given axes, or those of a new figure."""
+    """Return Matplotlib axes, one for each unit: the given axes, or those of a new figure."""
     if given is not None:
         found = list(np.ravel(given))
         if len(found) != count:

@@ -59,11 +59,11 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
 BRANCHES = {value: name for name, value in names(_abi.baum_branch, "BAUM_BRANCH_").items()}
-AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
+AT_ONCE = 0.01  # [s] a call that takes less time than this needs no second thread
 
 
 def _word(words: Mapping[str, int], label: str) -> Callable[[Any], int]:
-    """A function that converts one of these words to its value."""
+    """Return a function that converts one of these words to its value."""
 
     return lambda value: word(words, value, label)
 
@@ -105,7 +105,7 @@ CONVERT: dict[str, Callable[[Any], Any]] = {
 
 
 def _status_of(error: BaseException) -> Status:
-    """The Status of a run that has ended with this exception."""
+    """Return the Status of a run that has ended with this exception."""
     if isinstance(error, Error):
         return error.status
     interrupted = isinstance(error, KeyboardInterrupt)
@@ -119,7 +119,8 @@ def _check_names(options: Iterable[str], known: Sequence[str]) -> None:
 
 
 def make_options(method: Any, values: Mapping[str, Any]) -> Any:
-    """The library's options from keyword arguments; None keeps a default."""
+    """Make the options of the library from keyword arguments. An argument that is None keeps the
+    default."""
     _check_names(values, [*CONVERT, "row_gains"])
     options = default(_abi.baum_simulation_options)
     if isinstance(method, (str, Integrator)):
@@ -136,7 +137,7 @@ def make_options(method: Any, values: Mapping[str, Any]) -> Any:
 
 
 def _progress(live: Live) -> Any:
-    """A progress function for the library."""
+    """Make a progress function for the library."""
 
     def call(simulation: Any, t: float, user: Any) -> int:
         try:
@@ -149,7 +150,7 @@ def _progress(live: Live) -> Any:
 
 
 def row_factors(mechanism: Mechanism, factors: Any) -> Array:
-    """Gain factors of all rows (nc) from the factors of some joints."""
+    """Return the gain factors of all rows (nc) from the factors of some joints."""
     if not hasattr(factors, "items"):
         raise TypeError(f"row_gains: {{joint: factor}} is wanted, not {factors!r}")
     values = np.ones(mechanism.sizes.nc)
@@ -165,7 +166,7 @@ def row_factors(mechanism: Mechanism, factors: Any) -> Array:
 
 
 def _checked(progress: Any) -> Any:
-    """Check the option progress, which is a function, True for a bar, or None."""
+    """Check the option progress: a function, True for a bar, or None."""
     if progress is None or progress is False:
         return None
     if progress is not True and not callable(progress):
@@ -174,8 +175,8 @@ def _checked(progress: Any) -> Any:
 
 
 def takes_options(method: Method) -> Method:
-    """Decorate a method that passes **options to Simulation: show these options in its
-    signature."""
+    """Decorate a method that passes **options to Simulation, so that its signature shows these
+    options."""
     own = inspect.signature(method)
     options = [
         parameter
@@ -198,46 +199,51 @@ def takes_options(method: Method) -> Method:
 class Simulation(_calls.Closing):
     """One run of a frozen mechanism.
 
-    integrator: a name, and the option that it needs:
+    integrator: a name from this list. baum.integrators() states their orders and formulations.
         "euler", "semi_implicit_euler", "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle",
-        "generalized_alpha"                  step
-        "dp5", "rk8"                         step or rtol
-        "cvode_adams", "cvode_bdf", "ida"    rtol
-        "kinematics"                         neither: drivers prescribe all degrees of freedom
-        baum.integrators() lists them with order and formulations.
-    step: [s] > 0. rtol: [-] > 0, < 1, relative to the scales of q and v, for the local error.
-    atol: [unit of the coordinate] >= 0, added to rtol times the scale, default none. max_step:
-        longest variable step [s] > 0, default none. Set it if forces start late.
-    formulation: "default" is the first formulation that the integrator offers; "unstabilized",
-        "baumgarte", "projection"; with "ida" also "index2", "ggl" and "index3"; "rattle" and
-        "generalized_alpha" have "index3" only.
-    gains: for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(), deadbeat(),
-        best_damping() or auto(); None is the rule of the integrator. row_gains: {joint or its name:
-        factor on alpha and beta}, a number or one for each row of the joint. allow_unstable: run
-        with gains that are known to be unstable.
+        "generalized_alpha"                  need the option step
+        "dp5", "rk8"                         need the option step or rtol
+        "cvode_adams", "cvode_bdf", "ida"    need the option rtol
+        "kinematics"                         needs neither; drivers prescribe the whole motion
+    step: length of a fixed step [s], positive.
+    rtol: tolerance of the local error [-], between 0 and 1, relative to the scales of q and v.
+    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale; by
+        default none.
+    max_step: longest variable step [s], by default none. Set it if forces begin late.
+    formulation: "default" is the first formulation that the integrator offers. Others are
+        "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
+        "index3". "rattle" and "generalized_alpha" offer only "index3".
+    gains: gain rule for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(),
+        deadbeat(), best_damping() or auto(). None is the default rule of the integrator.
+    row_gains: factors on alpha and beta, as a dict from joints or their names to a number, or to
+        one number for each row of the joint.
+    allow_unstable: True accepts gains that are known to be unstable.
     tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
-        and multipliers [-] > 0. tolerance_lambda: finite only for "ida" with "baumgarte" or
-        "unstabilized".
-    start_time: [s]. start: "assemble" closes the joints first; "exact" refuses a design
-    configuration that violates constraints; "as_given" accepts it without assembly. solver: "auto",
-    "klu", "qr" or "block". check_derivatives: compare the derivatives of your
-        functions with differences first. max_steps: number of steps after which a call fails.
-    energy_account: record the works that `energy_account` and its channel report.
-    error_check: estimate the error of the motion by a second integration
-        (counters.error_estimate), and warn if it is large. Without this option, runs with fixed
-        steps are checked only when the sum of their local errors is large enough to matter.
-    progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
-        A function progress(t) is called every progress_interval seconds of wall time, and cancels
-        the run if it returns a true value.
+        and multipliers [-], positive. tolerance_lambda may be finite only for "ida" with
+        "baumgarte" or "unstabilized".
+    start_time: [s].
+    start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
+        constraints. "as_given" accepts it and does not assemble.
+    solver: "auto", "klu", "qr" or "block".
+    check_derivatives: True first compares the derivatives of your functions with differences.
+    max_steps: number of steps after which a call fails.
+    energy_account: True records the works for `energy_account` and its channel.
+    error_check: True estimates the error of the motion by a second integration
+        (counters.error_estimate), and warns if the error is large. Without this option, a run with
+        fixed steps does so only if the sum of its local errors becomes large enough to matter.
+    progress: True shows a bar in a terminal or a notebook, except for step(), which does not know
+        its end. A function progress(t) is called every progress_interval seconds of wall time. It
+        cancels the run if it returns a true value.
 
-    Warnings of the run become Python warnings: subclasses of baum.Warning, and of
-    baum.DoubtWarning if the motion may be wrong.
+    Warnings of the run become Python warnings of subclasses of baum.Warning. If the motion may be
+    wrong, the class is also a subclass of baum.DoubtWarning.
 
-    Use it in a `with` block to free its memory at the end of the block. One thread at a time may
-    use it, except for cancel().
+    In a `with` block, the memory of the run is freed at the end of the block. Only one thread at a
+    time may use a run, except that any thread may call cancel().
 
     Errors: TypeError and ValueError for options of a wrong type or unknown words; baum.Error for
-    options that the library refuses, and for a mechanism that is not frozen or cannot be assembled.
+        options that the library refuses, and for a mechanism that is not frozen or cannot be
+        assembled.
     """
 
     def __init__(
@@ -267,7 +273,9 @@ class Simulation(_calls.Closing):
         error_check: bool = False,
     ) -> None:
         given = locals()
-        struct = make_options(integrator, {name: given[name] for name in CONVERT})
+        kept = Simulation.__init__.__kwdefaults__ or {}
+        changed = {name: given[name] for name in CONVERT if given[name] is not kept[name]}
+        struct = make_options(integrator, changed)
         self.mechanism = mechanism
         self._own_progress = _checked(progress)
         self._own_watcher: Watcher = None if progress is True else self._own_progress
@@ -279,18 +287,23 @@ class Simulation(_calls.Closing):
         self._event_functions: list[Any] = []
         self._warned: dict[int, int] = {}
         self._seconds_per_step: float | None = None
+        self._time_limit = math.inf
         if row_gains is not None:
             factors = row_factors(mechanism, row_gains)
             struct.row_gains = factors.ctypes.data
             struct.row_gain_count = len(factors)
         out = ctypes.c_void_p()
-        create = lib.baum_simulation_create
-        _calls.interruptible(
-            _calls.make, create, mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
-        )
+        arguments = mechanism.handle, ctypes.byref(struct), ctypes.byref(out)
+        if mechanism.is_quick:
+            _calls.make(lib.baum_simulation_create, *arguments)
+        else:
+            _calls.interruptible(_calls.make, lib.baum_simulation_create, *arguments)
         self._owner = _calls.Handle(_calls.made(out), lib.baum_simulation_destroy, "simulation")
         self._sizes = mechanism.sizes
         self._warn()
+
+    def __reduce__(self) -> Any:
+        return self._owner.__reduce__()  # refuses
 
     def __repr__(self) -> str:
         return (
@@ -302,20 +315,22 @@ class Simulation(_calls.Closing):
     def advance_to(self, t: Scalar, progress: Progress = None) -> Status:
         """Advance to the time t [s], forward or backward.
 
-        progress: as the option, for this call. Returns the Status: OK, WARNED, STOP_EVENT or
-        STOP_CANCELLED. Raises baum.Error if the run fails; it then keeps its last good step.
+        progress: as the option, for this call only.
+
+        Returns the Status: OK, WARNED, STOP_EVENT or STOP_CANCELLED. Raises baum.Error if the run
+            fails. The run then stays at the end of its last successful step.
         """
         end = number(t, "t")
-        return self._run(progress, lib.baum_simulation_advance_to, end, end=end)
+        return self._run(progress, lib.baum_simulation_advance_to, lambda: (end,), end=end)
 
     def step(self, count: int = 1, progress: Progress = None) -> Status:
-        """Take `count` whole steps forward. Returns and raises the same as advance_to()."""
+        """Take `count` whole steps forward in time. Returns and raises the same as
+        advance_to()."""
         count = integer(count, "count", 64)
         begun = time.perf_counter()
         try:
-            return self._run(
-                progress, lib.baum_simulation_step, count, at_once=self._is_short(count)
-            )
+            at_once = self._is_short(count)
+            return self._run(progress, lib.baum_simulation_step, lambda: (count,), at_once=at_once)
         finally:
             self._seconds_per_step = (time.perf_counter() - begun) / max(count, 1)
 
@@ -329,37 +344,42 @@ class Simulation(_calls.Closing):
         return self.mechanism.has_python or bool(self._event_functions)
 
     def sample(self, times: ArrayLike, record: ChannelLike | Sequence[ChannelLike] = ()) -> Run:
-        """Advance through times (n) [s] and return a Run with q, v and the channels in `record`,
-        one or several, at each of them.
+        """Advance through times (n) [s]. Return a Run with q, v and the channels in `record` at
+        each time.
 
-        Raises the same as advance_to(). Exceptions, also KeyboardInterrupt and those of your
-        functions, have the attribute `run` with the samples recorded so far.
+        record: one channel or several channels.
+
+        Raises the same as advance_to(). All exceptions, including KeyboardInterrupt and those of
+        your own functions, have the attribute `run` with the samples recorded so far.
         """
         given = vector(np.atleast_1d(times), None, "times")
+        counts: list[ctypes.c_int64] = []
         channels = [record] if isinstance(record, (str, Channel)) else record
         layout = self._layout(
             [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in channels)]
         )
         rows = layout.rows(len(given))
-        done = ctypes.c_int64()
-        arguments = (
-            address(given),
-            len(given),
-            layout.structs,
-            layout.count,
-            address(rows),
-            ctypes.byref(done),
-        )
+
+        def done() -> int:
+            return sum(count.value for count in counts)
+
+        def remaining() -> tuple[Any, ...]:
+            first = done()
+            counts.append(ctypes.c_int64())
+            left, to = given[first:], rows[first:]
+            into = ctypes.byref(counts[-1])
+            return address(left), len(left), layout.structs, layout.count, address(to), into
+
         try:
             end = float(given[-1]) if len(given) else None
-            status = self._run(None, lib.baum_simulation_sample, *arguments, end=end)
+            status = self._run(None, lib.baum_simulation_sample, remaining, end=end)
         except BaseException as error:
             if not self._owner.busy:
-                recorded = self._make_run(layout, given, rows, done.value, _status_of(error))
+                recorded = self._make_run(layout, given, rows, done(), _status_of(error))
                 recorded.failure = str(error)
                 error.run = recorded  # type: ignore[attr-defined]
             raise
-        return self._make_run(layout, given, rows, done.value, status)
+        return self._make_run(layout, given, rows, done(), status)
 
     def _make_run(
         self, layout: Layout, times: Array, rows: Array, done: int, status: Status
@@ -373,9 +393,9 @@ class Simulation(_calls.Closing):
     def set_state(self, t: Scalar, q: ArrayLike, v: ArrayLike | None = None) -> None:
         """Replace the time t [s] and the state q (nq), v (nv).
 
-        The option `start` decides how constraint violations are handled. v, or parts of it, may be
-        None or NaN with start="assemble": assembly then chooses them. Raises baum.Error if the
-        state cannot be assembled; the run is then unchanged.
+        If the new state violates the constraints, the option `start` decides what happens. With
+        start="assemble", v may be None, and entries of v may be NaN; assembly then determines them.
+        Raises baum.Error if the state cannot be assembled. The run is then unchanged.
         """
         nq, nv, _ = self._sizes
         q = vector(q, nq, "q")
@@ -384,19 +404,23 @@ class Simulation(_calls.Closing):
         self._warn()
 
     def set_input(self, input: InputLike, value: Scalar) -> None:
-        """Set an input from the present time on. The value holds until it is set again.
+        """Set an input from the present time on. The input keeps the value until it is set again.
 
-        Variable-step methods restart; those with several steps (CVODE, IDA) then take small steps.
-        A loop that sets inputs often runs best with a fixed step, or with "rk8".
+        Variable-step methods restart, and CVODE and IDA then begin with small steps. A loop that
+        sets inputs therefore often runs fastest with a fixed step, or with "rk8".
         """
         found = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
 
     def schedule_input(self, input: InputLike, times: ArrayLike, values: ArrayLike) -> None:
-        """Set an input to values[k] from time times[k] [s] on; until then it keeps its value.
+        """Schedule an input: from time times[k] [s] on, it has the value values[k]. Before times[0]
+        it keeps its present value.
 
-        times: (n) rising. values: (n). Steps end at these times, and multistep methods restart
-        there. set_input() ends the schedule.
+        times: (n) rising.
+        values: (n).
+
+        Steps end at these times, and multistep methods restart there. set_input() ends the
+        schedule.
         """
         found = self.mechanism.find("input", input)
         at = vector(np.atleast_1d(times), None, f"{found.name}: times")
@@ -406,7 +430,7 @@ class Simulation(_calls.Closing):
 
     @property
     def inputs(self) -> dict[str, float]:
-        """Present values of all inputs by name, a copy."""
+        """A copy of the present values of all inputs, by name."""
         return {
             input.name: lib.baum_simulation_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
@@ -419,12 +443,15 @@ class Simulation(_calls.Closing):
         rate: Scalar = 0.0,
         acceleration: Scalar = 0.0,
     ) -> None:
-        """Give a driver another law in this run, until it is set again. From the present time t0
-        on, its coordinate is value + rate (t - t0) + acceleration (t - t0)^2 / 2.
+        """Give a driver another law in this run, until the next call for this driver. From the
+        present time t0 on, it prescribes value + rate (t - t0) + acceleration (t - t0)^2 / 2.
 
-        value: [rad] or [m]. rate: [rad/s] or [m/s]. acceleration: [rad/s^2] or [m/s^2]. Start value
-        at the present coordinate: a jump in value or rate is a constraint violation, which the
-        formulation treats like any other.
+        value: [rad] or [m].
+        rate: [rad/s] or [m/s].
+        acceleration: [rad/s^2] or [m/s^2].
+
+        To avoid a jump, let value be the present coordinate, and rate its present velocity. A jump
+        is a constraint violation, and the formulation determines what happens to it.
         """
         found = self.mechanism.find("joint", driver)
         law = {"value": value, "rate": rate, "acceleration": acceleration}
@@ -443,13 +470,18 @@ class Simulation(_calls.Closing):
         tolerance: Scalar | None = None,
         coordinate: Coordinate = "first",
     ) -> int:
-        """Add an event from the present state on, and return its number.
+        """Add an event, and return its number. The run looks for the event from the present state
+        on.
 
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
-        function(t, q, v) of the whole state passes zero. direction: 1 rising, -1 falling in time, 0
-        both. terminal: the call ends with Status.STOP_EVENT at the event, and the next call
-        continues; otherwise it is only recorded in `events`. name: for messages. tolerance: of the
-        time [s], default its rounding. coordinate: which one of `joint`, as in driver().
+        function(t, q, v) passes zero. The function receives q and v of the whole mechanism.
+
+        direction: 1 only when the function rises in time, -1 only when it falls, 0 both.
+        terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
+            call continues. False only records the event in `events`.
+        name: name of the event in messages.
+        tolerance: accuracy of the time of the event [s], by default the rounding error of the time.
+        coordinate: which coordinate of `joint`, as in Mechanism.driver().
         """
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()
@@ -470,7 +502,7 @@ class Simulation(_calls.Closing):
 
     @property
     def events(self) -> list[Event]:
-        """Events that have happened so far, at most the last 1024."""
+        """A list of the events that have happened so far. It contains at most the last 1024."""
         count = lib.baum_simulation_event_count(self._owner.address)
         record = _abi.baum_event_record()
         happened = []
@@ -481,10 +513,10 @@ class Simulation(_calls.Closing):
         return happened
 
     def save(self) -> bytes:
-        """The state of the run as bytes, for restore() in this or another process.
+        """Return the state of the run as bytes, for restore() in this process or another one.
 
-        Integrator history is not saved; saving discards it just as restoring does, so that both
-        runs continue identically, bit for bit.
+        The past steps that an integrator remembers are not saved. Saving discards them, just as
+        restoring does, so that both runs continue identically, bit for bit.
         """
         size = ctypes.c_size_t()
         self._call(lib.baum_simulation_save, None, 0, ctypes.byref(size))
@@ -494,26 +526,27 @@ class Simulation(_calls.Closing):
 
     def restore(self, saved: bytes | bytearray | memoryview) -> None:
         """Restore a state from save() of this run, or of another run with the same mechanism and
-        options.
+        the same options.
 
-        Raises baum.Error with Status.ERR_BUFFER if the bytes are anything else. Warnings of the
-        saved run are not repeated.
+        Raises baum.Error with Status.ERR_BUFFER for other bytes. Python warnings of the saved run
+        are not issued again.
         """
         given = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, given, len(given))
         self._warned = {warning.code: warning.count for warning in self.warnings}
 
     def continue_from(self, other: Simulation) -> None:
-        """Continue from the present state of another run of the same mechanism, even one that has
-        failed. State, inputs and driver laws come from that run; this run keeps its own options."""
+        """Continue with the motion of another run of the same mechanism, even if that run has
+        failed. This run takes over the state, the inputs and the laws of drivers of the other run,
+        and keeps its own options."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
         self._call(lib.baum_simulation_continue, other._owner.address)
         self._warn()
 
     def cancel(self) -> None:
-        """Ask the run to stop after its present step. May be called from any thread or signal
-        handler."""
+        """Ask the run to stop after its present step. Any thread and any signal handler may call
+        this."""
         self._live.cancelled = True
         lib.baum_simulation_cancel(self._owner.address)
 
@@ -525,11 +558,13 @@ class Simulation(_calls.Closing):
         self,
         progress: Progress,
         function: Any,
-        *arguments: Any,
+        arguments: Callable[[], tuple[Any, ...]],
         at_once: bool = False,
         end: float | None = None,
     ) -> Status:
-        """Call a function that advances the run, to the time `end` if it is known."""
+        """Call a function that advances the run. `end` is the time at which it will end, if that is
+        known. arguments() returns the arguments for everything that has not been done yet. at_once
+        tells that the call is short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
@@ -540,12 +575,7 @@ class Simulation(_calls.Closing):
             live.begin(self._owner.address)
         status: Status
         try:
-            if at_once:
-                status = self._owner.call(function, *arguments)
-            else:
-                status = _calls.interruptible(
-                    self._owner.call, function, *arguments, cancel=self.cancel
-                )
+            status = self._advance(function, arguments, at_once, end is not None)
         except Error:
             self._warn()
             raise
@@ -559,8 +589,31 @@ class Simulation(_calls.Closing):
             live.returned(self._owner)
         return status
 
+    def _advance(
+        self, function: Any, arguments: Callable[[], tuple[Any, ...]], short: bool, divisible: bool
+    ) -> Status:
+        """Make a call that advances the run: in this thread if it is short, otherwise in a second
+        thread. A divisible call is begun in this thread, where it has the time AT_ONCE, which is
+        too short for Python callbacks."""
+        if short:
+            return self._owner.call(function, *arguments())
+        if divisible and self._live.is_silent(AT_ONCE) and not self._has_python:
+            self._limit_time(AT_ONCE)
+            status = self._owner.call(function, *arguments())
+            if status != Status.STOP_TIME:
+                return status
+        self._limit_time(math.inf)
+        call = self._owner.call
+        last: Status = _calls.interruptible(call, function, *arguments(), cancel=self.cancel)
+        return last
+
+    def _limit_time(self, seconds: float) -> None:
+        if seconds != self._time_limit:
+            self._owner.call(lib.baum_simulation_set_time_limit, seconds)
+            self._time_limit = seconds
+
     def _call(self, function: Any, *arguments: Any) -> Any:
-        """Make a short call, in a second thread only if it may run Python callbacks."""
+        """Make a short call. If it may run Python callbacks, make it in a second thread."""
         if self._has_python:
             return _calls.interruptible(self._owner.call, function, *arguments)
         return self._owner.call(function, *arguments)
@@ -575,17 +628,18 @@ class Simulation(_calls.Closing):
         paused: bool = False,
         browser: bool = True,
     ) -> View:
-        """Open a page in the browser that follows this run, at up to 60 frames a second. Notebooks
-        show the returned baum.View.
+        """Open a page in the browser that follows this run, at up to 60 frames a second. A notebook
+        shows the returned baum.View.
 
-        traces: paths to draw, as in Run.page(). paused: the run waits until you start it in the
-        page. browser: False opens nothing; visit View.url.
+        traces: paths to draw, as in Run.page().
+        paused: True lets the run wait until you start it in the page.
+        browser: False opens no browser. You can then visit View.url yourself.
 
         The page has buttons that pause the run, take one step of the integrator, and resume the
-        run. While the run is paused, the call that advances it waits; Ctrl-C and cancel() end the
-        waiting. The run goes on when its pages are closed. A view ends with close(), at the end of
-        a `with` block, or with the simulation. The server answers only programs of this computer
-        that know the secret in its address.
+        run. While the run is paused, the call that advances it waits. Ctrl-C and cancel() end the
+        waiting. If all pages of the run are closed, the run continues. A view ends with close(), at
+        the end of a `with` block, or when the simulation ends. Its server answers only programs on
+        this computer that know the secret in its address.
         """
         return open_view(
             self, self._live, self._owner, title, traces, truth(paused, "paused"), browser
@@ -598,17 +652,17 @@ class Simulation(_calls.Closing):
 
     @property
     def q(self) -> Array:
-        """Present positions (nq), a copy."""
+        """A copy of the present positions (nq)."""
         return self._copy(lib.baum_simulation_q, self._sizes.nq)
 
     @property
     def v(self) -> Array:
-        """Present velocities (nv), a copy."""
+        """A copy of the present velocities (nv)."""
         return self._copy(lib.baum_simulation_v, self._sizes.nv)
 
     def _copy(self, function: Any, size: int) -> Array:
         place = function(self._owner.address)
-        return np.array((ctypes.c_double * size).from_address(place))
+        return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()
 
     @overload
     def get(self, channel: ChannelLike, /) -> Array: ...
@@ -617,8 +671,8 @@ class Simulation(_calls.Closing):
         self, one: ChannelLike, two: ChannelLike, /, *more: ChannelLike
     ) -> tuple[Array, ...]: ...
     def get(self, *channels: ChannelLike) -> Array | tuple[Array, ...]:
-        """Channels at the present state: an array (columns) for one channel, a tuple of arrays for
-        several. Raises KeyError for a channel that does not exist."""
+        """Read channels at the present state. Return an array (columns) for one channel, and a
+        tuple of arrays for several. Raises KeyError for a channel that does not exist."""
         found = [self.mechanism.channel(channel) for channel in channels]
         layout = self._layout(found)
         row = layout.rows(1)
@@ -634,22 +688,24 @@ class Simulation(_calls.Closing):
 
     @property
     def unique_multipliers(self) -> NDArray[np.bool_]:
-        """Whether each multiplier is unique at the present state: one bool per row (nc)."""
+        """Determine which multipliers are unique at the present state. Return one bool for each row
+        (nc)."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)
         return np.array(unique, dtype=bool)
 
     @property
     def energy_account(self) -> EnergyAccount:
-        """The energy account at the present state. Raises baum.Error without
-        energy_account=True."""
+        """The energy account at the present state. Raises baum.Error unless the option
+        energy_account is True."""
         struct = _abi.baum_energy_account()
         self._call(lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct))
         return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
 
     @property
     def near_singular(self) -> list[NearSingular]:
-        """Intervals in which the run was near a singular configuration, at most the first 64."""
+        """A list of the intervals in which the run was near a singular configuration. It contains
+        at most the first 64."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()
@@ -663,19 +719,23 @@ class Simulation(_calls.Closing):
     @property
     def counters(self) -> Counters:
         """What the run has cost and how well it has kept the constraints."""
-        struct = _abi.baum_counters()
-        self._call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
+        struct = self._read_counters()
         values = [getattr(struct, name) for name in Counters._fields]
         return Counters._make(
             self.mechanism.find("joint", value) if isinstance(value, ctypes.Structure) else value
             for value in values
         )
 
+    def _read_counters(self) -> _abi.baum_counters:
+        struct = _abi.baum_counters()
+        self._owner.call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
+        return struct
+
     @property
     def warnings(self) -> list[Warning]:
-        """A baum.Warning for each kind of warnings so far, with its times and count."""
+        """A list with a baum.Warning for each kind of warnings so far."""
         found = []
-        for k in range(self.counters.warnings):
+        for k in range(self._read_counters().warnings):
             out = _abi.baum_warning()
             self._owner.call(lib.baum_simulation_warning, k, ctypes.byref(out), ctypes.sizeof(out))
             found.append(as_warning(out, self.mechanism.find("joint", out.joint)))
@@ -691,8 +751,8 @@ class Simulation(_calls.Closing):
 
     @property
     def explain(self) -> str:
-        """The methods of the run in words: formulation, integrator, gains and their reason,
-        stability, solver, redundancy, tolerances."""
+        """An explanation of the run in words: its formulation, its integrator, its gains and the
+        reason for them, their stability, the solver, redundant rows and tolerances."""
         return text(lib.baum_simulation_explain(self._owner.address))
 
     @property

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Accuracy against cost: many runs of one mechanism, the cost of each, and a recommendation."""
+"""Studies measure accuracy against cost: a study makes many runs of one mechanism, measures the
+error and the cost of each, and recommends a setting."""
 
 from __future__ import annotations
 
@@ -42,9 +43,12 @@ def _swap(words: Mapping[str, int]) -> dict[int, str]:
 
 
 class ReferenceSamples(NamedTuple):
-    """Samples of the reference of a study; NaN where not known.
+    """Samples of the reference of a study. Values that are not known are NaN.
 
-    t: times (n) [s]. q: (n x nq). v: (n x nv). lambda_: (n x nc).
+    t: times (n) [s].
+    q: positions (n x nq).
+    v: velocities (n x nv).
+    lambda_: multipliers (n x nc).
     """
 
     t: Array
@@ -54,8 +58,11 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and simulation(): m.simulate(t, **best). why: the reason,
-    with the measured figures."""
+    """Options for Mechanism.simulate() and Mechanism.simulation(), which are passed as
+    m.simulate(t, **best).
+
+    why: the reason for the recommendation, with the measured figures.
+    """
 
     def __init__(self, options: Mapping[str, Any], why: str) -> None:
         super().__init__(options)
@@ -77,7 +84,7 @@ RULES = _swap(names(_abi.baum_gain_rule, "BAUM_GAINS_"))
 
 
 def _gains(struct: Any) -> Gains | None:
-    """The Gains of a struct; None for the integrator's default rule."""
+    """Return the Gains of a struct; None if they are the default rule of the integrator."""
     rule = RULES[struct.rule]
     if rule == "default":
         return None
@@ -85,7 +92,7 @@ def _gains(struct: Any) -> Gains | None:
 
 
 def _value(name: str, value: Any) -> Any:
-    """A field of a struct in the types of this package."""
+    """Convert a field of a struct to the types of this package."""
     if isinstance(value, bytes):
         return text(value)
     if name == "integrator":
@@ -111,37 +118,41 @@ def _cost(word: str) -> int:
 
 
 class Study(_calls.Closing):
-    """Many runs of one frozen mechanism from t0 to t1 [s].
+    """A study: many runs of one frozen mechanism from t0 to t1 [s] with different settings.
 
         best = baum.study(m, 0, 2).run().recommend(1e-6)
         print(best.why)
         run = m.simulate(t, **best)
 
-    error: channels or their names; the error is their largest difference from the reference,
-        divided by `unit`. By default all positions, with lengths relative to the characteristic
-        length and angles in radians.
-    reference, solution: a known motion, used instead of a reference computed by the study.
-        reference is (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time;
-        solution(t) returns (q, v) or (q, v, lambda_). digits: the number of digits that can be
-        trusted.
-    samples: number of times at which errors are measured, 2 to 1e6. repeats: largest number of runs
-        that measure the CPU time of an entry. entry_limit: largest CPU time of a run [s].
-        time_budget: largest wall time of one run() [s]. threads: default the number of processors,
-        but 1 for a mechanism with Python functions. energy_account: measure the works of the
-        stabilization. validate: run entries that may be recommended also over twice the span and
-        from perturbed starts.
-    file: path of a file that keeps the results, from which a later study continues.
-    grid: what run() adds to a study without settings: "quick", which takes seconds, or about a
-        minute with Python functions; or "full", about 25 times as long.
-    progress: by default a bar with an estimate of the time left, in a terminal or a notebook;
-        False: nothing. A function progress(done, total) is called after each entry; an entry counts
-        once for its error and once for its time. The function cancels the study if it returns a
-        true value. It may call cancel() and len() of the study, but no other method.
+    error: channels or their names. The error of a run is the largest difference of these channels
+        from the reference, divided by `unit`. By default it is the largest error of all positions,
+        with lengths relative to the characteristic length and angles in radians.
+    reference: a known motion, which replaces the reference that the study computes itself: (times,
+        q), (times, q, v) or (times, q, v, lambda_), with a row for each time.
+    solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
+    digits: the number of digits of the known motion that can be trusted.
+    samples: number of times at which errors are measured, 2 to 1e6.
+    repeats: largest number of runs that measure the CPU time of an entry.
+    entry_limit: largest CPU time of a run [s].
+    time_budget: largest wall time of one call of run() [s].
+    threads: number of threads, by default the number of processors, but 1 for a mechanism with
+        Python functions.
+    energy_account: True measures the work that stabilization and projection do on the mechanism.
+    validate: True runs entries that may be recommended also over twice the span and from perturbed
+        starts.
+    file: path of a file in which the study keeps its results. A later study can continue from it.
+    grid: which settings run() adds to a study that has none. "quick" takes seconds, or about a
+        minute with Python functions. "full" takes about 25 times as long.
+    progress: by default a bar in a terminal or a notebook, with an estimate of the time left; False
+        shows nothing. A function progress(done, total) is called after each entry. An entry counts
+        twice: once when its error is known, and once when its time is known. The function cancels
+        the study if it returns a true value. It may call cancel() and len() of the study, but no
+        other method.
 
-    Use it in a `with` block to free its memory and file at the end of the block.
+    In a `with` block, the memory and the file of the study are freed at the end of the block.
 
     Errors: TypeError and ValueError for arguments of a wrong type or unknown words; baum.Error for
-    values that the library refuses.
+        values that the library refuses.
     """
 
     def __init__(
@@ -209,7 +220,7 @@ class Study(_calls.Closing):
         return "<study, closed>" if self._owner.closed else f"<study of {len(self)} entries>"
 
     def _repr_html_(self) -> str:
-        """A table of the front for notebooks."""
+        """Show a table of the Pareto front in notebooks."""
         rows = [
             (entry.name, entry.error, entry.work, entry.cpu, entry.max_phi)
             for entry in (self.entries[k] for k in self.front())
@@ -224,7 +235,7 @@ class Study(_calls.Closing):
     # ---- what is studied -------------------------------------------------------------------------
 
     def _hold(self, kind: Any, function: Any) -> Any:
-        """A function pointer for the library that is kept alive as long as the study."""
+        """Make a function pointer for the library, and keep it alive as long as the study."""
         self._keep.append(kind(function))
         return self._keep[-1]
 
@@ -302,14 +313,16 @@ class Study(_calls.Closing):
         finest: Scalar | None = None,
         quick: bool = False,
     ) -> Study:
-        """Add the standard grid, or only its settings with one integrator or formulation. Returns
-        the study.
+        """Add the standard grid of settings, or only its settings with one integrator or one
+        formulation. Returns the study.
 
-        settings: steps or tolerances of each method, 1 to 64. constants: number of constant gains
-        in addition to the gain rules, 0 to 4. coarsest: longest step of methods of order 2 and
-        above [s], by default derived from the speed of the motion. finest: smallest rtol [-],
-        default 1e-13, or 1e-11 if derivatives are computed by differences. quick: the quick grid
-        with at most 5 settings of each integrator.
+        settings: number of steps or tolerances of each method, 1 to 64.
+        constants: number of constant gains in addition to the gain rules, 0 to 4.
+        coarsest: longest step of methods of order 2 and above [s]. By default it follows from the
+            speed of the motion.
+        finest: smallest rtol [-], by default 1e-13, or 1e-11 if derivatives are computed by
+            differences.
+        quick: True adds the quick grid, with at most 5 settings of each integrator.
         """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
@@ -330,8 +343,8 @@ class Study(_calls.Closing):
         return self
 
     def add_stress(self, integrator: str | Integrator | None = None) -> Study:
-        """Add stress settings of all integrators or of one: extreme steps, tolerances and gains.
-        Returns the study."""
+        """Add stress settings, which have extreme steps, tolerances and gains. They are those of
+        all integrators, or of one. Returns the study."""
         place = None if integrator is None else lookup(integrator).address
         self._long(lib.baum_study_add_stress, place)
         return self
@@ -339,11 +352,11 @@ class Study(_calls.Closing):
     # ---- running ---------------------------------------------------------------------------------
 
     def run(self) -> Study:
-        """Compute the reference and run the entries that are not done. Returns the study.
+        """Compute the reference, and run the entries that are not done. Returns the study.
 
-        A study without entries first adds its grid. If the reference cannot be trusted, or the time
-        budget is spent, a Python warning is issued. If a function of the mechanism raises, the
-        entry fails, and its message contains the exception.
+        A study without entries first adds its grid. A Python warning is issued if the reference
+        cannot be trusted, or if the time budget is spent. If a function of the mechanism raises an
+        exception, the entry fails, and its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -362,12 +375,12 @@ class Study(_calls.Closing):
         return self
 
     def cancel(self) -> None:
-        """Ask run() to stop. May be called from any thread."""
+        """Ask run() to stop. Any thread may call this."""
         lib.baum_study_cancel(self._owner.address)
 
     def _long(self, function: Any, *arguments: Any) -> tuple[Status, str]:
-        """Make a call that may take long, and return its message. An exception of a user function
-        is raised here, in whichever thread it occurred."""
+        """Make a call that may take long, and return its message. If a function of the user raises
+        an exception in any thread, raise it here."""
 
         def call() -> tuple[Status, str]:
             return self._owner.call(function, *arguments), _calls.message()
@@ -399,7 +412,8 @@ class Study(_calls.Closing):
 
     @property
     def methods(self) -> list[StudyMethod]:
-        """All methods, with the factor by which one more digit of accuracy increases the cost."""
+        """All methods. Among other figures they state by which factor one more digit of accuracy
+        increases the cost."""
         count = lib.baum_study_method_count(self._owner.address)
         return [
             self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
@@ -408,13 +422,13 @@ class Study(_calls.Closing):
 
     @property
     def reference(self) -> StudyReference:
-        """How far the reference can be trusted; known after run()."""
+        """How far the reference can be trusted. This is known after run()."""
         struct = _abi.baum_study_reference()
         found: StudyReference = self._read(lib.baum_study_reference_read, struct, StudyReference)
         return found
 
     def reference_samples(self) -> ReferenceSamples:
-        """The reference: t, q, v, lambda_."""
+        """The samples of the reference: t, q, v, lambda_."""
         count = self.reference.samples
         times = np.empty(count)
         arrays = [np.empty((count, size)) for size in self.mechanism.sizes]
@@ -431,36 +445,43 @@ class Study(_calls.Closing):
     # ---- answers ---------------------------------------------------------------------------------
 
     def front(self, cost: Cost = "work") -> list[int]:
-        """Indices of the entries on the Pareto front: no other entry is both cheaper and more
-        accurate. From cheap to accurate. cost: "work", the same on every machine, or "cpu"."""
+        """Return the indices of the entries on the Pareto front, from cheap to accurate. No other
+        entry is both cheaper and more accurate than an entry on the front.
+
+        cost: "work", which is the same on every machine, or "cpu".
+        """
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
         self._owner.call(lib.baum_study_front, _cost(cost), len(self), entries, ctypes.byref(count))
         return list(entries[: count.value])
 
     def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
-        """The cost of the method with this index at an error [-]: evaluations for "work", CPU time
-        [s] for "cpu"."""
+        """Return what a method costs for a given error [-].
+
+        method: index of the method.
+        cost: "work" gives evaluations, "cpu" gives CPU time [s].
+        """
         out = ctypes.c_double()
         given = integer(method, "method"), number(error, "error"), _cost(cost)
         self._owner.call(lib.baum_study_cost_at, *given, ctypes.byref(out))
         return out.value
 
     def compare(self, a: int, b: int, error: Scalar, cost: Cost = "work") -> float:
-        """The cost of method a divided by the cost of method b (indices), at the same error [-]."""
+        """Return the cost of method a divided by the cost of method b, for the same error [-]. a
+        and b are indices."""
         out = ctypes.c_double()
         given = integer(a, "a"), integer(b, "b"), number(error, "error"), _cost(cost)
         self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """The cheapest setting whose error is at most this [-], also from perturbed starts and over
-        twice the span. Raises baum.Error if there is none."""
+        """Return the cheapest setting whose error is at most `error` [-], also from perturbed
+        starts and over twice the span. Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
-        """The most accurate setting whose run takes at most this CPU time [s] on this machine.
-        Raises baum.Error if there is none."""
+        """Return the most accurate setting whose run takes at most this CPU time [s] on this
+        machine. Raises baum.Error if there is none."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
     def _answer(self, function: Any, *arguments: Any) -> Recommendation:
@@ -473,7 +494,7 @@ class Study(_calls.Closing):
         return Recommendation(self._keywords(best), text(why.value))
 
     def _keywords(self, best: Any) -> dict[str, Any]:
-        """The options that differ from the defaults, as keywords of Simulation."""
+        """Return the options that differ from the defaults, as keyword arguments of Simulation."""
         plain = default(_abi.baum_simulation_options)
         found = {"integrator": _value("integrator", best.integrator)}
         words = {"formulation": FORMULATIONS, "start": STARTS, "solver": SOLVERS}
@@ -507,7 +528,7 @@ class Study(_calls.Closing):
     # ---- reports ---------------------------------------------------------------------------------
 
     def report(self, form: str = "text", title: str | None = None) -> str:
-        """A report as a string. form: "text", "csv", "json", or "page" for HTML."""
+        """Return a report as a string. form: "text", "csv", "json", or "page" for HTML."""
         how = (_form(form), _title(title))
         size = ctypes.c_size_t()
         self._owner.call(lib.baum_study_print, *how, None, 0, ctypes.byref(size))
@@ -517,8 +538,8 @@ class Study(_calls.Closing):
         return room.value.decode(errors="replace")
 
     def write(self, path: str | os.PathLike[str], title: str | None = None) -> None:
-        """Write a report to a file, in the form of its suffix: .txt, .csv, .json or .html. An
-        existing file is replaced when the new one is complete."""
+        """Write a report to a file. The suffix determines its form: .txt, .csv, .json or .html. If
+        the file exists, it is replaced when the new one is complete."""
         suffix = os.path.splitext(os.fspath(path))[1]
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Units of the columns of channels: "-" for a pure number, "" if the unit depends on user
-functions."""
+"""Determine the units of the columns of channels. "-" stands for a pure number. A unit is "" if it
+depends on functions of the user."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SPATIAL_FORCE = ("N",) * 3 + ("N m",) * 3
 
 
 def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
-    """The unit of each column."""
+    """Return the unit of each column of a channel."""
     quantity = channel.struct.quantity
     if quantity in _OF_BODY:
         body = mechanism.find("body", channel.struct.body)
@@ -59,7 +59,8 @@ _OF_BODY = {
 
 
 def _of_body(body: Body, order: int) -> Units:
-    """Units of positions (order 0) or of their derivatives by time."""
+    """Return the units of the positions of a body (order 0), or of their first or second time
+    derivatives."""
     if body.kind is None:  # ground
         return ()
     count = body.nv if order else body.nq
@@ -79,7 +80,8 @@ def _coordinate(joint: Joint, name: str) -> str:
 
 
 def _rows(joint: Joint) -> Units:
-    """Units of the rows of a joint. Couplings and drivers have units of coordinates."""
+    """Return the units of the rows of a joint. The rows of couplings and drivers have the units of
+    coordinates."""
     assert joint.kind is not None
     if joint.kind.units:
         return joint.kind.units
@@ -92,13 +94,13 @@ def _rows(joint: Joint) -> Units:
 
 
 def _driven(joint: Joint) -> Kind | None:
-    """The kind of the joint that a driver moves."""
+    """Return the kind of the joint on which a driver acts."""
     driven: Joint | None = joint.definition.get("joint")
     return None if driven is None else driven.kind
 
 
 def _reaction(joint: Joint, columns: int) -> Units:
-    """Units of force and moment, or of generalized forces on planar bodies."""
+    """Return the units of force and moment, or of generalized forces on planar bodies."""
     assert joint.kind is not None
     moved = joint.kind if joint.kind.units else _driven(joint)
     if moved is not None and moved.is_spatial:

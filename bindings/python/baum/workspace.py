@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Evaluation of a frozen mechanism at a state, without a run."""
+"""Workspaces evaluate a frozen mechanism at a state, without a run."""
 
 from __future__ import annotations
 
@@ -21,13 +21,18 @@ _Q = _abi.baum_quantity
 
 
 class Workspace(_calls.Closing):
-    """Phi, J, nu, gamma, M, g, accelerations and more of a frozen mechanism at (t, q, v).
+    """Evaluates a frozen mechanism at a state (t, q, v): constraints, Jacobian, mass matrix,
+    forces, accelerations and more.
 
-    t: [s]. q: positions (nq). v: velocities (nv). Rows and columns are in the order of adding. One
-    thread at a time may use it.
+    t: time [s].
+    q: positions (nq).
+    v: velocities (nv).
+
+    Columns are in the order in which the bodies were added, and rows in the order of the joints.
+    Only one thread at a time may use a workspace.
 
     Errors: TypeError and ValueError for values of a wrong type or size; baum.Error if the library
-    cannot evaluate the state; exceptions of your own functions.
+        cannot evaluate the state; exceptions of your own functions.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
@@ -40,7 +45,7 @@ class Workspace(_calls.Closing):
         self._sizes = mechanism.sizes
 
     def _call(self, function: Any, *arguments: Any) -> None:
-        """Make a call, in a second thread only if it may run Python callbacks."""
+        """Make a call. If it may run Python callbacks, make it in a second thread."""
         if self.mechanism.has_python:
             _calls.interruptible(self._owner.call, function, *arguments)
         else:
@@ -49,7 +54,7 @@ class Workspace(_calls.Closing):
     def _evaluate(
         self, function: Any, shape: Any, t: Scalar, q: ArrayLike, v: ArrayLike | None = None
     ) -> Array:
-        """The array that a library function of (t, q) or (t, q, v) returns."""
+        """Return the array that a library function of (t, q) or (t, q, v) computes."""
         out: Array = np.empty(shape)
         state = [self._q(q)] if v is None else [self._q(q), self._v(v)]
         self._call(function, number(t, "t"), *map(address, state), address(out))
@@ -62,70 +67,75 @@ class Workspace(_calls.Closing):
         return vector(v, self._sizes.nv, "v")
 
     def set_input(self, input: InputLike, value: Scalar) -> None:
-        """Set an input. Until then it has its initial value."""
+        """Set an input. Before the first such call, the input has its initial value."""
         found = self.mechanism.find("input", input)
         self._owner.call(lib.baum_workspace_set_input, found.id, number(value, found.name))
 
     @property
     def inputs(self) -> dict[str, float]:
-        """Present values of all inputs by name, a copy."""
+        """A copy of the present values of all inputs, by name."""
         return {
             input.name: lib.baum_workspace_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
         }
 
     def design(self) -> tuple[Array, Array]:
-        """The design configuration q (nq) and the given velocities v (nv), NaN where free."""
+        """Return q (nq) of the design configuration, and v (nv). Velocities that are not given are
+        NaN."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
         self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Rates of positions q' = N(q) v (nq): v itself, unless positions are not a vector."""
+        """Return the time derivative of the positions, q' = N(q) v (nq). If positions form a
+        vector, as those of planar bodies do, this is v itself."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
         return out
 
     def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
-        """q (nq) moved by a displacement dx (nv): q + dx, unless positions are not a vector."""
+        """Return q (nq) moved by a displacement dx (nv). If positions form a vector, this is q +
+        dx."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
 
     def difference(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """The displacement (nv) by which move() takes `start` to `end`."""
+        """Return the displacement (nv) between two configurations: move() with this displacement
+        moves `start` to `end`."""
         out = np.empty(self._sizes.nv)
         start, end = self._q(start), self._q(end)
         self._call(lib.baum_workspace_difference, address(start), address(end), address(out))
         return out
 
     def phi(self, t: Scalar, q: ArrayLike) -> Array:
-        """Constraint residual Phi (nc)."""
+        """Return the values of the constraints, Phi (nc)."""
         return self._evaluate(lib.baum_workspace_phi, self._sizes.nc, t, q)
 
     def jacobian(self, t: Scalar, q: ArrayLike) -> Array:
-        """Velocity Jacobian J (nc x nv)."""
+        """Return the velocity Jacobian J (nc x nv)."""
         return self._evaluate(lib.baum_workspace_jacobian, (self._sizes.nc, self._sizes.nv), t, q)
 
     def nu(self, t: Scalar, q: ArrayLike) -> Array:
-        """Right side nu (nc) of J v = nu."""
+        """Return the right-hand side nu (nc) of J v = nu."""
         return self._evaluate(lib.baum_workspace_nu, self._sizes.nc, t, q)
 
     def gamma(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> Array:
-        """Right side gamma (nc) of J a = gamma."""
+        """Return the right-hand side gamma (nc) of J a = gamma."""
         return self._evaluate(lib.baum_workspace_gamma, self._sizes.nc, t, q, v)
 
     def mass(self, t: Scalar, q: ArrayLike) -> Array:
-        """Mass matrix M (nv x nv)."""
+        """Return the mass matrix M (nv x nv)."""
         return self._evaluate(lib.baum_workspace_mass, (self._sizes.nv, self._sizes.nv), t, q)
 
     def force(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> Array:
-        """Force vector g (nv): applied forces, gravity and velocity terms."""
+        """Return the force vector g (nv), which contains applied forces, gravity and velocity
+        terms."""
         return self._evaluate(lib.baum_workspace_force, self._sizes.nv, t, q, v)
 
     def energy(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> tuple[float, float]:
-        """Kinetic and potential energy [J]."""
+        """Return the kinetic and the potential energy [J]."""
         kinetic, potential = ctypes.c_double(), ctypes.c_double()
         q, v = self._q(q), self._v(v)
         self._call(
@@ -141,8 +151,8 @@ class Workspace(_calls.Closing):
     def acceleration(
         self, t: Scalar, q: ArrayLike, v: ArrayLike, alpha: Scalar = 0.0, beta: Scalar = 0.0
     ) -> tuple[Array, Array]:
-        """Accelerations a (nv) and multipliers lambda (nc). alpha, beta: Baumgarte's gains
-        [1/s]."""
+        """Return the accelerations a (nv) and the multipliers lambda (nc). alpha, beta: Baumgarte's
+        gains [1/s]."""
         a, lambda_ = np.empty(self._sizes.nv), np.empty(self._sizes.nc)
         q, v = self._q(q), self._v(v)
         self._call(
@@ -158,9 +168,9 @@ class Workspace(_calls.Closing):
         return a, lambda_
 
     def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
-        """Reaction of a joint as in its channel `reaction`: for most joints the force [N] and the
-        moment [N m] on body_b (3, in space 6). lambda_: multipliers (nc), as acceleration() returns
-        them."""
+        """Return the reaction of a joint, as the channel `reaction` does. For most joints this is
+        the force [N] and the moment [N m] on body_b (3, in space 6). lambda_: multipliers (nc), as
+        acceleration() returns them."""
         found = self.mechanism.find("joint", joint)
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))
@@ -182,11 +192,13 @@ class Workspace(_calls.Closing):
         v: ArrayLike | None = None,
         held: Sequence[BodyLike] = (),
     ) -> tuple[Array, Array]:
-        """The nearest q (nq) with Phi = 0, and v (nv) with J v = nu.
+        """Assemble the mechanism. Return the nearest q (nq) with Phi = 0, and v (nv) with J v = nu.
 
-        q, v: initial guess, by default the design configuration. Finite entries of v are kept; NaN
-        entries follow from the constraints. held: bodies whose positions do not change. Raises
-        baum.Error if the joints cannot be closed.
+        q, v: where to begin, by default the design configuration. Finite entries of v are kept, and
+            entries that are NaN are computed from the constraints.
+        held: bodies whose positions must not change.
+
+        Raises baum.Error if the joints cannot be closed.
         """
         design_q, design_v = self.design()
         q = design_q if q is None else self._q(q)
@@ -198,7 +210,8 @@ class Workspace(_calls.Closing):
         return q, v
 
     def project(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
-        """q (nq) and v (nv) moved onto the constraints by the least amount in the metric of M."""
+        """Return q (nq) and v (nv) projected onto the constraints. The change of both is the
+        smallest possible one in the norm of the mass matrix M."""
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_project, number(t, "t"), address(q), address(v))
         return q, v

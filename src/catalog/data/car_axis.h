@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis. Multipliers in the sign of the test set: M a = f + G^T lambda.
+/* Car axis. The multipliers have the sign of the test set: M a = f + G^T lambda.
  * Columns: xl, yl, xr, yr. */
 #ifndef BAUM_I_CATALOG_DATA_CAR_AXIS_H
 #define BAUM_I_CATALOG_DATA_CAR_AXIS_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chain of three uniform rods from rest.
+/* Chain of three uniform rods that start at rest.
  * Columns: angles of the links. */
 #ifndef BAUM_I_CATALOG_DATA_CHAIN_H
 #define BAUM_I_CATALOG_DATA_CHAIN_H

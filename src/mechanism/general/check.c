@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks derivatives that user functions return against finite differences of user functions.
+/* Compares derivatives that user functions return with finite differences of user functions.
  *
- * The check compares the value g that a user function returned with differences d, for a sequence
- * of decreasing steps. g is accepted if
+ * The check compares the value g that a user function returned with differences d for a sequence
+ * of decreasing steps. The value g is accepted if
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * holds for one step. The size of a row is its largest entry, scaled. The second term allows for
- * the rounding of an entry that is small compared with the others of its row. g is rejected if this
- * holds for no step, and if the best d and at least one more d differ from g by more than the error
- * of d. This error is 20 times the difference of the two orders (difference.c), plus twice the
- * difference from the d of the previous step, plus rounding. At a kink, such as dry friction at
- * rest, the derivatives on both sides differ by the same amount for every step. The function has no
- * derivative there, and the check passes.
+ * holds for one of the steps. The size of a row is the largest entry of the row, scaled. The
+ * second term allows for the rounding error of an entry that is small compared with the other
+ * entries of its row. The value g is rejected if the inequality holds for no step and, in addition,
+ * the best d and at least one other d differ from g by more than the error of d. The error of d is
+ * estimated as 20 times the difference between the formulas of two orders (difference.c), plus
+ * twice the difference from the d of the previous step, plus rounding. At a kink, such as dry
+ * friction at rest, the difference between the derivatives on both sides is the same for every
+ * step. The function has no derivative there, and the check passes.
  *
- * The check evaluates the design configuration and three configurations near it. In these,
- * coordinates and velocities are quasi-random, so that no value is zero or symmetric by chance. Phi
- * is not zero there, so derivatives that are only correct for Phi = 0 are rejected. If a function
- * fails in a configuration, the check skips this configuration; if it fails in all, the check
- * fails. (A function may fail in the design configuration because free velocities are set to zero
- * there.)
+ * The check evaluates the design configuration and three configurations near it. In the three
+ * others, coordinates and velocities are quasi-random, so that no value is zero or symmetric by
+ * chance. The constraint function Phi is not zero in these configurations, so the check rejects
+ * derivatives that are only correct for Phi = 0. If a user function fails in a configuration, the
+ * check skips this configuration. If a user function fails in all configurations, the check fails.
+ * A function is allowed to fail in the design configuration, because velocities that are not given
+ * are set to zero there.
  */
 #include "mechanism/general/check.h"
 
@@ -36,25 +38,27 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* Results so far, for each entry of the derivative along one ray (difference.h). */
+/* Results so far. Each array has one number for each entry of the derivative along one ray
+ * (difference.h). */
 typedef struct trial {
   baum_i_estimate now;
-  double *previous; /* value for the previous step */
+  double *previous; /* value that the previous step gave */
   double *value;    /* best difference */
-  double *error;    /* error of the best value; < 0: the given value is accepted */
-  double *quality;  /* error of the best value, relative to the variation of the function */
-  double *step;     /* step of the best value */
-  double *wrong;    /* number of steps for which the given value looks wrong */
+  /* Error of the best difference; negative if the given value has been accepted. */
+  double *error;
+  double *quality; /* error of the best difference, relative to the variation of the function */
+  double *step;    /* the step that gave the best difference */
+  double *wrong;   /* for how many steps the given value looked wrong */
 } trial;
 
-/* The values to be checked along one ray. */
+/* The values that a user function returned for one ray. */
 typedef struct column {
   const baum_i_claim *claim;
   const baum_i_stencil *stencil;
   const baum_i_field *field;
   const baum_i_ray *ray;
-  const double *row_size; /* (size of the field) see find_row_size(); or NULL */
-  int first;              /* entry i of the ray is entry first + i stride of the claim */
+  const double *row_size; /* (size of the field) result of find_row_size(), or NULL */
+  int first;              /* entry i of the ray is entry first + i * stride of the claim */
   int stride;
 } column;
 
@@ -87,8 +91,8 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Update the results of the best step. The first step has no previous value: its error is NaN, and
- * it is never the best. */
+/* Store a new difference if it is the best one so far. The first step has no previous value, so its
+ * error is NaN, and it never becomes the best. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -101,7 +105,8 @@ static void keep_best(const trial *t, int i, double value, double error, double 
   }
 }
 
-/* Compare the given values with the present differences. Returns true if all are accepted. */
+/* Compare the given values with the differences for the present step. Returns true if all given
+ * values are accepted. */
 static bool judge_step(const column *c, const trial *t, double step)
 {
   bool right = true;
@@ -124,7 +129,7 @@ static bool judge_step(const column *c, const trial *t, double step)
   return right;
 }
 
-/* Return the difference of the one-sided derivatives for this step. */
+/* Return the difference between the derivatives on both sides, computed with this step. */
 static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
                    double step, int i)
 {
@@ -133,8 +138,9 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
   return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
 }
 
-/* Tell whether the function has no kink: the difference of its one-sided derivatives decreases with
- * the step, or is too small to explain why the given value deviates. */
+/* Tell whether the function has no kink. It is considered to have none if the difference between
+ * the derivatives on both sides decreases with the step, or if this difference is too small to
+ * explain the deviation of the given value. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
   double far = kink(c, at, &t->now, t->step[i], i);
@@ -142,8 +148,8 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
-/* Tell whether a value is wrong for the best step and at least one more, because rounding may
- * affect a single step. */
+/* Tell whether a value is wrong. It must deviate for the best step and for at least one more,
+ * because rounding may affect a single step. */
 static bool is_wrong(const column *c, const trial *t, int i)
 {
   double deviation = fabs(given(c, i) - t->value[i]);
@@ -172,8 +178,8 @@ static baum_status compare(const column *c, const baum_i_local *at)
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
-      return BAUM_OK; /* the function refuses nearby points for good, so differences cannot
-                       * decide */
+      /* The function refuses nearby points whatever the step is, so differences cannot decide. */
+      return BAUM_OK;
     }
     if (status == BAUM_OK && judge_step(c, &t, step)) {
       return BAUM_OK;
@@ -192,8 +198,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a field whose entries are stored at the indices of their derivatives, so that messages
- * name the entry of the derivative. */
+/* Context of a field. Its entries are stored at the indices of their derivatives, so that messages
+ * name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;
@@ -231,7 +237,8 @@ baum_status baum_i_compare_entries(const baum_i_user_function *function, const c
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &derived, ray, &here);
 }
 
-/* Find the largest given entry of each row, multiplied by the scale of its coordinate. */
+/* Find the largest given entry of each row. Each entry is multiplied by the scale of its coordinate
+ * first. */
 static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
                           baum_i_variable variable, int size, double *direction, double *row_size)
 {
@@ -267,7 +274,7 @@ baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field
 
 /* ---- the whole mechanism ---- */
 
-/* A configuration to evaluate, with its own memory. */
+/* One of the configurations in which the functions are compared. It has its own memory. */
 typedef struct place {
   baum_i_point point;
   double *q;
@@ -299,7 +306,7 @@ static double spread(int k)
 
 enum { CONFIGURATIONS = 4 };
 /* [1/s] Scaled velocities below this are set to zero, because displacements along them would be
- * lost in the rounding of q. */
+ * lost in the rounding errors of q. */
 static const double REST = 1e-12;
 
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
@@ -341,7 +348,8 @@ static void set_configuration(place *p, int k)
     if (k > 0) {
       p->v[i] = mechanism->scale[i] * spread(3 * i + 8 * k + 1);
     } else {
-      p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0; /* NaN: free */
+      /* A velocity that is not given is NaN. It is set to 0. */
+      p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0;
     }
   }
   baum_i_point_set(&p->point, times[k], p->q, p->v);
@@ -369,7 +377,7 @@ static baum_status check_element(const baum_i_element *element, place *p)
   if (any) {
     return BAUM_OK;
   }
-  set_configuration(p, 0); /* sets the message for the design configuration */
+  set_configuration(p, 0); /* so that messages show the design configuration */
   return element->definition->check_derivatives(element, &p->point);
 }
 

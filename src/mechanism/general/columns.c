@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mechanism/general/columns.h"
 
-/* Return the column of velocity i of a body among the `width` columns. In space, the angle of a
+/* Return which of the `width` columns belongs to velocity i of a body. In space, the angle of a
  * planar body is the rotation about z, column 5. */
 BAUM_I_INLINE int column(const baum_i_body *body, int width, int i)
 {
@@ -47,7 +47,7 @@ BAUM_I_INLINE void pack_wide(const baum_mechanism *mechanism, const baum_i_span 
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed)
 {
-  if (width == BAUM_I_PLANE) { /* a constant width, with which column() costs nothing */
+  if (width == BAUM_I_PLANE) { /* with a constant width, the compiler removes column() */
     pack_wide(mechanism, span, BAUM_I_PLANE, rows, wide, packed);
   } else {
     pack_wide(mechanism, span, BAUM_I_SPACE, rows, wide, packed);

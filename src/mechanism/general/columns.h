@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conversion between wide and packed columns. Functions of element types compute with wide columns,
- * which are the same for each body. In the plane there are three: x, y and angle. In space there
- * are six: the velocity of the origin in ground axes and the angular velocity in body axes. Packed
- * rows contain only the columns that a body has. A planar particle has no angle, a spatial particle
- * has no angular velocity, and ground has no columns. In space a planar body has x, y and the
- * rotation about z.
+/* Conversion between two forms of rows, called wide and packed. Functions of element types compute
+ * wide rows, which have the same number of columns for every body. In the plane there are three
+ * columns for a body: x, y and angle. In space there are six: the velocity of the origin in ground
+ * axes, and the angular velocity in body axes. Packed rows contain only the columns that a body
+ * has. A planar particle has no angle, a spatial particle has no angular velocity, and ground has
+ * no columns. In space a planar body has x, y and the rotation about z.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -15,12 +15,13 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* Gather `width` numbers of each body from a vector x (nv). Columns that a body does not have are
- * set to zero. If x is NULL, all are zero. */
+/* Gather `width` numbers of each body from a vector x (nv). Entries for columns that a body does
+ * not have are set to zero. If x is NULL, all entries are zero. */
 void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
                            const double *x, double *wide);
 
-/* Add `width` numbers of each body to a vector x (nv). Numbers of absent columns are ignored. */
+/* Add `width` numbers of each body to a vector x (nv). Entries for columns that a body does not
+ * have are ignored. */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *x);
 
@@ -30,8 +31,8 @@ BAUM_I_INLINE void baum_i_columns_add_three(const double *three, double *x)
   x[2] += three[2];
 }
 
-/* The same for three numbers of each of two bodies. Fast if each body has all three columns or is
- * ground. */
+/* Do the same as baum_i_columns_scatter_any(), for three numbers of each of two bodies. The
+ * function is fast if each body is ground or has all three columns. */
 BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
                                           const double *six, double *x)
 {
@@ -46,7 +47,7 @@ BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const
   }
 }
 
-/* The same for three numbers of one body. */
+/* Do the same as baum_i_columns_scatter_any(), for three numbers of one body. */
 BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
                                               const baum_i_span *span, const double *three,
                                               double *x)
@@ -58,12 +59,12 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
   }
 }
 
-/* Pack rows with `width` numbers of each body to rows with nl numbers. */
+/* Convert rows with `width` numbers for each body to rows with nl numbers. */
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed);
 
-/* The same in the plane. Fast for two bodies with all their columns, and for one such body and
- * ground. */
+/* Do the same in the plane, with three numbers for each body. The function is fast if both bodies
+ * have all their columns, and if one of two bodies has all its columns and the other is ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
 {
@@ -82,18 +83,18 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
   }
 }
 
-/* Pack a square matrix over all wide columns to nl x nl. */
+/* Convert a square matrix over all wide columns to a matrix of nl x nl entries. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);
 
-/* Pack second derivatives of a joint's rows from wide columns to the blocks that are not NULL. nu_q
- * is not set, because it is zero for all joints with such rows. */
+/* Convert second derivatives of a joint's rows from wide columns to packed blocks. Only blocks that
+ * are not NULL are set. nu_q is not set. It is zero for all joints that use this function. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 int width, const baum_i_joint_blocks *wide,
                                 const baum_i_joint_blocks *blocks);
 
-/* Pack a derivative of a force from wide columns to the force's block in `squares`. Does nothing if
- * squares is NULL. */
+/* Convert the derivative of a force from wide columns to packed columns, and write it to the block
+ * of this force in `squares`. Does nothing if squares is NULL. */
 void baum_i_columns_pack_force(const baum_mechanism *mechanism, const baum_i_force *force,
                                int width, const double *wide, double *squares);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The chain rule for Phi = G(c_0, c_1). With g_i = (c_i)_q, r_i = c_i' = g_i v, gamma_i such that
- * g_i a = c_i'' + gamma_i, and sums over i, j, k:
+/* This file applies the chain rule to a constraint Phi = G(c_0, c_1) of two coordinates. G_i is the
+ * derivative of G with respect to c_i, and repeated indices i, j, k are summed. With g_i = (c_i)_q,
+ * r_i = c_i' = g_i v, and gamma_i defined by g_i a = c_i'' + gamma_i:
  *
  *   J       = G_i g_i
  *   gamma   = G_i gamma_i - G_ij r_i r_j
@@ -10,7 +11,8 @@
  *   gamma_v = G_i (gamma_i)_v - 2 G_ij r_j g_i
  *   gamma_q = G_i (gamma_i)_q + (G_ij gamma_j - G_ijk r_j r_k) g_i - 2 G_ij r_j (r_i)_q
  *
- * The derivatives (g_i^T)_q need not be symmetric; in space they are not.
+ * The matrices (g_i^T)_q need not be symmetric. For coordinates in space they are not
+ * symmetric.
  */
 #include "mechanism/general/composed_row.h"
 
@@ -23,7 +25,8 @@ void baum_i_composed_place(baum_i_inner *inner, int width, int row_width, const 
   inner->columns = 2 * width;
   for (int k = 0; k < 2; k++) {
     for (int i = 0; i < width; i++) {
-      /* If bodies have six columns, a planar angle is the rotation about z, column 5. */
+      /* If a body has six columns in the row, the angle of a planar body is its rotation about z,
+       * column 5. */
       int column = row_width > width && i == 2 ? 5 : i;
       inner->at[width * k + i] = row_width * place[k] + column;
     }
@@ -37,7 +40,8 @@ void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, doubl
   }
 }
 
-/* wide += factor own */
+/* Add factor * own, which has the columns of a coordinate, to `wide`, which has the columns of the
+ * row. */
 static void add(const baum_i_inner *inner, double factor, const double *own, double *wide)
 {
   for (int i = 0; factor != 0.0 && i < inner->columns; i++) {
@@ -64,7 +68,7 @@ double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g)
   return sum;
 }
 
-/* g w */
+/* Return the product g w of the gradient of a coordinate with w. */
 static double along(const baum_i_inner *inner, const double *w)
 {
   double sum = 0.0;

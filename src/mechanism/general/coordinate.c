@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coordinates of joints: checks, values in the design configuration, and revolutions. */
+/* Coordinates of joints: checks of definitions, values in the design configuration, and whole
+ * revolutions of angles. */
 #include "mechanism/general/coordinate.h"
 
 #include <math.h>
@@ -24,8 +25,8 @@ const char *baum_i_coordinate_name(baum_joint_coordinate which)
 
 /* ---- checks ---- */
 
-/* Return the index of a coordinate in the list of a joint type, or -1 if the type does not have
- * it. */
+/* Return the index of a coordinate in the list of a joint type. Returns -1 if the type does not
+ * have this coordinate. */
 static int find(const baum_i_joint_type *type, baum_joint_coordinate which)
 {
   int k = 0;
@@ -100,7 +101,8 @@ void baum_i_coordinate_near_zero(const baum_i_joint_coordinate *c, const baum_i_
 
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint_coordinate *c)
 {
-  /* A coordinate depends only on its two bodies, which are renumbered 0 and 1 here. */
+  /* A coordinate depends only on the two bodies of its joint. Here these have the numbers 0 and
+   * 1. */
   int pair[2] = {0, 1};
   const int *bodies = c->joint->span.bodies;
   baum_i_frame frames[2] = {baum_i_design_frame(mechanism, bodies[0]),
@@ -121,7 +123,7 @@ double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_jo
 
 /* ---- revolutions ---- */
 
-/* Return a pointer to the stored angle of a coordinate, which is followed by its rate. */
+/* Return a pointer to the stored angle of a coordinate. The next number in memory is its rate. */
 static double *angle_of(const baum_i_joint_coordinate *c, const baum_i_point *point)
 {
   int k = BAUM_I_COORDINATES * (c->joint->element.index - 1) + c->number;

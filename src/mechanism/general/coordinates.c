@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User coordinates: generalized coordinates q and v of any size with user functions for the mass
- * M(q, t) and the force g(q, v, t). Either v = q', or q' = N(q) v with the user functions of
- * coordinates_manifold.c.
+/* User coordinates are generalized coordinates q and v of any number. User functions compute their
+ * mass matrix M(q, t) and their force g(q, v, t). Either v = q', or q' = N(q) v, where the user
+ * functions of coordinates_manifold.c define N.
  *
- * All derivatives of M a, and those derivatives of g for which there is no user function, are
- * finite differences (difference.c).
+ * All derivatives of M a are finite differences (difference.c). So are those derivatives of g for
+ * which there is no user function.
  */
 #include <math.h>
 #include <string.h>
@@ -165,7 +165,7 @@ static baum_status potential(const baum_i_body *body, baum_i_point *point, doubl
 
 /* ---- derivatives ---- */
 
-/* v^T M v / 2 as a function of q and t. */
+/* Compute the kinetic energy v^T M v / 2 as a function of q and t. */
 static baum_status kinetic_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_body *body = context;
@@ -204,7 +204,7 @@ static baum_status power(const baum_i_body *body, baum_i_point *point, double su
   return BAUM_OK;
 }
 
-/* M a as a function of q and t. */
+/* Context for M a as a function of q and t. */
 typedef struct inertia {
   const baum_i_body *body;
   const double *a;
@@ -262,8 +262,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
     for (int j = 0; j < i; j++) {
       double a = block[i * n + j];
       double b = block[j * n + i];
-      /* The tolerance is far above rounding errors, even if large terms cancel, and far below the
-       * effect of any mistake. */
+      /* The tolerance is much larger than rounding errors, even if large terms cancel, and much
+       * smaller than the effect of any mistake. */
       double size = sqrt(fabs(block[i * n + i] * block[j * n + j]));
       if (fabs(a - b) > 1e-6 * fmax(fabs(a), fabs(b)) + 1e-9 * size) {
         return baum_i_fail(BAUM_ERR_ARGUMENT,
@@ -293,7 +293,8 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   return BAUM_OK;
 }
 
-/* Check constant_mass: compare M with that of the design configuration at t = 0. */
+/* Check whether the mass matrix is as constant as constant_mass claims, by comparing M with its
+ * value in the design configuration at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {

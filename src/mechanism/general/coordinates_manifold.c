@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls and checks the user functions of a manifold. With m(s) = move(q, s v), correct functions
- * satisfy m'(0) = rate(q, v), m''(0) = d/ds rate(m(s), v) at s = 0, and difference(q, m(1)) = v.
+/* Calls the user functions of a manifold, and checks them. Let m(s) = move(q, s v). Correct
+ * functions satisfy three conditions: m'(0) = rate(q, v), m''(0) is the derivative of rate(m(s), v)
+ * with respect to s at s = 0, and difference(q, m(1)) = v.
  */
 #include "mechanism/general/coordinates_manifold.h"
 
@@ -58,7 +59,8 @@ int baum_i_coordinates_positions(const baum_coordinates_def *def)
   return def->position_count > 0 ? def->position_count : def->size;
 }
 
-/* Tell whether q is off the manifold by more than the rounding of numbers entered by hand. */
+/* Tell whether the distance of q from the manifold is larger than rounding in numbers that were
+ * typed by hand. */
 static bool is_off(const baum_coordinates_def *def, const double *normal)
 {
   static const double NEAR = 1e-6;
@@ -150,7 +152,8 @@ static baum_status compare_second(const baum_i_body *body, const baum_i_ray *ray
   return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, ray, &here);
 }
 
-/* Move to another configuration and compare the result of `difference` with the displacement. */
+/* Move q by a displacement, and check that `difference` returns this displacement for the two
+ * configurations. */
 static baum_status compare_difference(const baum_i_body *body, const baum_i_local *at)
 {
   static const double AGREEMENT = 1e-6;
@@ -170,11 +173,11 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
   return BAUM_OK;
 }
 
-/* Displacements below this, relative to the scales, count as rounding. */
+/* Displacements below this, relative to the scales, are considered rounding errors. */
 static const double ROUNDING = 1e-9;
 
-/* Fail if `normalize` changes q by more than `way`, the largest change of q in the preceding step.
- * Changes are relative to the scales. */
+/* Fail if `normalize` changes q by more than `way`, which is the largest change of q in the
+ * preceding step. All changes are relative to the scales. */
 static baum_status compare_normalized(const baum_i_body *body, const double *scale, double way,
                                       const double *moved, const double *normal)
 {
@@ -190,20 +193,20 @@ static baum_status compare_normalized(const baum_i_body *body, const double *sca
   return BAUM_OK;
 }
 
-/* Move along v in short steps through more than a revolution. `normalize` must change q by less
- * than a step does; for example, it must not change the sign of a quaternion. */
+/* Move along v in short steps through more than a revolution. In each step, `normalize` must change
+ * q by less than the step does. For example, it must not change the sign of a quaternion. */
 static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
 {
   enum { MOVES = 100 };
-  static const double SHORT = 0.1; /* length of a step, relative to the scales */
+  static const double SHORT = 0.1; /* length of one step, relative to the scales */
   baum_i_local here = *at;
   double *moved = baum_i_take(&here, body->nq);
   double *normal = baum_i_take(&here, body->nq);
   const double *scale = at->point->mechanism->position_scale + body->q;
   memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
   double way = 0.0;
-  for (int k = 0; k < MOVES && isfinite(way); k++) { /* way is not finite if the functions return
-                                                      * such values */
+  /* Way is not finite if a user function returned such values. */
+  for (int k = 0; k < MOVES && isfinite(way); k++) {
     way = 0.0;
     memcpy(moved, normal, (size_t)body->nq * sizeof *moved);
     move(body, SHORT / baum_i_local_rate(at), at->v, moved);

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coupling: one row that couples the coordinates of two joints.
+/* A coupling has one row, which relates the coordinates c_a and c_b of two joints.
  *
  *   Phi  = c_b - f(c_a)                  (1 row)
  *   f(x) = ratio x + offset, or a user function (the law), as for a cam that moves joint_b
  *
- * J, gamma and second derivatives follow from the chain rule of composed_row.c; the types of the
- * joints give c and its derivatives. The third derivative of a law, which only gamma_q needs, comes
- * from differences of the second one.
+ * J, gamma and the second derivatives follow from the chain rule of composed_row.c. The types of
+ * the two joints compute c_a, c_b and their derivatives. Only gamma_q needs the third derivative of
+ * a law. It is computed by differences of the second derivative.
  *
- * Positions determine spatial angles only up to whole revolutions. A revolution of c_a changes Phi
- * by 2 pi ratio, a revolution of c_b by 2 pi. Of all values that Phi can have, the one nearest to
- * zero is taken. The row is therefore independent of the number of revolutions made, except with a
- * law, or if the ratio of two spatial angles is not rational.
+ * Positions determine spatial angles only up to whole revolutions. One revolution of c_a changes
+ * Phi by 2 pi ratio, and one revolution of c_b changes Phi by 2 pi. Of all values that Phi can
+ * therefore have, the one nearest to zero is used. The row thus does not depend on how many
+ * revolutions were made. There are two exceptions: a coupling with a law, and a ratio of two
+ * spatial angles that is not rational.
  *
- * The row acts on the bodies of joint_a and joint_b. If the joints share a body, it is listed once,
- * and the columns of both joints are added.
+ * The row acts on the bodies of joint_a and joint_b. If the joints have a common body, it is listed
+ * once, and its columns for both joints are added.
  */
 #include <math.h>
 #include <string.h>
@@ -30,7 +31,7 @@
 /* Parameters. */
 enum { RATIO, OFFSET, PERIOD, PARAMETER_COUNT };
 
-/* Entries of the law. */
+/* Entries of the result of the law. */
 enum { VALUE, SLOPE, CURVATURE, LAW_SIZE };
 
 static const baum_i_def_field fields[] = {
@@ -45,14 +46,15 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* Smallest period of Phi [revolutions]. It allows ratios of spatial angles with denominators up to
- * 1000, which is more than the number of teeth of a gear. */
+/* Smallest period of Phi [revolutions]. It permits ratios of spatial angles with denominators up to
+ * 1000. No gear has as many teeth. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
 
 /* ---- definition ---- */
 
-/* The coordinate of joint_a (number 0) or of joint_b (number 1) in a checked definition. */
+/* Return the coordinate of joint_a if `number` is 0, or of joint_b if it is 1. The definition has
+ * been checked. */
 static baum_i_joint_coordinate coupled(const baum_mechanism *mechanism, const void *given,
                                        int number)
 {
@@ -78,7 +80,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return BAUM_OK;
 }
 
-/* Index of a body among the first `count` bodies, or `count` if it is not among them. */
+/* Return the index of a body among the first `count` bodies. Returns `count` if it is not one of
+ * them. */
 static int find(const int *bodies, int count, int body)
 {
   int k = 0;
@@ -88,9 +91,9 @@ static int find(const int *bodies, int count, int body)
   return k;
 }
 
-/* Return the smallest change of Phi that whole revolutions of spatial angles can cause: the
- * greatest common divisor of the changes by one revolution of a and by one of b. Returns 0 if there
- * is no spatial angle, or if the divisor is below SMALLEST_PART.
+/* Return the smallest change of Phi that whole revolutions of spatial angles can cause. This is the
+ * greatest common divisor of two changes: by one revolution of c_a, and by one revolution of c_b.
+ * Returns 0 if there is no spatial angle, or if the divisor is below SMALLEST_PART.
  */
 static double period_of(const baum_i_joint_coordinate *a, const baum_i_joint_coordinate *b,
                         double ratio)
@@ -129,8 +132,8 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "law", LAW_SIZE, 0, def->user};
 }
 
-/* The arguments for calling and differentiating the law. The result points into values (q, v,
- * scale). */
+/* Return the arguments with which the law is called and differentiated. The result contains
+ * pointers to `values`, which are q, v and scale. */
 static baum_i_local place_at(baum_i_point *point, const double values[3])
 {
   return (baum_i_local){.point = point,
@@ -165,7 +168,7 @@ typedef struct state {
   baum_i_joint_coordinate of[2];
   baum_i_inner x[2];
   int width;
-  double values[3]; /* q, v, scale of place_at(): the coordinate of joint_a, zero, scale */
+  double values[3]; /* arguments of place_at(): the coordinate of joint_a, zero, and the scale */
   baum_i_outer g;
 } state;
 
@@ -246,7 +249,7 @@ static bool needs_third(const baum_i_joint *joint, const state *s,
   return def->law && blocks->gamma_q && s->x[0].c.rate != 0.0;
 }
 
-/* w (nv) or NULL. */
+/* w has nv entries, or is NULL. */
 static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {

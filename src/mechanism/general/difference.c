@@ -4,23 +4,27 @@
  *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h             c = 3/4, -3/20, 1/60,   error h^6 f^(7)/140
  *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2  c = 3/2, -3/20, 1/90,   error h^6 f^(8)/560
  *
- * The rounding error of F, a few eps |F|, adds the errors eps |F| / h and 6 eps |F| / h^2. For
- * steps relative to the scale of a coordinate, the best ones are near 2^-8 for f' and 2^-6 for f''.
- * The steps used are a little smaller, so that functions that vary three times as fast as the scale
- * suggests lose no accuracy. The errors are about 1e-13 for f' and 1e-11 for f''.
+ * The values of F have rounding errors of a few eps |F|. They cause errors of eps |F| / h in f'
+ * and of 6 eps |F| / h^2 in f''. If steps are measured relative to the scale of a coordinate, the
+ * best step is near 2^-8 for f' and near 2^-6 for f''. The steps used here are a little smaller.
+ * Functions that vary three times as fast as the scale suggests then lose no accuracy. The errors
+ * are about 1e-13 for f' and 1e-11 for f''.
  *
- * The same values give differences of fourth order (c = 2/3, -1/12 and 4/3, -1/12). If the two
- * orders agree to 1e-7, the error of the sixth order is about 1e-11. For first derivatives, an
- * agreement to 1e-9 is required. If they do not agree, the scale is too large for F, and the step
- * is reduced until they agree. A scale that is wrong by a factor of 1e6 costs time, but no
- * accuracy. The search also ends if the difference of the orders is only rounding.
+ * The same function values also give differences of fourth order (c = 2/3, -1/12 for f' and 4/3,
+ * -1/12 for f''). If the results of both orders agree to 1e-7, the error of the sixth order is
+ * about 1e-11. For first derivatives, an agreement to 1e-9 is required. If the results do not
+ * agree, the scale is too large for F, and the step is reduced until they agree. A scale that is
+ * wrong by a factor of 1e6 costs time, but no accuracy. The search for a step also ends if the
+ * results of both orders differ only by rounding.
  *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
  *
- * If q is not a vector, moving q rounds it, which causes an error of F even if F is small.
+ * If q is not a vector, moving q causes rounding errors in q, and therefore an error of F even
+ * where F is small.
  *
- * Central differences use both sides: F is evaluated up to 3 h before and after the present time.
+ * Central differences need function values on both sides. F is therefore evaluated at times up to
+ * 3 h before and after the present time.
  */
 #include "mechanism/general/difference.h"
 
@@ -40,8 +44,8 @@ const baum_i_stencil baum_i_stencil_first = {
   .agreement = 1e-9,
 };
 
-/* For fields that have an error of 1e-11. Steps are larger, because this error is divided by the
- * step. */
+/* This stencil is for fields F that have an error of 1e-11 themselves. Its steps are larger,
+ * because the error of F is divided by the step. */
 static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
@@ -62,7 +66,7 @@ const baum_i_stencil baum_i_stencil_second = {
   .agreement = 1e-7,
 };
 
-/* Relative rounding of F. The factor allows for larger terms that cancel inside F. */
+/* Relative rounding error of F. The factor 64 allows for larger terms that cancel inside F. */
 static const double rounding = 64.0 * DBL_EPSILON;
 
 /* ---- rays ---- */
@@ -101,7 +105,7 @@ double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
 
 /* ---- one step size ---- */
 
-/* The steps of all coordinates, and the point at which the field is evaluated. */
+/* The memory for evaluations of a field, with the step of every coordinate. */
 typedef struct probe {
   const baum_i_field *field;
   const baum_i_ray *ray;
@@ -154,7 +158,7 @@ static void move_along(const probe *p, int k, const double *dq)
   }
 }
 
-/* Evaluate F after k steps. */
+/* Evaluate F at k steps from the present point. */
 static baum_status sample(const probe *p, int k, double *out)
 {
   if (p->at->span) {
@@ -186,7 +190,8 @@ static void clear_estimate(const baum_i_estimate *out, int size)
   }
 }
 
-/* Add the pair of values at the distance of k + 1 steps. centre is NULL for first derivatives. */
+/* Add the contribution of the two values at the distance of k + 1 steps. `centre` is the value
+ * without a step. It is NULL for first derivatives. */
 static void add_pair(const baum_i_stencil *stencil, int k, const double *plus, const double *minus,
                      const double *centre, const baum_i_estimate *out, int size)
 {
@@ -220,9 +225,9 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* On a manifold, rounding of q causes an error in proportion to the size of F nearby. Estimate this
- * size by evaluating F after q has been moved by half its scale, because at the point itself F may
- * be zero. If F fails there, this error is not estimated. */
+/* On a manifold, rounding errors of q cause an error of F in proportion to the size of F nearby.
+ * This size is estimated by moving q by half its scale and evaluating F there, because F may be
+ * zero at the point itself. If F fails there, the error is not estimated. */
 static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;
@@ -264,9 +269,9 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Store the entries that have improved. best (size) is the smallest difference of the orders so
- * far, relative to the variation of F, or < 0 if it is small enough. Returns true if a smaller step
- * would not help. */
+/* Store the entries of the derivative that have improved. best (size) is the smallest difference of
+ * the two orders so far, relative to the variation of F. The result is negative if the difference
+ * is small enough. Returns true if a smaller step would not help. */
 static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
                           int size)
 {
@@ -280,7 +285,8 @@ static bool keep_improved(const baum_i_estimate *now, double agreement, double *
       best[i] = -1.0;
       continue;
     }
-    /* Continue while smaller steps help, or while the orders differ by far more than rounding. */
+    /* The search continues if smaller steps help, or if the two orders differ by much more than
+     * rounding. */
     double apart = now->error[i] / now->variation[i];
     bool helps = apart < 0.5 * best[i];
     bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];
@@ -308,7 +314,8 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
   for (int k = 0; k < stencil->steps; k++) {
     here.point->retry = false;
     status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
-    /* If the function asks for a smaller step (retry), its domain may end near this point. */
+    /* The function may ask for a smaller step (retry), because its domain may end near this
+     * point. */
     if (status != BAUM_OK && !here.point->retry) {
       return status;
     }

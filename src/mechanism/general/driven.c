@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The row of a driver with any motion s(t). */
+/* The row of a driver. It is the same for every prescribed motion s(t). */
 #include "mechanism/general/driven.h"
 
 #include <math.h>
@@ -65,9 +65,9 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
-/* Evaluates the coordinate and returns its difference from s; for an angle in space, modulo whole
- * revolutions. Whole revolutions are removed from both before the subtraction, because the
- * difference of two large angles would have a large rounding error. */
+/* Evaluates the coordinate and returns its difference from s. For an angle in space, the difference
+ * does not count whole revolutions. Whole revolutions are removed from the angle and from s before
+ * the subtraction, because the difference of two large angles would have a large rounding error. */
 static double find_offset(const baum_i_joint_coordinate *driven, const baum_i_point *point,
                           double s, baum_i_coordinate *c)
 {
@@ -123,7 +123,7 @@ void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, d
   driven->type->place(driven, point, at);
 }
 
-/* Called only if the driven joint is spatial. */
+/* This function is called only if the driven joint is spatial. */
 void baum_i_driver_force_on_b(const baum_i_joint *joint, const baum_i_point *point,
                               const double *lambda, double six[BAUM_I_SPACE])
 {

@@ -1,38 +1,41 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of drivers: one row that prescribes the coordinate c(q) of another joint.
+/* The part that all drivers have in common. A driver has one row, which prescribes the coordinate
+ * c(q) of another joint to be s(t):
  *
  *   Phi = c(q) - s(t),   J = c_q,   nu = s',   gamma = s'' - (c_q v)_q v,   nu_q = 0
  *
- * The type of the driven joint gives c, c_q and their derivatives. The driver acts on the bodies of
- * the driven joint.
+ * The type of the driven joint computes c, c_q and their derivatives. The driver acts on the
+ * bodies of the driven joint.
  *
  * The parameters of every driver begin with the coefficients of a polynomial in t - t0. While the
- * polynomial is active, s(t) is its value. It is active if the definition gives a polynomial, or
- * after a run has replaced the law in its own copy of the parameters.
+ * polynomial is active, it determines s(t). It is active in two cases: if the definition gives a
+ * polynomial, and if a run has replaced the law in its own copy of the parameters.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 #define BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 
 #include "mechanism/general/coordinate.h"
 
-/* The names of the definition fields that select the driven coordinate. */
+/* The names of those fields of a driver's definition that select the driven coordinate. */
 extern const baum_i_coordinate_fields baum_i_driver_fields;
 
-/* Indices of the first parameters of a driver. Those of its own type follow. */
+/* Indices of the first parameters of a driver. The parameters of the particular type follow
+ * them. */
 enum {
   BAUM_I_DRIVER_S, /* s, s' and s'' at t0 */
   BAUM_I_DRIVER_DS,
   BAUM_I_DRIVER_DDS,
   BAUM_I_DRIVER_T0,
-  BAUM_I_DRIVER_POLYNOMIAL, /* 1: s is the polynomial; 0: s is the type's `motion` */
+  BAUM_I_DRIVER_POLYNOMIAL, /* 1 if s is the polynomial, 0 if s is the type's `motion` */
   BAUM_I_DRIVER_NUMBERS
 };
 
-/* Replaces s(t) by the polynomial s[0] + s[1] (t - t0) + s[2] (t - t0)^2 / 2. */
+/* Replaces s(t) by the polynomial s[0] + s[1] (t - t0) + s[2] (t - t0)^2 / 2, by changing the
+ * parameters of the driver. */
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
-/* Checks that value, rate and acceleration (s) are finite. The message names `source`, for example
- * "law()". */
+/* Checks that the three numbers in s, which are value, rate and acceleration, are finite. The
+ * message names the user function `source`, for example "law()". */
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3]);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver: one row that prescribes the coordinate of another joint (driven.h) by
+/* A driver has one row, which prescribes the coordinate of another joint (driven.h) to be
  *
- *   s(t) = value + rate t + acceleration t^2 / 2, or a user function (the law)
+ *   s(t) = value + rate t + acceleration t^2 / 2, or the result of a user function (the law)
  */
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -78,7 +78,8 @@ static baum_status law_field(const void *joint, const baum_i_local *at, double *
   return law_at(joint, at->point, at->t, out);
 }
 
-/* A law may be defined for a limited time only, so the check is skipped where the law fails. */
+/* A law may be defined only for a limited time. Where the law fails, the check is therefore
+ * skipped. */
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
   static const baum_i_derived pairs[] = {{1, 0}, {2, 1}};

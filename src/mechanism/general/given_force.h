@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The force of user coordinates or of a user force, which user functions compute: value, potential,
- * and derivatives. Derivatives for which there is no user function are computed by differences.
+/* The force of user coordinates or of a user force. User functions compute its value, its potential
+ * and its derivatives. Derivatives for which there is no user function are computed by
+ * differences.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
 #define BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
@@ -10,13 +11,14 @@
 typedef struct baum_i_given_force {
   const baum_i_element *element;
   baum_force_fn *force;
-  baum_force_fn *by[2]; /* derivatives with respect to q and v (baum_i_variable), or NULL */
+  /* Derivatives with respect to q and v, in the order of baum_i_variable; or NULL. */
+  baum_force_fn *by[2];
   baum_q_fn *potential; /* or NULL */
   bool depends_on_velocity;
   void *user;
 } baum_i_given_force;
 
-/* Initialize from a definition that has members of these names. */
+/* Initialize this struct from a definition that has members with these names. */
 #define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
                         .force = (DEF)->force,                             \
@@ -28,17 +30,18 @@ typedef struct baum_i_given_force {
 baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,
                                   double *out); /* (nl) */
 
-/* Compute the derivative with respect to q or v (nl x nl). Does nothing if out is NULL. */
+/* Compute the derivative of the force with respect to q or v (nl x nl). Does nothing if out is
+ * NULL. */
 baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
                                      baum_i_variable variable, double *out);
 
-/* Add the potential [J] or the power [W] to *sum. */
+/* Add the potential [J] or the power [W] of the force to *sum. */
 baum_status baum_i_given_force_potential(const baum_i_given_force *given, const baum_i_local *at,
                                          double *sum);
 baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
                                      double *sum);
 
-/* Compare the derivatives that user functions return with differences. */
+/* Compare the derivatives that user functions return with finite differences. */
 baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);
 
 #endif

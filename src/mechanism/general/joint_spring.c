@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel on a coordinate c of a joint. With h = c_q and the force or torque
- * T(c, c') of general/spring_law.h:
+/* Spring and damper in parallel, which act on a coordinate c of a joint. The gradient of the
+ * coordinate is h = c_q, and T(c, c') is the force or torque of general/spring_law.h:
  *
  *   g   = -T h^T
  *   g_q = -h^T (T_c h + T_c' (c')_q) - T (h^T)_q
  *   g_v = -T_c' h^T h
  *
- * The type of the joint gives c and its derivatives.
+ * The type of the joint computes c and its derivatives.
  */
 #include "mechanism/definition.h"
 #include "mechanism/general/columns.h"

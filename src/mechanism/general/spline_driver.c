@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver whose law is a natural or periodic cubic spline. Outside of its times a natural spline
- * continues with its end slopes, so s'' is continuous. */
+/* A driver whose law is a cubic spline, either natural or periodic. Outside of the given times, a
+ * natural spline continues with the slope that it has at its end. The acceleration s'' is then
+ * continuous. */
 #include <baum/spline.h>
 
 #include <math.h>
@@ -14,10 +15,12 @@
 #include "mechanism/general/driven.h"
 #include "mechanism/general/user_function.h"
 
-/* With fewer points a natural spline would be a straight line and a periodic spline constant. */
+/* With fewer points, a natural spline would be a straight line, and a periodic spline would be
+ * constant. */
 enum { COUNT_MIN = 3 };
 
-/* First and last value of a periodic spline count as equal up to this relative difference. */
+/* The first and the last value of a periodic spline are considered equal if their relative
+ * difference is at most this. */
 static const double SAME_VALUE = 1e-12;
 
 static const baum_i_def_field fields[] = {
@@ -42,7 +45,7 @@ static baum_status check_given(const baum_spline_driver_def *def, const char *la
   return baum_i_check_given(label, "values", def->values != NULL);
 }
 
-/* Check point k: its time, its value, and the slope from the previous point. */
+/* Check point k: its time, its value, and the slope of the line from the previous point. */
 static baum_status check_knot(const baum_spline_driver_def *def, int32_t k, const char *label)
 {
   const double *t = def->times + k;
@@ -99,7 +102,8 @@ static baum_i_joint_coordinate driven(const baum_mechanism *mechanism, const voi
 
 /* ---- memory of an element's copy ---- */
 
-/* Memory of an element: the spline, and its times, values and second derivatives. */
+/* The memory that an element owns. `numbers` contains the times, values and second derivatives of
+ * the spline. */
 typedef struct curve {
   baum_i_cubic_spline spline;
   double numbers[];
@@ -143,7 +147,8 @@ static void release(void *copy)
 
 /* ---- motion ---- */
 
-/* Return the time in the range of the spline that corresponds to t. */
+/* Return the time within the range of the spline at which the spline is evaluated for the time
+ * t. */
 static double time_within(const baum_spline_driver_def *def, double t)
 {
   double first = def->times[0];
@@ -172,7 +177,8 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spline_driver, "spline driver", fields), .check = check,
                  .own = own, .release = release,
-                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* zero: motion() is used */
+                 /* The numbers are zero, so the driver uses motion(). */
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS},
   BAUM_I_DRIVER_MEMBERS(driven, motion),
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls and checks a user's law of a spring, and defines the functions that all types of springs
- * share. */
+/* Calls and checks the user's law of a spring, and contains the functions that are the same for all
+ * types of springs. */
 #include "mechanism/general/spring_law.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
 
-/* Entries of out[]. */
+/* Entries of the array out[] that a law returns. */
 enum { VALUE, BY_LENGTH, BY_RATE, ENTRIES };
 
 static baum_i_user_function function(const baum_i_spring_law *spring)
@@ -17,7 +17,8 @@ static baum_i_user_function function(const baum_i_spring_law *spring)
   return (baum_i_user_function){spring->element, "law", ENTRIES, 0, spring->user};
 }
 
-/* Call the law. q is the length, and v its rate. */
+/* Call the law of a spring. In `at`, q is the length of the spring and v is the rate of this
+ * length. */
 static baum_status call(const baum_i_spring_law *spring, const baum_i_local *at,
                         double out[ENTRIES])
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of springs: the tension T as a function of a length l and its rate l'. For a torsion
- * spring, l is an angle; for a joint spring, it is a coordinate of a joint.
+/* The part that all springs have in common: the tension T as a function of a length l and its rate
+ * l'. For a torsion spring, l is an angle; for a joint spring, it is a coordinate of a joint.
  *
- *   T = k (l - l_0) + c l' with the potential V = k (l - l_0)^2 / 2, or a user's T(l, l') without V
+ *   T = k (l - l_0) + c l' with the potential V = k (l - l_0)^2 / 2,
+ *   or a user's law T(l, l'), which has no potential
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
 #define BAUM_I_MECHANISM_GENERAL_SPRING_LAW_H
@@ -14,7 +15,7 @@
 /* Parameters of a linear spring, in this order. */
 enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBERS };
 
-/* The fields that all definitions of springs contain, in this order. */
+/* The fields that the definitions of all springs contain, in this order. */
 typedef struct baum_i_spring_def {
   double stiffness;
   double damping;
@@ -27,7 +28,7 @@ typedef struct baum_i_spring_def {
 #define BAUM_I_SPRING_OFFSET(DEF, field) (offsetof(DEF, field) - offsetof(DEF, stiffness))
 #define BAUM_I_HAS_SPRING_FIELD(DEF, field) \
   (BAUM_I_SPRING_OFFSET(DEF, field) == offsetof(baum_i_spring_def, field))
-/* Check at compile time that a public definition has these fields in this order. */
+/* Check, when this code is compiled, that a public definition has these fields in this order. */
 #define BAUM_I_CHECK_SPRING_DEF(DEF)                                                           \
   _Static_assert(BAUM_I_HAS_SPRING_FIELD(DEF, damping) && BAUM_I_HAS_SPRING_FIELD(DEF, law) && \
                    BAUM_I_HAS_SPRING_FIELD(DEF, user) &&                                       \
@@ -48,14 +49,15 @@ typedef struct baum_i_spring_law {
   bool depends_on_rate; /* whether the law depends on l' */
 } baum_i_spring_law;
 
-/* T and its derivatives with respect to l and l'. */
+/* The tension T and its derivatives with respect to l and l'. */
 typedef struct baum_i_tension {
   double value;
   double by_length;
   double by_rate;
 } baum_i_tension;
 
-/* Call the user function. Returns BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
+/* Call the law of a spring, which is a user function. Returns BAUM_OK, BAUM_ERR_CALLBACK or
+ * BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
                                    double length, double rate, baum_i_tension *out);
 
@@ -72,8 +74,8 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* Return the law of a spring. `numbers` points to the last BAUM_I_SPRING_NUMBERS of its
- * parameters. */
+/* Return the law of a spring. `numbers` points to the numbers of the linear spring, which are the
+ * last BAUM_I_SPRING_NUMBERS parameters of the element. */
 static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                                                      const baum_i_spring_def *def,
                                                      const double *numbers)
@@ -85,8 +87,8 @@ static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
                              .depends_on_rate = def->depends_on_velocity};
 }
 
-/* Set `numbers` from the definition. `design` is the length in the design configuration, which is
- * the default of l_0. */
+/* Set `numbers` from the definition of a spring. `design` is the length in the design
+ * configuration. The free length l_0 has this value if the definition does not give it. */
 void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers);
 
 /* ---- members of the types of springs ---- */
@@ -96,13 +98,13 @@ void baum_i_spring_lower(const baum_i_force *force, double design, double *numbe
   .potential = baum_i_spring_potential, .power = baum_i_spring_power
 
 bool baum_i_spring_depends(const baum_i_force *force);
-/* Adds V to *sum, except for a user's law. */
+/* Adds the potential V to *sum. A spring with a user's law adds nothing. */
 baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *point, double *sum);
-/* Adds the power of the tension, except the part that changes V. For a user's law, all of it is
- * added. */
+/* Adds the power of the part of the tension that does not derive from V. For a user's law, this is
+ * the whole tension. */
 baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
                                 double sum[BAUM_I_POWERS]);
-/* Compares the derivatives that a user's law returns with differences. */
+/* Compares the derivatives that a user's law returns with finite differences. */
 baum_status baum_i_spring_check(const void *force, baum_i_point *point);
 
 #endif

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints by user functions. Phi(q, t) is required, and any of the following may be given:
+/* Constraints that user functions compute. The function Phi(q, t) is required. Functions for the
+ * following quantities are optional:
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
- * Missing functions are replaced by differences (difference.c). Phi'' = J a - gamma, and a = 0
- * along the straight line q + s v, t + s, so
+ * Quantities without a user function are computed by differences (difference.c). Differences give
+ * gamma as follows. In general Phi'' = J a - gamma, and a = 0 along the straight line q + s v,
+ * t + s. Therefore
  *
  *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0.
  *
- * The second form is more accurate. It is used if J is given, and nu is given or zero. If J is not
- * given, second derivatives of Phi are found from those along single directions:
+ * The second form is more accurate. It is used if the user gives J, and if nu is given or zero. If
+ * the user does not give J, second derivatives of Phi follow from those along straight lines:
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
- * At rest the time scale of Phi is unknown. Differences in t then assume a time scale of one
- * second. For a constraint that varies much more slowly, give nu and gamma.
+ * If all velocities are zero, the time scale of Phi is unknown. Differences with respect to t then
+ * assume a time scale of one second. For a constraint that varies much more slowly, the user should
+ * give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
@@ -46,8 +49,7 @@ static int rows(const void *given)
   return def->row_count;
 }
 
-/* Return the relative error of those derivatives that are computed by differences
- * (difference.c). */
+/* Return the relative error of the derivatives that are computed by differences (difference.c). */
 static double noise(const void *given)
 {
   const baum_user_constraint_def *def = given;
@@ -106,7 +108,7 @@ static baum_status minus_phi_field(const void *context, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* nu - J v as a function of (q, t). nu is zero if it is not given. */
+/* Compute nu - J v as a function of q and t. If the user does not give nu, it is zero here. */
 static baum_status minus_rate_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = context;
@@ -151,7 +153,8 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
   return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
-/* Find whether Phi changes with t at constant q, from its values a short time before and after. */
+/* Find whether Phi changes with t at constant q. The function compares its values a short time
+ * before and after the present time. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -168,14 +171,14 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   return BAUM_OK;
 }
 
-/* Find the ray along the motion, its rate, and whether Phi may change with t. */
+/* Find the ray along the motion and its rate, and whether Phi may change with t. */
 static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
                              bool *moves)
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* If the rate is at least 1, `moves` does not change it below. Then `moves` is needed only if J
-   * is given without nu: gamma_at() uses it to select the form of gamma. */
+  /* If the rate is at least 1, `moves` does not change the rate below. Then `moves` is needed only
+   * if the user gives J without nu. In this case gamma_at() uses it to select the form of gamma. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
@@ -229,16 +232,16 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 
 /* ---- second derivatives ---- */
 
-/* Blocks of one joint while they are computed. */
+/* The derivatives of one joint while they are computed. */
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
-  const double *lambda; /* (rows), zeros if not given */
-  double *jw_q;         /* NULL where not wanted */
+  const double *lambda; /* (rows), or zeros if there are no multipliers */
+  double *jw_q;         /* NULL if the caller does not need it */
   double *jtl_q;
 } second;
 
-/* Write J w, then J^T lambda: rows + nl values. */
+/* Write the products J w (rows values) and J^T lambda (nl values), one after the other. */
 static baum_status products_field(const void *context, const baum_i_local *at, double *out)
 {
   const second *s = context;
@@ -280,14 +283,15 @@ static baum_status products_by_columns(const second *s, const baum_i_local *at)
 }
 
 /* Compute the derivative of column i of J with respect to q_j, for all rows. If q is not a vector,
- * q is first moved along j, then along i. work (2 nl + rows). */
+ * q is first moved along coordinate j, and then along coordinate i. `work` has 2 nl + rows
+ * entries. */
 static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, int i, int j,
                              double *work, double *out)
 {
   double *direction = work;
   double *first = work + at->nl;
   double *other = first + at->nl;
-  double *turned = at->span ? first : direction; /* contains the part along j */
+  double *turned = at->span ? first : direction; /* contains the displacement along coordinate j */
   baum_i_field field = field_of(phi_at, joint);
   baum_i_ray ray = {.dq = direction, .dq_first = at->span ? first : NULL, .rate = 1.0};
   memset(direction, 0, 2 * (size_t)at->nl * sizeof *direction);
@@ -306,7 +310,7 @@ static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* Add the contributions of value, which is (J_ki)_qj of all rows k. */
+/* Add the contributions of `value` to the blocks. `value` contains (J_ki)_qj for all rows k. */
 static void add_curvature(const second *s, const double *value, int i, int j, int nl)
 {
   for (int k = 0; k < s->joint->rows; k++) {
@@ -319,7 +323,7 @@ static void add_curvature(const second *s, const double *value, int i, int j, in
   }
 }
 
-/* If q is a vector, Phi_ij = Phi_ji, and each pair is computed once. */
+/* If q is a vector, Phi_ij = Phi_ji. Each pair of indices is then computed only once. */
 static baum_status products_by_pairs(const second *s, const baum_i_local *at)
 {
   baum_i_local here = *at;
@@ -346,7 +350,7 @@ static baum_status linearize_products(const second *s, const baum_i_local *at)
 }
 
 /* Write the derivative of a function to out (size x nl), unless out is NULL. If the user did not
- * give the function (is_given), `call` itself uses differences. */
+ * give this function (is_given is false), `call` computes it by differences. */
 static baum_status linearize_by(const baum_i_joint *joint, baum_i_field_fn *call, bool is_given,
                                 baum_i_variable variable, const baum_i_local *at, double *out)
 {
@@ -407,7 +411,7 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Use the second form of gamma if possible; jacobian and nu have already been checked. */
+/* Check gamma, by its second form if possible. jacobian and nu have already been checked. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized force g(q, v, t) on the named bodies, by user functions.
+/* A generalized force g(q, v, t) on the bodies that the definition names. User functions compute
+ * it.
  *
  * Derivatives for which there is no user function are computed by differences (difference.c).
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User functions: gather coordinates, call, check the result. */
+/* User functions: gathering their coordinates, calling them, and checking their results. */
 #include "mechanism/general/user_function.h"
 
 #include <assert.h>
@@ -12,8 +12,9 @@
 
 int64_t baum_i_scratch_size(int columns, int rows)
 {
-  /* Differences may be nested twice. Each level needs about a dozen vectors, and there are up to
-   * three matrices at a time. */
+  /* Differences may be nested: a difference may call a function that itself computes differences.
+   * Each of the two levels needs about a dozen vectors, and there are up to three matrices at a
+   * time. */
   int64_t vectors = 48 * ((int64_t)columns + rows);
   int64_t matrices = 3 * ((int64_t)columns * rows);
   return vectors + matrices;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Axes in definitions, and second derivatives of a projection; see axis_row.h. */
+/* Axes in definitions, and the second derivatives of a projection. The equations are in
+ * axis_row.h. */
 #include "mechanism/planar/axis_row.h"
 
 #include <math.h>
@@ -15,7 +16,8 @@ void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *join
   const baum_i_planar_axis_head *def = joint->element.def;
   const double *axis = def->axis;
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
-  /* Divided by the largest number first, so that squares neither overflow nor vanish. */
+  /* The axis is first divided by its largest number, so that squares neither overflow nor become
+   * zero. */
   double largest = fmax(fabs(axis[0]), fabs(axis[1]));
   double x = axis[0] / largest;
   double y = axis[1] / largest;
@@ -43,7 +45,7 @@ void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double directi
   }
 }
 
-/* H y */
+/* Set out = H y, with H of axis_row.h. */
 static void times_hessian(const baum_i_axis *x, const double y[6], double out[6])
 {
   const double between[2] = {y[3] - y[0], y[4] - y[1]};

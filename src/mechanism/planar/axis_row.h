@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of the marker on body_b from the marker on body_a along a direction fixed in body_a. The
- * distance along the normal of an axis is the first row of the translational joint and the row of
- * the pin in a slot. The distance along the axis is the coordinate of these joints. The rack and
- * pinion and the point on a curve also use this distance.
+/* This file computes the distance of the marker on body_b from the marker on body_a along a
+ * direction fixed in body_a. The distance along the normal of an axis is used for the first row of
+ * the translational joint, and for the row of the pin in a slot. The distance along the axis is the
+ * coordinate of these joints. The rack and pinion and the point on a curve also use such distances.
  *
- * Let e be the direction in body axes, u = A_a e, n = k x u, p_a and p_b the arms of the markers
- * (planar.h), r_a and r_b the origins of the bodies, and D = r_b + p_b - r_a. u . p_a is constant,
- * because both vectors are fixed in body_a. The distance f is
+ * Let e be the direction in body axes, u = A_a e, and n = k x u. Let p_a and p_b be the arms of the
+ * markers (planar.h), r_a and r_b the origins of the bodies, and D = r_b + p_b - r_a. The product u
+ * . p_a is constant, because both vectors are fixed in body_a. The distance f is
  *
  *   f     = u . (D - p_a)
  *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                    (6 columns)
@@ -27,7 +27,7 @@
 
 /* ---- an axis in definitions ---- */
 
-/* The first fields of definitions with an axis. */
+/* The first fields of all definitions that have an axis. */
 typedef struct baum_i_planar_axis_head {
   baum_i_planar_head head;
   double axis[2];
@@ -36,11 +36,11 @@ typedef struct baum_i_planar_axis_head {
 #define BAUM_I_PLANAR_AXIS_FIELDS(DEF) \
   BAUM_I_PLANAR_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "", 1.0, 0.0)
 
-/* Set `along` to the unit axis of a joint, in the axes of body_a. If `point` is given (not NaN),
- * both point and axis of the definition are in ground axes. */
+/* Set `along` to the unit axis of a joint, in the axes of body_a. If the definition gives `point`
+ * (its value is not NaN), both `point` and `axis` are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
-/* ---- the row; inline, so that the compiler evaluates common terms once ---- */
+/* ---- the row; its functions are inline, so that the compiler evaluates common terms once ---- */
 
 /* Common terms of the equations above. */
 typedef struct baum_i_axis {
@@ -75,7 +75,7 @@ static inline baum_i_axis baum_i_axis_at(const baum_i_planar_pair *pair, const d
   return x;
 }
 
-/* Return f. direction is a unit vector in the axes of body_a. */
+/* Return the distance f. `direction` is a unit vector in the axes of body_a. */
 static inline double baum_i_axis_value(const baum_i_planar_pair *pair, const double direction[2])
 {
   baum_i_axis x = baum_i_axis_at(pair, direction);
@@ -95,7 +95,7 @@ static inline void baum_i_axis_gradient(const baum_i_planar_pair *pair, const do
   gradient[5] = -x.n_arm; /* u . (k x p) = -n . p */
 }
 
-/* Return gamma, for which f'' = gradient . a - gamma. */
+/* Return gamma. It is defined by f'' = gradient . a - gamma. */
 static inline double baum_i_axis_gamma(const baum_i_planar_pair *pair, const double direction[2])
 {
   baum_i_axis x = baum_i_axis_at(pair, direction);
@@ -105,15 +105,15 @@ static inline double baum_i_axis_gamma(const baum_i_planar_pair *pair, const dou
   return w_a * w_a * x.u_span - 2.0 * w_a * baum_i_axis_dot(x.n, relative) + w_b * w_b * x.u_arm;
 }
 
-/* Compute all members of a coordinate. */
+/* Compute all members of the coordinate f. */
 void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double direction[2],
                             baum_i_coordinate *out);
 
-/* Compute all second derivatives. */
+/* Compute all second derivatives of the coordinate f. */
 void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double direction[2],
                            const double w[6], double lambda, baum_i_coordinate_blocks *out);
 
-/* Compute the second derivatives for the first row of a joint. */
+/* Compute the second derivatives of f for the first row of a joint. */
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Point on a curve, planar. The user's function F(x, y) is zero on a curve that is fixed in body_a,
- * and the point of body_b stays on this curve. (Point-follower and cam of Nikravesh 1988, chapter
- * 4, and Haug 1989, chapter 3, but with an implicit curve instead of a curve parameter and its
- * equation.) With d from the marker on body_a to the marker on body_b:
+ * and the point of body_b stays on this curve. (This is like the point-follower and the cam of
+ * Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, but the curve has an implicit equation, not
+ * a parameter with an equation of its own.) If d is the vector from the marker on body_a to the
+ * marker on body_b:
  *
  *   (x, y) = A_a^T d, the distances of axis_row.h along (1, 0) and (0, 1)
  *   Phi    = F(x, y)                     (1 row)
  *
- * J, gamma and second derivatives follow from the chain rule of composed_row.c. The third
- * derivatives of F, which only gamma_q needs, are differences of the second derivatives.
+ * J, gamma and the second derivatives follow from the chain rule of composed_row.c. Only gamma_q
+ * needs the third derivatives of F. They are computed by differences of the second derivatives.
  */
 #include <string.h>
 
@@ -30,8 +31,8 @@ static baum_i_user_function function(const baum_i_joint *joint)
   return (baum_i_user_function){&joint->element, "curve", CURVE_SIZE, 0, def->user};
 }
 
-/* Return the point at which the curve function is called and differentiated, in the axes of the
- * curve. The result points into `values`, which contain q, v and scale. */
+/* Return the arguments with which the curve function is called and differentiated. They are in the
+ * axes of the curve. The result contains pointers to `values`, which are q, v and scale. */
 static baum_i_local place_at(baum_i_point *point, const double values[6])
 {
   return (baum_i_local){.point = point,
@@ -54,11 +55,11 @@ static baum_status curve_at(const baum_i_joint *joint, const baum_i_local *at, d
 
 /* ---- the row ---- */
 
-/* One joint at a point. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_planar_pair pair;
   baum_i_inner x[2];
-  double values[6]; /* x, y; zeros; scales: see place_at() */
+  double values[6]; /* arguments of place_at(): x and y, two zeros, and two scales */
   baum_i_outer g;
 } state;
 
@@ -117,7 +118,7 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
   return BAUM_OK;
 }
 
-/* w (nv) or NULL. */
+/* w has nv entries, or is NULL. */
 static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {
@@ -144,7 +145,7 @@ static baum_status curve_field(const void *joint, const baum_i_local *at, double
 
 static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
-  static const baum_i_derived pairs[2][3] = {/* with respect to x, and to y */
+  static const baum_i_derived pairs[2][3] = {/* derivatives with respect to x and to y */
                                              {{F_X, F}, {F_XX, F_X}, {F_XY, F_Y}},
                                              {{F_Y, F}, {F_XY, F_X}, {F_YY, F_Y}}};
   const baum_i_joint *joint = element;

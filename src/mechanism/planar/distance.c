@@ -17,7 +17,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters of the joint, which follow the two points. */
+/* Parameters of the joint. The two points precede them. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 /* ---- definition ---- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the frames of all bodies in batches: first the angles, then their sines and cosines by
- * vector instructions, then the frames. If all bodies are planar bodies, no table of coordinates is
- * needed.
+/* Computes the frames of all bodies in batches. For each batch, it computes first the angles, then
+ * their sines and cosines by vector instructions, and finally the frames. If all bodies are planar
+ * bodies, no table of coordinates is needed.
  */
 #include <math.h>
 
@@ -10,14 +10,15 @@
 #include "base/sincos.h"
 #include "mechanism/planar/frames.h"
 
-/* Number of bodies in a batch, and of doubles in a vector. */
+/* Number of bodies in a batch, and number of doubles in a vector. */
 enum { SOME = 32, LANES = 4 };
 
 typedef double vector __attribute__((vector_size(LANES * sizeof(double))));
 typedef int64_t flags __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 typedef struct bodies {
-  const baum_i_body_place *places; /* NULL: all are planar bodies, in the order of q */
+  /* NULL if all bodies are planar bodies, which are then in the order of q. */
+  const baum_i_body_place *places;
   int first;
   int count;
 } bodies;
@@ -37,9 +38,9 @@ BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
   return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
 }
 
-/* Gather the angles; bodies without an angle get 0. Angles are stored as vectors, because they are
- * loaded as vectors immediately afterwards, and such a load would wait for stores of single
- * numbers. */
+/* Gather the angles of a batch. For bodies without an angle, the angle is 0. Angles are stored as
+ * vectors, because they are loaded as vectors immediately afterwards. Such a load would have to
+ * wait if the stores were of single numbers. */
 BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
   int i = 0;
@@ -56,7 +57,8 @@ BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *an
   }
 }
 
-/* Return false if an angle is outside of the range of baum_i_sincos(). */
+/* Compute sines and cosines of the angles. Return false if an angle is outside of the range of
+ * baum_i_sincos(). */
 static bool set_sines(const double *restrict angle, int count, double *restrict sine,
                       double *restrict cosine)
 {
@@ -72,7 +74,8 @@ static bool set_sines(const double *restrict angle, int count, double *restrict 
   return (far[0] | far[1] | far[2] | far[3]) == 0;
 }
 
-/* Use the C library for angles outside of the range, including infinite ones. */
+/* Use the C library for angles outside of the range of baum_i_sincos(), including infinite
+ * angles. */
 static void set_far_sines(const double *angle, int count, double *sine, double *cosine)
 {
   for (int i = 0; i < count; i++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gear, planar: two wheels a and b on a carrier c roll on each other without slip (Nikravesh 1988,
- * chapter 4; Haug 1989, chapter 3). Relative to the carrier both pitch circles have the same speed
- * at the point of contact, R_a w_a = -R_b w_b for external gears:
+ * chapter 4; Haug 1989, chapter 3). Seen from the carrier, both pitch circles have the same speed
+ * at the point of contact. For external gears, R_a w_a = -R_b w_b:
  *
  *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1 row)
  *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9 columns), constant
- *   gamma = 0, and so are all second derivatives
+ *   gamma = 0, and all second derivatives are 0
  *
  * The reaction on each body is a pure moment, because the tooth force on a wheel and the force of
  * its pin form a couple. The sum of the three moments is zero.

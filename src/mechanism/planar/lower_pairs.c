@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar joints whose rows are a point, a distance from an axis, or an angle.
+/* Planar joints. Each of their rows keeps a point on a point, keeps a distance from an axis, or
+ * keeps an angle.
  *
- * Revolute joint (pin) and fixed joint (weld): two points, one on each body, coincide. With p = A
- * s, k x p = (-p_y, p_x) and k x (k x p) = -p:
+ * In a revolute joint (pin) and a fixed joint (weld), two points coincide, one on each body. With
+ * p = A s, k x p = (-p_y, p_x) and k x (k x p) = -p:
  *
  *   Phi   = r_a + p_a - r_b - p_b                               (2 rows)
  *   J     = [ I   k x p_a   -I   -k x p_b ]                     (2 x 6)
  *   gamma = p_a w_a^2 - p_b w_b^2                               (2 rows)
  *
- * lambda is the force on body_b. The second derivatives, with any vector w of six numbers, are
+ * The multiplier lambda is the force on body_b. With any vector w of six numbers, the second
+ * derivatives are
  *
  *   (J w)_q        columns angle_a: -p_a w_3, angle_b: p_b w_6
  *   (J^T lambda)_q angle_a, angle_a: -p_a . lambda; angle_b, angle_b: p_b . lambda
  *   gamma_q        columns angle_a: (k x p_a) w_a^2, angle_b: -(k x p_b) w_b^2
  *   gamma_v        columns w_a: 2 p_a w_a, w_b: -2 p_b w_b
  *
- * Pin in a slot (point on a line) and translational joint (slider): body_b's point stays on an axis
- * fixed in body_a (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With e the unit axis in the
- * axes of body_a, n = A_a (k x e), and d from the marker on body_a to the marker on body_b:
+ * In a pin in a slot (point on a line) and a translational joint (slider), the point of body_b
+ * stays on an axis fixed in body_a (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). Let e be the
+ * unit axis in the axes of body_a, let n = A_a (k x e), and let d be the vector from the marker on
+ * body_a to the marker on body_b. Then
  *
  *   Phi = n . d             (1 row), see axis_row.h;  coordinate = A_a e . d
  *
- * Fixed and translational joint also keep the angle of body_b relative to body_a:
+ * Fixed and translational joints also keep the angle of body_b relative to body_a:
  *
  *   Phi = angle_b - angle_a - angle      J = [ 0 0 -1 0 0 1 ], gamma = 0
  *
@@ -34,7 +37,7 @@
 
 /* ---- the angle ---- */
 
-/* Return the given angle, or that of the design configuration. */
+/* Return the angle that the definition gives, or else the angle in the design configuration. */
 static double choose_angle(const baum_mechanism *mechanism, const baum_i_joint *joint, double given)
 {
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
@@ -60,7 +63,7 @@ static void angle(const baum_i_joint *joint, int number, const baum_i_point *poi
   };
 }
 
-/* The coordinate is linear, so its second derivatives are zero. */
+/* The angle is a linear function of q, so its second derivatives are zero. */
 static void angle_linearize(const baum_i_joint *joint, int number, const baum_i_point *point,
                             const double w[6], double lambda, baum_i_coordinate_blocks *out)
 {
@@ -139,8 +142,7 @@ static const baum_i_joint_type revolute = {
 
 BAUM_I_DEFINE(joint, planar_revolute, revolute)
 
-/* ---- fixed joint: the row of the angle is linear, so second derivatives are the pin's. Its own
- * number is the angle ---- */
+/* ---- fixed joint: the row of the angle is linear and adds no second derivatives ---- */
 
 static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                double *parameters)
@@ -197,7 +199,7 @@ BAUM_I_DEFINE(joint, planar_fixed, fixed)
 
 /* ---- pin in a slot ---- */
 
-/* Indices of the parameters that follow the two points, for the joints with an axis. */
+/* For joints with an axis: indices of the parameters that follow the two points. */
 enum { AXIS = 0, NORMAL = 2, SLOT_NUMBERS = 4, ANGLE = SLOT_NUMBERS, SLIDER_NUMBERS };
 
 static baum_status lower_slot(const baum_mechanism *mechanism, const baum_i_joint *joint,

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of planar joints and forces: checks of their common fields, and points in body axes.
+/* The part that planar joints and forces have in common: checks of their common fields, and the
+ * conversion of points to body axes.
  *
- * A point in ground axes of the design configuration becomes s = A^T (point - r) on a body at r.
+ * A definition may give a point in ground axes, in the design configuration. On a body at r, it
+ * becomes s = A^T (point - r).
  */
 #include "mechanism/planar/planar.h"
 
@@ -11,8 +13,8 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* Relative tolerance for equal points. Points that are given as decimal numbers are equal only up
- * to rounding. */
+/* Points are considered equal up to this relative tolerance. Points that users give as decimal
+ * numbers are equal only up to rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */
@@ -70,7 +72,7 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 
 /* ---- points ---- */
 
-/* Tell whether a point is given. Either both of its numbers are given or none. */
+/* Tell whether a point is given. Either both numbers of a point are given, or neither of them. */
 static bool is_given(const double point[2])
 {
   return !isnan(point[0]);
@@ -137,7 +139,7 @@ baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void
   return baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
 }
 
-/* Convert a point of the design configuration from ground axes to a body's axes. */
+/* Convert a point in the design configuration from ground axes to the axes of a body. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
                             const baum_i_element *element, double s[2])
 {

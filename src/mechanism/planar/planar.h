@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of planar joints and forces: points and markers.
+/* The part that planar joints and forces have in common: points and markers.
  *
- * A marker is a point fixed on a body, at s in body axes. Its arm is p = A s, the vector from the
- * origin of the body in ground axes. With k x p = (-p_y, p_x), the position, velocity and
- * acceleration of the marker are
+ * A marker is a point that is fixed on a body. Its coordinates in body axes are s. The arm of a
+ * marker is the vector p = A s from the origin of the body to the marker, in ground axes. With k x
+ * p = (-p_y, p_x), the position, velocity and acceleration of the marker are
  *   r = origin + p,   r' = v + w k x p,   r'' = a + alpha k x p - w^2 p.
- * The functions that evaluate one joint (kernels) write the six columns x_a y_a angle_a x_b y_b
+ * Kernels are functions that evaluate one joint. They write six columns, x_a y_a angle_a x_b y_b
  * angle_b (general/columns.h).
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_H
@@ -28,7 +28,7 @@ typedef struct baum_i_planar_head {
   double point_b[2];
 } baum_i_planar_head;
 
-/* The entries of these fields in a table of fields. */
+/* The entries for these fields in the table of fields of a definition. */
 #define BAUM_I_PLANAR_BODIES(DEF) BAUM_I_FIELD(DEF, body_a, BODY), BAUM_I_FIELD(DEF, body_b, BODY)
 #define BAUM_I_PLANAR_FIELDS(DEF)                                     \
   BAUM_I_PLANAR_BODIES(DEF), BAUM_I_OPTIONAL(DEF, point, POINT, "m"), \
@@ -41,7 +41,7 @@ typedef struct baum_i_marker {
   double w;     /* angular velocity of the body */
 } baum_i_marker;
 
-/* Compute only p, as a pair. */
+/* Compute only the arm p of a marker, as a pair. */
 static inline baum_i_pair baum_i_arm_on(const baum_i_frame *f, const double *s)
 {
   return f->c * baum_i_load(s) + f->s * baum_i_turned(baum_i_load(s));
@@ -65,7 +65,7 @@ static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body
   return baum_i_marker_on(&point->frames[body], s);
 }
 
-/* Write the velocities of both bodies in the order of the six columns. */
+/* Write the velocities of both bodies, in the order of the six columns. */
 static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_frame *b,
                                             double six[6])
 {
@@ -75,43 +75,47 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* Checks of definitions. The table of fields has already been checked. */
+/* The following functions check definitions. The table of fields has been checked before they are
+ * called. */
 
 /* Check that a body has a position in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);
 
-/* Check that body_a and body_b have positions in the plane and differ. */
+/* Check that body_a and body_b have positions in the plane, and that they are different bodies. */
 baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* `check` functions of definitions with bodies and points. Points must be given in exactly one way:
- * either `point`, or `point_a` and `point_b`. */
+/* These are `check` functions for definitions that have bodies and points. Points must be given in
+ * exactly one way: either `point`, or `point_a` and `point_b`. */
 baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
                                            const char *label);
-/* Elements with a length: `point` is not allowed. */
+/* This function is for elements that have a length. They cannot use `point`, because their length
+ * would be zero. */
 baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
-/* Also check that both bodies have an angle (turning), or that body_a has one (axis). */
+/* Check, in addition, that both bodies have an angle (turning), or that body_a has an angle
+ * (axis). */
 baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
                                         const char *label);
 baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
                                      const char *label);
 
-/* Check that one body, or both bodies, have an angle, as planar bodies and ground have. The checks
- * above must have passed. */
+/* Check that one body, or both bodies, have an angle. Planar bodies and ground have one. The checks
+ * above must have passed before. */
 baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Find the points on both bodies, in body axes, from the definition of an element and the design
- * configuration: s[0..1] on body_a, s[2..3] on body_b. Returns BAUM_ERR_ARGUMENT if a body is a
- * particle and `point` is not at the particle. */
+/* Find the points of an element on both bodies, in body axes, from its definition and the design
+ * configuration. s[0..1] is on body_a, and s[2..3] is on body_b. Returns BAUM_ERR_ARGUMENT if a
+ * body is a particle and `point` is not at the particle. */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                  double s[4]);
 
-/* The `extent` function of joint types: include the points of the definition. */
+/* Extend the box so that it includes the points of a joint's definition. This is the `extent`
+ * function of joint types. */
 void baum_i_planar_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                           baum_i_box *box);
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies with q = (x, y, angle) and particles with q = (x, y) in the plane. (x, y) is the
- * centre of mass, and v = q'.
+/* Rigid bodies in the plane with q = (x, y, angle), and particles in the plane with q = (x, y). (x,
+ * y) is the centre of mass, and v = q'.
  *
  *   M = diag(m, m, I)   or diag(m, m)
  *   g = (m g_x, m g_y, 0) or (m g_x, m g_y), gravity; V = -m (g_x x + g_y y)
  *
- * M and g do not depend on q or v, so there is no linearize().
+ * M and g do not depend on q or v, so the types have no function linearize().
  */
 #include <string.h>
 
@@ -13,10 +13,10 @@
 
 #include "mechanism/definition.h"
 
-/* Parameters. Only rigid bodies have INERTIA. */
+/* Parameters. Only rigid bodies have the parameter INERTIA. */
 enum { MASS, INERTIA, PARAMETER_COUNT };
 
-/* ---- common to both ---- */
+/* ---- common to rigid bodies and particles ---- */
 
 static void scale(const void *def, double length, double *out)
 {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load on one body, planar: force f at the point s, and torque t. If there is an input u, both are
- * multiplied by it; f and t below include u. With p = A s, g over (x, y, angle) is
+/* A load on one body in the plane. It consists of a force f at the point s, and a torque t. If the
+ * load has an input u, the force and the torque are multiplied by u. Below, f and t include this
+ * factor. With p = A s, the generalized force g with respect to (x, y, angle) is
  *
  *   ground axes    g = (f_x, f_y, p x f + t)   g_q: only the entry (angle, angle), -p . f
  *                  V = -f . (r + p) when t = 0
  *   follows_body   g = (A f, s x f + t)        g_q: only the column angle, k x A f over (x, y)
  *
- * where a x b = a_1 b_2 - a_2 b_1 for vectors a, b. A load with a torque has no potential, because
- * the work of a torque depends on the number of revolutions. A load with an input has no potential,
- * because changes of the input would change the potential without work.
+ * where a x b = a_1 b_2 - a_2 b_1 for vectors a and b in the plane. A load that has a torque has no
+ * potential, because the work of a torque depends on the number of revolutions. A load that has an
+ * input has no potential, because a change of the input would change the potential without work.
  */
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -27,7 +28,8 @@ static const baum_i_def_field fields[] = {
   {0},
 };
 
-/* Older versions ended with `follows_body`. `input` begins in the padding that followed it. */
+/* In older versions, the struct ended with the field `follows_body`. The field `input` begins in
+ * the padding bytes that followed it. */
 static const size_t former[] = {
   offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
   0,
@@ -35,7 +37,7 @@ static const size_t former[] = {
 
 /* ---- definition ---- */
 
-/* Check a load on a particle, which has neither axes nor an angle. */
+/* Check a load on a particle. A particle has neither axes nor an angle. */
 static baum_status check_on_particle(const baum_planar_load_def *def, const char *label)
 {
   if (def->point[0] != 0.0 || def->point[1] != 0.0) {
@@ -88,13 +90,13 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 typedef struct load {
   baum_i_marker at;
-  double force[2]; /* ground axes */
+  double force[2]; /* in ground axes */
   double torque;
   bool follows_body;
   bool has_potential;
 } load;
 
-/* Set f, in ground axes and multiplied by the input. Returns the input. */
+/* Set f, in ground axes and multiplied by the input. Returns the input, or 1 if there is none. */
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {
@@ -135,7 +137,7 @@ static void set_force_q(const load *l, double out[9])
 
 /* ---- type ---- */
 
-/* Add the force, without the terms that only energy and derivatives need. */
+/* Add the force only. Terms that only the energy and derivatives need are not computed. */
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
@@ -169,7 +171,7 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-/* g does not depend on v. */
+/* Set the derivative with respect to q. The force g does not depend on v. */
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {

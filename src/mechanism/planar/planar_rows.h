@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of planar joints. A joint is defined by kernels, functions that evaluate one joint
- * over six columns from its two markers.
+/* The part that planar joints have in common. Every joint has kernels. These are functions that
+ * evaluate one joint over six columns from its two markers.
  *
- * The loops over a group and the packing of columns are written once, here. They are inline, and
- * the kernels are constants in the file of a joint, so the compiled loop calls no functions through
- * pointers.
+ * This file contains the loops over the joints of a group, and the conversion to packed columns.
+ * These loops are inline functions, and the kernels are constants in the file of a joint. The
+ * compiled loop therefore calls no functions through pointers.
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
@@ -17,21 +17,22 @@
 enum {
   BAUM_I_PLANAR_COLUMNS = 6,
   BAUM_I_PLANAR_ROWS = 3,    /* largest number of rows of a planar joint */
-  BAUM_I_PLANAR_NUMBERS = 4, /* s_a and s_b, with which parameters begin */
+  BAUM_I_PLANAR_NUMBERS = 4, /* s_a and s_b, the first parameters of a joint */
 };
 
-/* One joint at a point. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct baum_i_planar_pair {
   const double *s_a;
   const double *s_b;
-  const double *numbers; /* parameters of the joint after s_a and s_b */
+  const double *numbers; /* the parameters of the joint that follow s_a and s_b */
   const baum_i_frame *frame_a;
   const baum_i_frame *frame_b;
   baum_i_marker a;
   baum_i_marker b;
 } baum_i_planar_pair;
 
-/* Second derivatives of up to three rows over six columns. jtl_q is summed over the rows. */
+/* Second derivatives of up to three rows over the six columns of both bodies. jtl_q is summed over
+ * the rows. */
 typedef struct baum_i_planar_blocks {
   double jw_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
   double jtl_q[BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS];
@@ -39,10 +40,11 @@ typedef struct baum_i_planar_blocks {
   double gamma_v[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
 } baum_i_planar_blocks;
 
-/* Sets one value for each row, or six values (columns) for each row. */
+/* Sets either one value for each row, or six values (one for each column) for each row. */
 typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
 
-/* Sets second derivatives for w (6) and lambda (rows). out is zeroed before. */
+/* Sets second derivatives for w (6 entries) and lambda (one entry for each row). The caller has
+ * zeroed `out`. */
 typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
                                          const double *lambda, baum_i_planar_blocks *out);
 
@@ -69,7 +71,8 @@ static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint
                                &point->frames[joint->span.bodies[1]]);
 }
 
-/* Return the angle of body_b relative to body_a, continuous over revolutions. */
+/* Return the angle of body_b relative to body_a. It is continuous, so it may exceed a full
+ * revolution. */
 static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
 {
   return pair->frame_b->angle - pair->frame_a->angle;
@@ -79,11 +82,11 @@ static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
 typedef struct baum_i_planar_kernels {
   int rows;
   baum_i_planar_kernel *phi;
-  baum_i_planar_kernel *jacobian; /* six columns */
+  baum_i_planar_kernel *jacobian; /* sets six columns for each row */
   baum_i_planar_kernel *gamma;
 } baum_i_planar_kernels;
 
-/* One row of J. */
+/* Set one row of J. */
 static inline void baum_i_planar_set_row(double six[6], double x_a, double y_a, double angle_a,
                                          double x_b, double y_b, double angle_b)
 {
@@ -106,8 +109,8 @@ BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
                       jacobian + joint->jacobian);
 }
 
-/* Evaluate Phi, J and gamma, and store them afterwards, so that the compiler computes their common
- * terms once. */
+/* Evaluate Phi, J and gamma, and store them only afterwards. The compiler can then compute terms
+ * that they have in common once. */
 BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
                                          const baum_i_planar_pair *pair,
                                          const baum_i_planar_kernels *kernels,
@@ -183,7 +186,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   }
 
 /* Common members of definitions and types of joints with two bodies. The parameters are the two
- * points, followed by OWN numbers. The last arguments are the fields of the definition. */
+ * points and then OWN further numbers. The last arguments are the fields of the definition. */
 #define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN, ...)              \
   .kind = (TITLE), .size = sizeof(baum_##NAME##_def),                       \
   .fields = (const baum_i_def_field[]){__VA_ARGS__, {0}}, .check = (CHECK), \
@@ -197,8 +200,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
-/* Set the points in the parameters; the joint then sets its own numbers. Returns what
- * baum_i_planar_points() returns. */
+/* Set the points in the parameters. Afterwards the joint sets its own numbers. Returns the status
+ * of baum_i_planar_points(). */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

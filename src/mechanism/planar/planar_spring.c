@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel between two points, planar. With d from the point on body_a to the
- * point on body_b, l = |d|, stiffness k, damping c, free length l_0, and F = l^2 / 2 and G of
- * separation.h:
+/* Spring and damper in parallel between two points in the plane. Let d be the vector from the point
+ * on body_a to the point on body_b, and l = |d|. The spring has the stiffness k, the damping c and
+ * the free length l_0. F = l^2 / 2 and G are defined in separation.h.
  *
  *   T   = k (l - l_0) + c l'                       tension
  *   h   = l_q = G^T d / l                          (6 columns)
@@ -10,8 +10,9 @@
  *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
  *   g_v = -c h h^T                                                            (6 x 6)
  *
- * For a user's law T(l, l') there is no V, and k and c in g_q and g_v are T_l and T_l'. At l = 0
- * the direction is undefined, and force and derivatives are set to zero.
+ * A spring with a user's law T(l, l') has no V, and in g_q and g_v the derivatives T_l and T_l'
+ * replace k and c. If l = 0, the direction is undefined, and the force and its derivatives are set
+ * to zero.
  */
 #include <float.h>
 #include <math.h>
@@ -20,7 +21,7 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters. s_a and s_b precede the numbers of the law. */
+/* Parameters. The points s_a and s_b precede the numbers of the spring law. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 BAUM_I_CHECK_SPRING_DEF(baum_planar_spring_def);
@@ -61,7 +62,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   s.line = baum_i_separation_of(&a, &b);
   s.length = baum_i_separation_length(&s.line);
   if (s.length < DBL_MIN) {
-    /* The reciprocal of a denormal number may overflow. */
+    /* The length may be so small that 1 / length overflows. The spring then has no direction. */
     return (spring){.line = s.line};
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
@@ -83,7 +84,7 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
   return (baum_i_stretch){s.length, s.rate, point->mechanism->length, s.length == 0.0};
 }
 
-/* l_qq */
+/* Compute the second derivative l_qq of the length. */
 static void bend_of(const spring *s, double bend[36])
 {
   baum_i_separation_hessian(&s->line, bend);
@@ -124,9 +125,9 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* Add g = -T h: with e = d / l, the force T e and its moment on body_a, and the force -T e and its
- * moment on body_b. Every evaluation calls this function, so it uses vector instructions
- * (pair.h). */
+/* Add g = -T h. With e = d / l, this consists of the force T e and its moment on body_a, and of the
+ * force -T e and its moment on body_b. Every evaluation calls this function. It therefore uses
+ * vector instructions (pair.h). */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Torsion spring and damper in parallel between two bodies, planar. The relative angle phi =
- * angle_b - angle_a is continuous over revolutions. With stiffness k, damping c and free angle
- * phi_0, over the six columns x_a y_a angle_a x_b y_b angle_b:
+/* Torsion spring and damper in parallel between two bodies in the plane. The relative angle
+ * phi = angle_b - angle_a is continuous, so it may exceed a full revolution. The spring has the
+ * stiffness k, the damping c and the free angle phi_0. With the six columns x_a y_a angle_a x_b y_b
+ * angle_b:
  *
  *   T   = k (phi - phi_0) + c phi'                 restoring torque
  *   h   = phi_q = (0 0 -1 0 0 1)                   (6 columns)
@@ -9,7 +10,8 @@
  *   V   = k (phi - phi_0)^2 / 2
  *   g_q = -k h h^T,   g_v = -c h h^T               (6 x 6)
  *
- * For a user's law T(phi, phi') there is no V, and k and c in g_q and g_v are T_phi and T_phi'.
+ * A spring with a user's law T(phi, phi') has no V, and in g_q and g_v the derivatives T_phi and
+ * T_phi' replace k and c.
  */
 #include "mechanism/definition.h"
 #include "mechanism/general/spring_law.h"
@@ -43,7 +45,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 /* ---- one spring ---- */
 
-/* phi and its rate. */
+/* Return the angle phi and its rate. */
 static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
 {
   const baum_i_frame *a = &point->frames[force->span.bodies[0]];
@@ -60,7 +62,7 @@ static baum_status torque_at(const baum_i_force *force, baum_i_point *point, bau
   return baum_i_tension_at(&law, point, now.length, now.rate, out);
 }
 
-/* -factor h h^T */
+/* Write -factor h h^T to the block of the force. */
 static void put_square(const baum_i_force *force, const baum_mechanism *mechanism, double factor,
                        double *squares)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rack and pinion, planar. The pinion on body_b has its centre at the marker and the pitch radius
- * R. It rolls on the rack on body_a, whose direction is e (Nikravesh 1988, chapter 4; Haug 1989,
- * chapter 3). With d from the marker on body_a to the marker on body_b, u = A_a e, and the
- * displacement s = u . d of axis_row.h:
+/* Rack and pinion in the plane. The centre of the pinion is the marker on body_b, and its pitch
+ * radius is R. The pinion rolls on the rack on body_a, which has the direction e (Nikravesh 1988,
+ * chapter 4; Haug 1989, chapter 3). With d from the marker on body_a to the marker on body_b,
+ * u = A_a e, and the displacement s = u . d of axis_row.h:
  *
  *   Phi   = s - R (angle_b - angle_a) - offset        (1 row)
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6 columns)
@@ -17,7 +17,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Parameters of the joint, which follow the two points. */
+/* Parameters of the joint. The two points precede them. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
 /* ---- definition ---- */

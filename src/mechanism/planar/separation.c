@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* F_qq = G^T G + diag(0 0 d . p_a 0 0 -d . p_b), see separation.h. */
+/* Compute F_qq = G^T G + diag(0 0 d . p_a 0 0 -d . p_b), see separation.h. */
 #include "mechanism/planar/separation.h"
 
 #include <math.h>
@@ -10,10 +10,10 @@ void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36])
   const double columns[6][2] = {{-1.0, 0.0}, {0.0, -1.0}, {g[0], g[1]},
                                 {1.0, 0.0},  {0.0, 1.0},  {g[2], g[3]}};
   for (int j = 0; j < 6; j++) {
-    /* Column j of G^T G is set as row j, because the matrix is symmetric. */
+    /* Column j of G^T G is written as row j, because the matrix is symmetric. */
     baum_i_separation_spread(s, columns[j], hessian + (size_t)6 * j);
   }
-  /* p_a = (-g[1], g[0]), p_b = (g[3], -g[2]) */
+  /* The arms follow from g: p_a = (-g[1], g[0]) and p_b = (g[3], -g[2]). */
   hessian[2 * 6 + 2] += -s->d[0] * g[1] + s->d[1] * g[0];
   hessian[5 * 6 + 5] -= s->d[0] * g[3] - s->d[1] * g[2];
 }

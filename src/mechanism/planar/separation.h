@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The line between two markers, and half of its squared length with first and second derivatives.
- * Used by the distance joint and the spring.
+/* This file computes the line between two markers, and half of its squared length with first and
+ * second derivatives. The distance joint and the spring use it.
  *
- * P are the markers, p their arms, and d = P_b - P_a. The columns are x_a y_a angle_a x_b y_b
- * angle_b:
+ * Let P_a and P_b be the markers, p_a and p_b their arms, and d = P_b - P_a. With the columns x_a
+ * y_a angle_a x_b y_b angle_b:
  *
  *   F = d . d / 2,   d' = G v,   G = [ -I   -k x p_a   I   k x p_b ]         (2 x 6)
  *   F_q  = G^T d                                                             (6 columns)
@@ -31,21 +31,21 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
   };
 }
 
-/* Return the length of (x, y). hypot() is slower and only necessary if squares could overflow or
- * vanish. */
+/* Return the length of the vector (x, y). The function hypot() is slower than sqrt(). It is needed
+ * only if squares could overflow or become zero. */
 static inline double baum_i_length_of(double x, double y)
 {
   double square = x * x + y * y;
   return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(x, y);
 }
 
-/* |d| */
+/* Return the length |d|. */
 static inline double baum_i_separation_length(const baum_i_separation *s)
 {
   return baum_i_length_of(s->d[0], s->d[1]);
 }
 
-/* G^T x (6) */
+/* Set out = G^T x (6). */
 static inline void baum_i_separation_spread(const baum_i_separation *s, const double x[2],
                                             double out[6])
 {
@@ -57,11 +57,11 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
   out[5] = s->g_angle[2] * x[0] + s->g_angle[3] * x[1];
 }
 
-/* F_qq (6 x 6), row-major. */
+/* Compute F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Return the distance, in the design configuration, of the points s_a and s_b on the two bodies of
- * a span. points is (s_a, s_b). */
+/* Return the distance between the points s_a and s_b on the two bodies of a span, in the design
+ * configuration. `points` contains s_a and then s_b. */
 double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
                                    const double points[4]);
 

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial joints whose rows are products of vectors (spatial_rows.h). Each joint is a table.
+/* Spatial joints whose rows are products of two vectors (spatial_rows.h). Each joint is defined by
+ * a table of such products.
  *
- * x_a, y_a, z_a and x_b, y_b, z_b are the axes of the joint on body_a and body_b, with z along the
- * axis of the definition; e points from body_a's point to body_b's.
+ * Every joint has axes x_a, y_a, z_a on body_a and x_b, y_b, z_b on body_b. The z axes are along
+ * the axes of the definition. The vector e points from body_a's point to body_b's point.
  */
 #include <string.h>
 
 #include "base/message.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Axes count as opposite if 1 + cosine is below this, and as parallel if the sine is. Then the x
- * axis, and with it the zero of the angle, is not determined. */
+/* Two axes are considered opposite if 1 plus the cosine of the angle between them is below
+ * OPPOSITE. They are considered parallel if the sine of this angle is below OPPOSITE. In these
+ * cases, the direction of the x axis and the zero of the joint's angle are not determined. */
 static const double OPPOSITE = 1e-6;
 
 /* ---- checks ---- */
@@ -20,7 +22,7 @@ static baum_status check_points(const baum_mechanism *mechanism, const void *def
   return baum_i_spatial_check_head(mechanism, def, label, false);
 }
 
-/* Only body_a needs an orientation; body_b may be a particle. */
+/* Checks a joint with one axis. Only body_a needs an orientation, so body_b may be a particle. */
 static baum_status check_axis(const baum_mechanism *mechanism, const void *def, const char *label)
 {
   const baum_i_spatial_head *head = def;
@@ -36,7 +38,8 @@ static baum_status check_turning(const baum_mechanism *mechanism, const void *de
   return baum_i_spatial_check_turning(mechanism, head->body_b, label, "body_b");
 }
 
-/* Checks that an optional direction is not the zero vector. (It is NaN if not given.) */
+/* Checks that an optional direction is not the zero vector. A direction that is not given is
+ * NaN. */
 static baum_status check_direction(const double x[3], const char *label, const char *field)
 {
   return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0
@@ -89,8 +92,8 @@ static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_jo
   return baum_i_spatial_points(mechanism, &joint->element, parameters);
 }
 
-/* Converts an axis of the definition to ground axes. The definition gives it in ground axes if it
- * gives `point`, otherwise in body axes. */
+/* Converts an axis of the definition to ground axes. If the definition gives `point`, its axes are
+ * in ground axes, otherwise they are in body axes. */
 static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_frame *frame,
                       const double axis[3], double out[3])
 {
@@ -102,8 +105,8 @@ static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_fram
   normalize(out);
 }
 
-/* Writes axes x, y, z in body axes, from z and x in ground axes; x is made perpendicular to z.
- * Returns false if x is parallel to z. */
+/* Computes the joint axes x, y and z in body axes. The arguments z and x are in ground axes, and x
+ * is made perpendicular to z. Returns false if x is parallel to z. */
 static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const double x[3],
                      double out[9])
 {
@@ -124,7 +127,8 @@ static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const
   return true;
 }
 
-/* Writes joint axes with z along an axis of the definition, and arbitrary x and y. */
+/* Computes joint axes whose z is along an axis of the definition. The directions of x and y are
+ * arbitrary. */
 static void put_any_axes(const baum_mechanism *mechanism, const baum_i_joint *joint, int side,
                          const double axis[3], double out[9])
 {
@@ -155,8 +159,8 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element).text);
 }
 
-/* Sets x_b to x_a, rotated by the smallest rotation that takes z_a to z_b. Hence the angle is 0 in
- * the design configuration. */
+/* Finds x_b by the smallest rotation that takes z_a to z_b, applied to x_a. The angle of the joint
+ * is therefore 0 in the design configuration. */
 static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {
@@ -172,7 +176,8 @@ static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_jo
   if (baum_i_spatial_is_given(def->axis_b)) {
     to_ground(&def->head, &b, def->axis_b, z);
   }
-  /* R y = y + n x y + n x (n x y) / (1 + c) with n = z_a x z_b and c = z_a . z_b */
+  /* With n = z_a x z_b and c = z_a . z_b, this rotation takes y to y + n x y + n x (n x y) /
+   * (1 + c). */
   double c = baum_i_dot3(axes + 6, z);
   double n[3];
   double first[3];
@@ -194,7 +199,8 @@ static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_join
   return lower_axes_b(mechanism, joint, parameters);
 }
 
-/* Writes `axis` (side 0) or `axis_b` in ground axes, and returns the design frame of the body. */
+/* Writes the axis on body_a (side 0) or on body_b (side 1) in ground axes. Returns the frame of
+ * this body in the design configuration. */
 static baum_i_spatial_frame design_axis(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                         int side, double z[3])
 {
@@ -205,7 +211,7 @@ static baum_i_spatial_frame design_axis(const baum_mechanism *mechanism, const b
   return frame;
 }
 
-/* With x_a = z_b and y_b = z_a, both angles are 0 in the design configuration. */
+/* Chooses x_a = z_b and y_b = z_a in the design configuration, so that both angles are 0 there. */
 static baum_status lower_two_axes(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                   double *parameters)
 {
@@ -247,7 +253,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   return lower_axes_b(mechanism, joint, parameters);
 }
 
-/* The joint axes on both bodies are the ground axes in the design configuration. */
+/* In the design configuration, the joint axes on both bodies are the ground axes. */
 static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                double *parameters)
 {
@@ -263,28 +269,29 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
 
 /* ---- rows ---- */
 
-/* The points of body_a and body_b coincide: e = 0. */
+/* These rows make the points of body_a and body_b coincide: e = 0. */
 #define POINT_ROWS                                                  \
   {BAUM_I_X_GROUND, BAUM_I_APART}, {BAUM_I_Y_GROUND, BAUM_I_APART}, \
   {                                                                 \
     BAUM_I_Z_GROUND, BAUM_I_APART                                   \
   }
 
-/* z_a and z_b are parallel. */
+/* These rows make z_a and z_b parallel. */
 #define PARALLEL_ROWS       \
   {BAUM_I_X_A, BAUM_I_Z_B}, \
   {                         \
     BAUM_I_Y_A, BAUM_I_Z_B  \
   }
 
-/* body_b's point is on the axis of body_a. */
+/* These rows keep the point of body_b on the axis of body_a. */
 #define LINE_ROWS             \
   {BAUM_I_X_A, BAUM_I_APART}, \
   {                           \
     BAUM_I_Y_A, BAUM_I_APART  \
   }
 
-/* ANGLE: products that are sine and cosine of the angle about z. ALONG: displacement on an axis. */
+/* The first macro gives the two products that are the sine and the cosine of the angle about z. The
+ * second gives the displacement along the axis. */
 #define ANGLE                 \
   {                           \
     {BAUM_I_Y_A, BAUM_I_X_B}, \
@@ -330,8 +337,9 @@ static const baum_i_spatial_joint_type universal = {
                         lower_two_axes, 4, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_universal_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE, BAUM_COORDINATE_ANGLE_B)},
   .rows = {POINT_ROWS, {BAUM_I_Z_A, BAUM_I_Z_B}},
-  /* The first angle is that of z_b about z_a relative to body_a. The second is that of body_b about
-   * z_b, hence minus that of z_a relative to body_b. */
+  /* The first angle is the rotation of z_b about z_a, seen from body_a. The second angle is the
+   * rotation of body_b about z_b. It is therefore minus the rotation of z_a about z_b, seen from
+   * body_b. */
   .coordinate_rows = {{{BAUM_I_Y_A, BAUM_I_Z_B}, {BAUM_I_X_A, BAUM_I_Z_B}},
                       {{BAUM_I_X_B, BAUM_I_Z_A}, {BAUM_I_Y_B, BAUM_I_Z_A}}},
 };

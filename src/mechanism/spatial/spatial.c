@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks the fields that spatial elements share, and converts their points to body axes.
  *
- * A point given in ground axes of the design configuration becomes s = A^T (point - r).
+ * A definition may give a point in ground axes, in the design configuration. On a body at r, it
+ * becomes s = A^T (point - r).
  */
 #include "mechanism/spatial/spatial.h"
 
@@ -9,8 +10,8 @@
 
 #include "base/message.h"
 
-/* Relative tolerance for equal points. A particle and the point of its joint, both typed as decimal
- * numbers, are equal only up to rounding. */
+/* Points are considered equal up to this relative tolerance. A particle and the point of its joint
+ * are often typed as decimal numbers, so they are equal only up to rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */

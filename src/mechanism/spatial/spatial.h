@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Common part of spatial joints and forces: the first fields of their definitions, checks of these
- * fields, and points. Spatial elements compute derivatives over six columns for each body
- * (general/columns.h), also for a planar body, which may take part in spatial joints and stays in
- * its plane.
+/* The part that spatial joints and forces have in common: the first fields of their definitions,
+ * checks of these fields, and points. Spatial elements compute derivatives over six columns for
+ * each body (general/columns.h). This is also true for a planar body, which may have spatial joints
+ * and stays in its plane.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
@@ -31,33 +31,36 @@ typedef struct baum_i_spatial_head {
     BAUM_I_OPTIONAL(DEF, point, POINT, "m"), BAUM_I_OPTIONAL(DEF, point_a, POINT, "m"), \
     BAUM_I_OPTIONAL(DEF, point_b, POINT, "m")
 
-/* Checks that a body has a position. baum_i_spatial_check_turning() also checks that it has an
- * orientation. */
+/* Checks that a body has a position in space. baum_i_spatial_check_turning() also checks that it
+ * has an orientation. */
 baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
                                          const char *label, const char *field);
 
-/* Checks that s is zero or not given if the body is a particle. */
+/* Checks that the vector s is zero, or not given, if the body is a particle. */
 baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
                                                   const char *label, const char *field,
                                                   const char *unit, const double s[3]);
 
-/* Checks that the bodies differ, and that the points are given either by `point` or by point_a and
- * point_b. An element with a length cannot use `point`, because its length would be zero. */
+/* Checks that the two bodies differ, and that the definition gives their points in exactly one way:
+ * by `point`, or by point_a and point_b. An element with a length cannot use `point`, because its
+ * length would be zero. */
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
-/* Writes the points of a checked element in body axes: s[0..2] on a, s[3..5] on b. Fails with
- * BAUM_ERR_ARGUMENT if a body is a particle that is not at `point`. */
+/* Writes the points of an element in body axes: s[0..2] on body_a and s[3..5] on body_b. The
+ * definition has been checked. Fails with BAUM_ERR_ARGUMENT if one of the bodies is a particle that
+ * is not at `point`. */
 baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                   double s[6]);
 
-/* Extends the box by the points of a joint's definition; the `extent` of spatial joints. */
+/* Extends the box so that it includes the points of a joint's definition. This is the `extent`
+ * function of spatial joints. */
 void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                            baum_i_box *box);
 
-/* If an optional point is not given, all its entries are NaN. */
+/* Tells whether a point is given. All entries of a point that is not given are NaN. */
 static inline bool baum_i_spatial_is_given(const double point[3])
 {
   return !isnan(point[0]);

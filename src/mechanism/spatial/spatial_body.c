@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies in space. A particle has q = r and v = r'. A rigid body has q = (r, p), the centre of mass
- * in ground axes and a unit quaternion, and v = (r', w), w the angular velocity in body axes.
+/* Bodies in space. A particle has q = r and v = r'. A rigid body has q = (r, p) and v = (r', w).
+ * Here r is the centre of mass in ground axes, p is a unit quaternion, and w is the angular
+ * velocity in body axes.
  *
  *   p' = p o (0, w) / 2
  *   M = diag(m E, I), constant; for a particle M = m E
  *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r;   [a]x b = a x b
  *
- * A displacement (dr, dth), dth in body axes, changes p to p o exp(dth). The difference from p_1 to
- * p_2 is the logarithm of p_1^-1 o p_2.
+ * A displacement is (dr, dth) with the rotation vector dth in body axes. It changes p to
+ * p o exp(dth). The displacement from p_1 to p_2 is the logarithm of p_1^-1 o p_2.
  */
 #include <string.h>
 
@@ -17,15 +18,16 @@
 #include "base/rotation.h"
 #include "mechanism/definition.h"
 
-/* Parameters. Only rigid bodies have the inertia, a 3 x 3 matrix. */
+/* Parameters. Only rigid bodies have the parameter INERTIA, which is a 3 x 3 matrix. */
 enum { MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
 
-/* Allowed deviation of the length of a given quaternion from 1; a user may type few digits. */
+/* The length of a given quaternion may differ from 1 by this much, because a user may type only a
+ * few digits. */
 static const double NEAR_UNIT = 1e-6;
 
-/* Least principal moment relative to the largest. It replaces the zero moment of a slender rod
- * about its axis, which would make M singular. In Bricard's mechanism of such rods, this causes an
- * error of only 2e-11 m after 5 s. */
+/* The smallest principal moment that a body may have, relative to its largest one. It replaces the
+ * zero moment of a slender rod about its axis, which would make M singular. In Bricard's mechanism
+ * of such rods, this causes an error of only 2e-11 m after 5 s. */
 static const double SMALLEST_MOMENT = 1e-10;
 static const double ROUNDING = 1e-9;
 
@@ -42,7 +44,7 @@ static const baum_i_def_field body_fields[] = {
 
 /* ---- definition ---- */
 
-/* Makes a matrix from xx, yy, zz, xy, xz, yz. */
+/* Computes the 3 x 3 inertia matrix from the entries xx, yy, zz, xy, xz, yz. */
 static void matrix_of(const double inertia[6], double out[9])
 {
   static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
@@ -195,7 +197,8 @@ static baum_status body_masses(const baum_i_body_group *group, baum_i_point *poi
   return BAUM_OK;
 }
 
-/* Only the gyroscopic moment depends on velocity. It is zero if I is a multiple of E. */
+/* Only the gyroscopic moment depends on the velocity. It is zero if I is a multiple of the unit
+ * matrix E. */
 static bool depends_on_velocity(const void *given)
 {
   const baum_spatial_body_def *def = given;
@@ -244,7 +247,7 @@ static baum_status force(const baum_i_body_group *group, baum_i_point *point, do
   return force_of_gravity(group, point, out);
 }
 
-/* Column j of g_w is (I e_j) x w + (I w) x e_j. */
+/* Computes g_w. Its column j is (I e_j) x w + (I w) x e_j. */
 static baum_status linearize(const baum_i_body *body, baum_i_point *point, const double *a,
                              const baum_i_body_blocks *blocks)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint in space: a rod without mass keeps two points at length L. With e from body_a's
- * point to body_b's (spatial_rows.h):
+/* Distance joint in space: a rod without mass keeps two points at the distance L. If e is the
+ * vector from body_a's point to body_b's point (spatial_rows.h), the row is
  *
- *   Phi = (e . e - L^2) / (2 L)   (1 row); nearly |e| - L if this is small, and smooth at e = 0
+ *   Phi = (e . e - L^2) / (2 L),  which is nearly |e| - L if Phi is small, and smooth at e = 0
  */
 #include <math.h>
 
@@ -10,7 +10,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Parameters of the joint, which follow both points. */
+/* Parameters of the joint. Both points precede them. */
 enum { LENGTH = 6, PARAMETER_COUNT };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};

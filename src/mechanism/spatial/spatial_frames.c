@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames in space of all bodies that have a position. */
+/* The spatial frames of all bodies that have a position. */
 #include <string.h>
 
 #include "mechanism/spatial/spatial.h"

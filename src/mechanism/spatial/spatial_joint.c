@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions that all spatial joints share; they evaluate the joint's table of rows. */
+/* Functions that all spatial joints share. They evaluate the table of products that defines a
+ * joint. */
 #include "mechanism/spatial/spatial_joint.h"
 
 #include "mechanism/general/composed_row.h"
@@ -81,19 +82,20 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
 
 /* ---- coordinates ----
  *
- * A displacement is one product. An angle is atan2(s, c) = Im log z with z = c + i s. Its
- * derivatives with respect to c and s follow from those of log z, with a factor i for each
- * derivative with respect to s:
+ * A displacement is the value of one product. An angle is computed from two products, its cosine c
+ * and its sine s, as atan2(s, c). This is the imaginary part of log z with z = c + i s. The
+ * derivatives of the angle with respect to c and s therefore follow from the derivatives of log z.
+ * Each derivative with respect to s contributes a factor i.
  *
- *   first 1 / z, second -1 / z^2, third 2 / z^3
+ *   The derivatives of log z are 1 / z, then -1 / z^2, and then 2 / z^3
  *
- * The chain rule is that of general/composed_row.h.
+ * The chain rule is in general/composed_row.h.
  */
 
 static baum_i_outer angle_of(double c, double s)
 {
   double square = c * c + s * s;
-  /* real and imaginary parts of 1 / z, 1 / z^2, 1 / z^3 */
+  /* The numbers a, b and d are real and imaginary parts of 1 / z, 1 / z^2 and 1 / z^3. */
   const double a[2] = {c / square, -s / square};
   const double b[2] = {a[0] * a[0] - a[1] * a[1], 2.0 * a[0] * a[1]};
   const double d[2] = {a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]};
@@ -103,7 +105,7 @@ static baum_i_outer angle_of(double c, double s)
                         .third = {2.0 * d[1], 2.0 * d[0], -2.0 * d[1], -2.0 * d[0]}};
 }
 
-/* Evaluates cosine and sine into x, and the angle as a function of them. */
+/* Evaluates the cosine and the sine of an angle, and returns the angle as a function of them. */
 static baum_i_outer cosine_and_sine(const baum_i_spatial_pair *pair,
                                     const baum_i_spatial_row rows[2], baum_i_inner x[2])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spatial joint is a table of products (spatial_rows.h): those that are its rows, and those from
- * which its coordinates are computed. All spatial joints have the same functions in the type
- * struct.
+/* A spatial joint is defined by a table of products (spatial_rows.h). Some of these products are
+ * its rows, and its coordinates are computed from the others. All spatial joints have the same
+ * functions in their type struct.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
@@ -9,21 +9,21 @@
 #include "mechanism/definition.h"
 #include "mechanism/spatial/spatial_rows.h"
 
-/* The type of a spatial joint; begins with the struct that all joint types share. */
+/* The type of a spatial joint. It begins with the struct that all joint types share. */
 typedef struct baum_i_spatial_joint_type {
   baum_i_joint_type type;
   baum_i_spatial_row rows[BAUM_I_SPATIAL_ROWS];
-  /* For each coordinate: the product that is the displacement, or the two products that are sine
-   * and cosine of the angle. */
+  /* Each coordinate has either one product, which is the displacement, or two products, which are
+   * the sine and the cosine of the angle. */
   baum_i_spatial_row coordinate_rows[BAUM_I_COORDINATES][2];
-  /* Products of axes that are 1 in the intended assembly. The rows also hold in wrong assemblies:
-   * if axes are reversed, one of these products is -1; if a weld is rotated by 120 degrees about
-   * the diagonal of its axes, they are 0. */
+  /* These products of axes are 1 if the joint is assembled as intended. The rows are also satisfied
+   * in wrong assemblies. If the axes are reversed, one of these products is -1. If a weld is
+   * rotated by 120 degrees about the diagonal of its axes, the products are 0. */
   int directed_count;
   baum_i_spatial_row directed[2];
 } baum_i_spatial_joint_type;
 
-/* The first fields of definitions of joints with axes. */
+/* The first fields of the definitions of joints that have axes. */
 typedef struct baum_i_spatial_axis_head {
   baum_i_spatial_head head;
   double axis[3];
@@ -51,7 +51,8 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, int number,
                                          const baum_i_point *point, const double *w, double lambda,
                                          baum_i_coordinate_blocks *out);
 
-/* The last arguments are the fields of the definition. */
+/* Members that the types of all spatial joints have. The last arguments are the fields of the
+ * definition. */
 #define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS, ...)                   \
   .definition = {.kind = (TITLE),                                                    \
                  .size = sizeof(baum_##NAME##_def),                                  \

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load on one body in space: force f at the point s, and moment n. Both are multiplied by the input
- * if there is one. Below, g is given over r (ground axes) and the rotation (body axes). Of g_q,
- * only the given rows in the columns of the rotation are not zero. With F = A^T f and [a]x b = a x
- * b:
+/* A load on one body in space. It consists of a force f at the point s, and a moment n. If the load
+ * has an input, both are multiplied by the input. Below, the generalized force g has two parts: one
+ * for r in ground axes, and one for the rotation in body axes. Its derivative g_q is zero except in
+ * the columns of the rotation, and there only the rows named below differ from zero. With F = A^T
+ * f, and [a]x b = a x b:
  *
  *   ground axes    g = (f, s x A^T f + A^T n)     rows of rotation: [s]x [F]x + [A^T n]x
  *                  V = -f . (r + A s) where n = 0
  *   follows_body   g = (A f, s x f + n)           rows of r: -A [f]x
  *
- * In space a constant moment has no potential. A load with an input is given none, because a jump
- * of the input would change the potential although no work is done.
+ * In space, a constant moment has no potential. A load that has an input has no potential either,
+ * because a jump of the input would change the potential although no work is done.
  */
 #include <string.h>
 
@@ -74,8 +75,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct load {
   const baum_i_spatial_frame *frame;
   const double *point;
-  double force[2][3];  /* ground axes, body axes */
-  double moment[2][3]; /* likewise */
+  double force[2][3];  /* in ground axes, and in body axes */
+  double moment[2][3]; /* in ground axes, and in body axes */
   bool follows_body;
   bool has_potential;
 } load;
@@ -152,7 +153,7 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-/* Writes the derivative of g with respect to the rotation about axis j. */
+/* Writes the derivative of g with respect to a rotation about body axis j. */
 static void set_column(const load *l, int j, double square[36])
 {
   const double axis[3] = {j == 0, j == 1, j == 2};

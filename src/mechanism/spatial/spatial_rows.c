@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Products of vectors on two bodies, and their derivatives; see spatial_rows.h. */
+/* Products of vectors on two bodies, and their derivatives. The equations are in spatial_rows.h. */
 #include "mechanism/spatial/spatial_rows.h"
 
 #include <string.h>
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
-/* ---- vectors ---- */
+/* ---- vectors, see spatial_rows.h ---- */
 
 typedef struct vector {
   double value[3];
@@ -34,13 +34,13 @@ static vector vector_of(const baum_i_spatial_pair *pair, baum_i_spatial_vector w
   return u;
 }
 
-/* Velocities and angular velocities of body_a and body_b in ground axes. */
+/* The velocities and angular velocities of body_a and body_b, in ground axes. */
 typedef struct motion {
   double v[2][3];
   double w[2][3];
 } motion;
 
-/* u' along a motion. */
+/* Return the derivative u' of a vector along a motion. */
 static vector along(const vector *u, const motion *m)
 {
   vector out = {.apart = 0.0};
@@ -76,7 +76,7 @@ static motion unit_motion(const baum_i_spatial_pair *pair, int column)
   return m;
 }
 
-/* out += factor (x . y)_q */
+/* Add factor * (x . y)_q to `out`. */
 static void add_gradient(const baum_i_spatial_pair *pair, double factor, const vector *x,
                          const vector *y, double out[COLUMNS])
 {
@@ -123,7 +123,7 @@ double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_ro
   return baum_i_dot3(x.value, y.value);
 }
 
-/* x and y, each with its first and second derivative along a motion. */
+/* The vectors x and y of a product, each with its first and second derivatives along a motion. */
 typedef struct product {
   vector x[3];
   vector y[3];
@@ -162,7 +162,7 @@ void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
   }
 }
 
-/* out += (J w)_q for a motion w */
+/* Add (J w)_q to `out`, for a motion w. */
 static void add_first(const baum_i_spatial_pair *pair, const vector *x, const vector *y,
                       const motion *w, double out[COLUMNS])
 {

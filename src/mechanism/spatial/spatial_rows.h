@@ -3,17 +3,19 @@
  *
  *   Phi = x . y,
  *
- * where x is a joint axis on body_a or body_b or a ground axis; y is such an axis, too, or the
- * vector e from body_a's point to body_b's. Coordinates of joints and the squared length of a rod
- * are such products as well, and all derivatives are sums of them. Each vector has the form u = c +
- * t (r_b - r_a) + u_a + u_b with c fixed to ground, a number t (1 for e, otherwise 0), and u_a and
- * u_b fixed in the bodies. Its derivative along a motion with velocities r_a', r_b' and angular
- * velocities W_a, W_b is
+ * where x is a joint axis on body_a or body_b, or a ground axis. The vector y is also such an axis,
+ * or it is the vector e from body_a's point to body_b's point. The coordinates of joints and the
+ * squared length of a rod are such products as well, and all derivatives are sums of such products.
+ * Each vector has the form u = c + t (r_b - r_a) + u_a + u_b. The vector c is fixed to ground. The
+ * number t is 1 for e, and 0 otherwise. The vectors u_a and u_b are fixed in the bodies. If the
+ * bodies have the velocities r_a' and r_b' and the angular velocities W_a and W_b, the derivative
+ * of u is
  *
  *   u' = t (r_b' - r_a') + W_a x u_a + W_b x u_b.
  *
- * This has the same form, with c = t (r_b' - r_a'), t = 0 and W_k x u_k instead of u_k, because in
- * further derivatives r' is constant in ground axes, and W in body axes. Hence, with l = lambda,
+ * This derivative has the same form as u, with c = t (r_b' - r_a'), with t = 0, and with W_k x u_k
+ * instead of u_k. The reason is that, in further derivatives, r' is constant in ground axes and W
+ * is constant in body axes. Hence, with the abbreviation l = lambda,
  *
  *   (x . y)_q      r_b: t_x y + t_y x; r_a: -(t_x y + t_y x); W_k: cross(u_xk, y) + cross(u_yk, x)
  *   gamma          = -(x'' . y + 2 x' . y' + x . y'')
@@ -21,16 +23,17 @@
  *   (J^T l)_q      row i: l (J e_i)_q;          gamma_v = -(J v)_q - ((J e_i)_q v)_i
  *   gamma_q        = -(x'' . y + 2 x' . y' + x . y'')_q
  *
- * W is not the derivative of coordinates; therefore (J^T l)_q is not symmetric.
+ * The angular velocity W is not the derivative of coordinates. Therefore (J^T l)_q is not
+ * symmetric.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_ROWS_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_ROWS_H
 
 #include "mechanism/spatial/spatial.h"
 
-enum { BAUM_I_SPATIAL_ROWS = 6 }; /* the most a joint has */
+enum { BAUM_I_SPATIAL_ROWS = 6 }; /* the largest number of rows of a spatial joint */
 
-/* Parameters of a joint. The joint axes x, y, z are in body axes. */
+/* Parameters of a joint. The joint axes x, y and z are given in body axes. */
 enum {
   BAUM_I_SPATIAL_POINTS = 0,
   BAUM_I_SPATIAL_AXES_A = 6,
@@ -38,18 +41,19 @@ enum {
   BAUM_I_SPATIAL_NUMBERS = 24
 };
 
-/* One joint in a state of the mechanism; all vectors are in ground axes. */
+/* One joint in a state of the mechanism. All vectors are in ground axes. */
 typedef struct baum_i_spatial_pair {
   const baum_i_spatial_frame *frame[2];
   double arm[2][3];
-  double axes[2][9]; /* x, y, z */
+  double axes[2][9]; /* the axes x, y and z of the joint on each body */
 } baum_i_spatial_pair;
 
-/* `numbers` holds the parameters of a joint, or only the points if has_axes is false. */
+/* Computes the points and axes of a joint. `numbers` contains the parameters of the joint, or only
+ * its points if `has_axes` is false. */
 baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double *numbers,
                                            bool has_axes, const baum_i_point *point);
 
-/* The vectors whose product is a row. */
+/* The vectors that can be factors of a product. */
 typedef enum baum_i_spatial_vector {
   BAUM_I_X_A,
   BAUM_I_Y_A,
@@ -60,7 +64,7 @@ typedef enum baum_i_spatial_vector {
   BAUM_I_X_GROUND,
   BAUM_I_Y_GROUND,
   BAUM_I_Z_GROUND,
-  BAUM_I_APART, /* e */
+  BAUM_I_APART, /* the vector e */
 } baum_i_spatial_vector;
 
 typedef struct baum_i_spatial_row {
@@ -68,45 +72,47 @@ typedef struct baum_i_spatial_row {
 } baum_i_spatial_row;
 
 double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row);
-/* Evaluates the product, its gradient and rate, and gamma. */
+/* Evaluates a product, its gradient, its rate, and gamma. */
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out);
 
-/* Second derivatives over the twelve columns of both bodies. */
+/* Second derivatives of a product over the twelve columns of both bodies. */
 typedef struct baum_i_spatial_second {
   double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */
   double gamma_q[BAUM_I_PAIR_COLUMNS];
   double gamma_v[BAUM_I_PAIR_COLUMNS];
-  /* Row i is (J e_i)_q with the unit vector e_i. Hence (J w)_q = w^T columns_q and (J^T l)_q = l
-   * columns_q. */
+  /* Row i of this matrix is (J e_i)_q, where e_i is a unit vector. Hence (J w)_q = w^T columns_q
+   * and (J^T l)_q = l columns_q. */
   double columns_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
 } baum_i_spatial_second;
 
 void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                               baum_i_spatial_second *out);
 
-/* out += factor (J w)_q; w and out over the twelve columns. */
+/* Add factor (J w)_q to `out`. Both w and `out` have twelve entries. */
 void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *w, double factor,
                              double *out);
 
-/* Writes the derivatives of the row as a coordinate needs them; w has twelve entries. */
+/* Writes the derivatives of a product that a coordinate needs. w has twelve entries. */
 void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
-/* The `linearize` of a joint whose rows are `factor` times `rows`. */
+/* The function `linearize` of a joint whose rows are products. Each row is one of the products in
+ * `rows`, multiplied by `factor`. */
 void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
                                    const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
                                    double factor, const double *w, const double *lambda,
                                    const baum_i_joint_blocks *blocks);
 
-/* six += -lambda times the gradient's columns of body_b. */
+/* Subtract lambda times those entries of the gradient from `six` that belong to body_b. */
 void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
                                    double six[BAUM_I_SPACE]);
 
-/* body_b's point in ground axes. */
+/* Write the point of body_b in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);
 
-/* |e| in the design configuration; points = (s_a, s_b) in body axes. */
+/* Return the length |e| in the design configuration. `points` contains s_a and then s_b, in body
+ * axes. */
 double baum_i_spatial_design_length(const baum_mechanism *mechanism, const baum_i_span *span,
                                     const double points[6]);
 

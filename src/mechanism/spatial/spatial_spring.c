@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel between two points in space. With e from body_a's point to body_b's
- * (spatial_rows.h), l = |e|, h = l_q and the tension T(l, l') of general/spring_law.h:
+/* Spring and damper in parallel between two points in space. Let e be the vector from body_a's
+ * point to body_b's point (spatial_rows.h), l = |e|, and h = l_q. T(l, l') is the tension of
+ * general/spring_law.h.
  *
  *   g   = -T h                              (12 entries, 6 for each body)
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (l')_q
@@ -18,7 +19,7 @@
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
-/* Parameters; both points come first. */
+/* Parameters of the spring. Both points precede the numbers of the law. */
 enum { LAW = 6, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};
@@ -53,7 +54,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct spring {
   baum_i_spatial_pair pair;
   baum_i_spring_law law;
-  double length; /* l; 0 if too short to have a direction */
+  double length; /* l, or 0 if it is too short to have a direction */
   double rate;
   double h[COLUMNS];
 } spring;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The library's own evaluation, with the block solver. PHASE_WHOLE calls baum_i_acceleration(); the
- * phases make the calls inside that function, in their order. */
+/* The library's own evaluation of accelerations, with the block solver. For PHASE_WHOLE,
+ * baum_i_acceleration() is called. For the other phases, the calls that this function contains are
+ * made, in the same order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@
 typedef struct block_solver {
   scene *at;
   baum_i_block_path *path;
-  bool plain; /* without wide vectors */
+  bool plain; /* does not use wide vectors */
 } block_solver;
 
 static void *create(scene *at, bool plain)
@@ -32,7 +33,8 @@ static void *block_create(scene *at)
   return create(at, false);
 }
 
-/* Returns NULL if this processor has no wide vectors, because "block" is then the same. */
+/* Creates the solver without wide vectors. If this processor has no wide vectors, returns NULL,
+ * because "block" is then the same solver. */
 static void *plain_create(scene *at)
 {
   return baum_i_hot_is_wide() ? create(at, true) : NULL;
@@ -120,7 +122,7 @@ static bool block_run(void *self, int last_phase)
   return accelerate(s->at);
 }
 
-/* The eight assignments take negligible time. */
+/* The time of the eight assignments is negligible. */
 static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;

@@ -35,13 +35,13 @@ static baum_status car_axis(model *out)
   return model_car_axis(true, out);
 }
 
-/* Sample times are those of tests/data, without the start. */
+/* The sample times are taken from tests/data, without the time of the start. */
 static const struct {
   const char *name;
   baum_status (*build)(model *out);
   int samples;
   const double *t;
-  int steps; /* steps of a reference between two samples */
+  int steps; /* number of steps of a reference from one sample to the next */
 } PROBLEMS[] = {
   {"A01 pendulum", pendulum, A01_PENDULUM_SAMPLES - 1, A01_PENDULUM_T + 1, 4000},
   {"slider-crank, driven", driven, SLIDER_CRANK_DRIVEN_SAMPLES - 1, SLIDER_CRANK_DRIVEN_T + 1,
@@ -108,7 +108,8 @@ static baum_status refer(gain_problem *problem, const gain_start *start, int ste
 
 /* ---- starts ---- */
 
-/* A pseudo-random number in (-1, 1) by Knuth's generator, the same on all machines. */
+/* Returns a pseudo-random number in (-1, 1), by Knuth's generator. It is the same on all
+ * machines. */
 static double draw(uint64_t *seed)
 {
   *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -124,8 +125,8 @@ static bool allocate(gain_problem *problem, gain_start *start)
   return start->q != NULL;
 }
 
-/* Changes the start by a hundredth of the scales, and the time by a hundredth of the first sample
- * time, then projects it onto the constraints. */
+/* Changes the start by a hundredth of the scales, and its time by a hundredth of the first sample
+ * time. Then projects the start onto the constraints. */
 static baum_status perturb(gain_problem *problem, int lot, int number, gain_start *start)
 {
   static const double SIZE = 0.01;
@@ -148,7 +149,7 @@ static baum_status keep_run(gain_problem *problem)
 {
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk4();
-  options.step = 1.0; /* no step is taken */
+  options.step = 1.0; /* this step is never taken */
   options.formulation = BAUM_FORMULATION_PROJECTION;
   baum_status status = baum_simulation_create(problem->m.mechanism, &options, &problem->kept);
   if (status >= 0) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Problems for measuring gain rules, with perturbed starts and a reference for each. */
+/* Problems with which rules for gains are measured. Each has perturbed starts and a reference for
+ * each start. */
 #ifndef BAUM_BENCH_GAIN_PROBLEMS_H
 #define BAUM_BENCH_GAIN_PROBLEMS_H
 
@@ -12,7 +13,7 @@ typedef struct gain_start {
   double t;
   double *q;    /* (nq) */
   double *v;    /* (nv) */
-  double *rows; /* (samples x nq) the motion at the sample times */
+  double *rows; /* (samples x nq) the positions at the sample times */
 } gain_start;
 
 typedef struct gain_problem {
@@ -20,22 +21,23 @@ typedef struct gain_problem {
   model m;
   int nq;
   int samples;
-  const double *t;     /* (samples) [s] all after the start */
-  const double *scale; /* (nq) length [m] or 1 rad; owned by kept */
+  const double *t;     /* (samples) [s] times, all after the start */
+  const double *scale; /* (nq) a length [m] or 1 rad; `kept` owns this memory */
   gain_start starts[GAIN_STARTS];
-  double apart; /* largest difference between a reference and the same with twice the step */
+  /* Largest difference between a reference and the same reference with twice the step. */
+  double apart;
   baum_simulation *kept;
 } gain_problem;
 
 int gain_problem_count(void);
 
 /* Builds problem k, perturbs its start with the random numbers of set `lot`, and integrates the
- * references: RK4 with projection, at small steps. Returns false with the reason in
- * baum_message(). */
+ * references. They use RK4 with projection and small steps. If this fails, returns false, and
+ * baum_message() gives the reason. */
 bool gain_problem_make(int k, int lot, gain_problem *out);
 void gain_problem_clear(gain_problem *problem);
 
-/* Returns the largest difference of rows from expected, relative to the scales. */
+/* Returns the largest difference between `rows` and `expected`, relative to the scales. */
 double gain_problem_error(const gain_problem *problem, const double *rows, const double *expected);
 
 #endif

@@ -8,7 +8,7 @@ enum { COLUMNS = 8 };
 
 typedef long double state[GRAGG_MOST];
 
-/* Takes n steps of the midpoint rule over h. */
+/* Takes n steps of the midpoint rule, which together have the length h. */
 static void midpoint(const gragg *g, const long double *y, long double h, int n, long double *out)
 {
   state slope;
@@ -29,8 +29,8 @@ static void midpoint(const gragg *g, const long double *y, long double h, int n,
   }
 }
 
-/* Extrapolates the midpoint rule to a step of zero; returns the difference of the last two values
- * over the tolerance. */
+/* Extrapolates the results of the midpoint rule to a step of zero. Returns the difference of the
+ * last two values, divided by the tolerance. */
 static long double extrapolate(const gragg *g, const long double *y, long double h,
                                long double *out)
 {
@@ -52,7 +52,7 @@ static long double extrapolate(const gragg *g, const long double *y, long double
   for (int i = 0; i < g->n; i++) {
     long double size = fmaxl(1.0L, fabsl(y[i])) * g->tolerance;
     long double difference = fabsl(table[COLUMNS - 1][i] - table[COLUMNS - 2][i]) / size;
-    error = difference <= error ? error : difference; /* NaN stays */
+    error = difference <= error ? error : difference; /* this keeps NaN */
     out[i] = table[COLUMNS - 1][i];
   }
   return error;

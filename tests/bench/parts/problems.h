@@ -6,17 +6,17 @@
 #include "reference.h"
 
 typedef struct problem {
-  const char *name; /* for the command line */
-  const char *what; /* description with duration */
+  const char *name; /* name for the command line */
+  const char *what; /* description, which includes the duration */
   reference with;
-  double step; /* [s] longest useful step */
+  double step; /* [s] longest step that is useful */
   baum_status (*build)(model *out);
 } problem;
 
-/* Returns NULL if k is too large. */
+/* Returns problem number k, or NULL if k is too large. */
 const problem *problem_at(int k);
 
-/* "integrator/formulation" of a pair. */
+/* Writes a pair as a text of the form "integrator/formulation". */
 enum { PAIR_SIZE = 64 };
 void problem_pair(const baum_integrator *integrator, baum_formulation formulation,
                   char text[PAIR_SIZE]);

@@ -8,12 +8,12 @@
 #include "spatial.h"
 
 typedef enum scene_kind {
-  SCENE_SLIDER_CRANK, /* driven: 9 rows */
+  SCENE_SLIDER_CRANK, /* with a driver; it has 9 rows */
   SCENE_ANDREWS,
   SCENE_FOUR_BAR,
   SCENE_CHAIN,
-  SCENE_ONE_GUIDE,      /* undriven slider-crank: 8 rows */
-  SCENE_TWO_GUIDES,     /* a second guide: two redundant rows */
+  SCENE_ONE_GUIDE,      /* slider-crank without a driver; it has 8 rows */
+  SCENE_TWO_GUIDES,     /* the same with a second guide, which adds two redundant rows */
   SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
   SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
   SCENE_TWO_CRANKS,
@@ -22,7 +22,7 @@ typedef enum scene_kind {
 
 typedef struct scene {
   scene_kind kind;
-  int n; /* number of loops or links, else 1 */
+  int n; /* number of loops or links, or 1 if the scene has neither */
   model m;
   int bodies;
   baum_workspace *workspace;
@@ -37,7 +37,7 @@ static inline scene_kind scene_of_space(model_spatial which)
   return (scene_kind)(SCENE_SPATIAL + (int)which);
 }
 
-/* Returns false with the reason in baum_message(). */
+/* Makes a scene. If this fails, returns false, and baum_message() gives the reason. */
 bool scene_make(scene_kind kind, int n, scene *out);
 void scene_clear(scene *out);
 

@@ -15,7 +15,7 @@ void solver_read_workspace(const baum_workspace *w, double *a, double *lambda)
   memcpy(lambda, w->lambda, (size_t)w->mechanism->nc * sizeof *lambda);
 }
 
-/* ---- the library without blocks: KLU, with scaling, checks and refinement ---- */
+/* ---- the library without blocks: KLU with scaling, checks and refinement ---- */
 
 static void *front_create(scene *at)
 {
@@ -42,7 +42,7 @@ static void front_read(const void *self, double *a, double *lambda)
 
 static void front_destroy(void *self)
 {
-  (void)self; /* belongs to the scene */
+  (void)self; /* the scene owns it */
 }
 
 static const solver FRONT = {.name = "klu_checked",
@@ -51,7 +51,7 @@ static const solver FRONT = {.name = "klu_checked",
                              .read = front_read,
                              .destroy = front_destroy};
 
-/* ---- what KLU and the dense oracle have in common ---- */
+/* ---- what KLU alone and dense elimination have in common ---- */
 
 typedef struct common {
   scene *at;
@@ -98,9 +98,9 @@ static void read_common(const common *c, double *a, double *lambda)
 
 typedef struct klu_solver {
   common c;
-  double *scale; /* (n) computed once, not in every evaluation */
+  double *scale; /* (n) computed only once, and not in every evaluation */
   void *backend;
-  baum_i_pattern pattern; /* for the time of filling the matrix */
+  baum_i_pattern pattern; /* needed to measure the time of filling the matrix */
 } klu_solver;
 
 static void klu_destroy(void *self)
@@ -141,8 +141,8 @@ static void *klu_create(scene *at)
   return s;
 }
 
-/* Factoring includes filling the matrix. The phase of assembly fills it once more, and only if it
- * is the last phase. */
+/* The call that factors the matrix also fills it. The phase of assembly is therefore run only if it
+ * is the last phase. In this case the matrix is filled separately. */
 static bool klu_run(void *self, int last_phase)
 {
   klu_solver *s = self;
@@ -249,7 +249,7 @@ static void dense_fill(const dense_solver *s)
   }
 }
 
-/* Exchanges whole rows and their right side. */
+/* Exchanges two whole rows, together with their right sides. */
 static bool dense_pivot(dense_solver *s, int k)
 {
   int n = s->c.n;
@@ -270,7 +270,7 @@ static bool dense_pivot(dense_solver *s, int k)
   return s->matrix[k * n + k] != 0.0;
 }
 
-/* Reduces the matrix to an upper triangle, and the right side with it. */
+/* Reduces the matrix to upper triangular form, together with the right side. */
 static bool dense_factor(dense_solver *s)
 {
   int n = s->c.n;

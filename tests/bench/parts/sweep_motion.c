@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Growth of perturbations. A perturbation of the start is a combination of given directions. Row d
- * of A_k is the change of q, and of v over the rate, at time k due to direction d, from central
- * differences. From time j to k a perturbation grows at most by the square root of trace(G_j^-1
- * P_k), a Frobenius norm, with the Gram matrices G_j of all columns of A_j and P_k of the columns
- * of positions in A_k. */
+/* Computes the growth of perturbations. A perturbation of the start is a combination of given
+ * directions. Row d of A_k is the effect of direction d at time k, from central differences. It
+ * contains the change of q and the change of v, the latter divided by the rate. From time j to time
+ * k, a perturbation grows at most by the square root of trace(G_j^-1 P_k), which is a Frobenius
+ * norm. G_j is the Gram matrix of all columns of A_j, and P_k is the Gram matrix of the columns of
+ * positions in A_k. */
 #include "sweep_motion.h"
 
 #include <math.h>
@@ -26,12 +27,13 @@ void sweep_must(bool fine, const char *what)
 }
 
 typedef struct neighbours {
-  long double change[NUMBERS][2 * SWEEP_NQ]; /* A: a row for each direction */
-  long double positions[NUMBERS][NUMBERS];   /* P */
-  long double both[NUMBERS][NUMBERS];        /* G, then its Cholesky factor L */
+  long double change[NUMBERS][2 * SWEEP_NQ]; /* the matrix A, with a row for each direction */
+  long double positions[NUMBERS][NUMBERS];   /* the matrix P */
+  long double both[NUMBERS][NUMBERS];        /* the matrix G, and later its Cholesky factor L */
 } neighbours;
 
-/* Computes z = (q, v / rate) in units of errors; v by differences of q. */
+/* Computes z = (q, v / rate), in units of errors. The velocities v are computed by differences of
+ * q. */
 static void measure(const sweep_scene *s, const sweep_motion *m, const long double *y,
                     long double *z)
 {
@@ -94,7 +96,7 @@ static void find_gram(const sweep_scene *s, int directions, neighbours *at)
   }
 }
 
-/* Trace of G^-1 P with G = L L^T. */
+/* Returns the trace of G^-1 P, where G = L L^T. */
 static long double trace_of(int n, const neighbours *from, const neighbours *to)
 {
   long double trace = 0.0L;

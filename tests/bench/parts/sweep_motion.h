@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reference motions in reduced coordinates y, and their amplification of perturbations. */
+/* Reference motions in reduced coordinates y, and the amplification of perturbations by them. */
 #ifndef BAUM_BENCH_SWEEP_MOTION_H
 #define BAUM_BENCH_SWEEP_MOTION_H
 
@@ -11,17 +11,17 @@ typedef struct sweep_motion {
   void (*rate)(const void *data, const long double *y, long double *dy);
   void (*q)(const void *data, const long double *y, long double *q);
   const void *data;
-  int n; /* size of y */
+  int n; /* number of entries of y */
   long double y[SWEEP_NUMBERS];
-  int directions; /* number of directions that perturb the start */
+  int directions; /* number of directions in which the start is perturbed */
   long double direction[SWEEP_NUMBERS][SWEEP_NUMBERS];
 } sweep_motion;
 
-/* Integrates the motion to its end, to which m->y is advanced. Stores samples and, if `growth`, the
- * growth of perturbations in s. */
+/* Integrates the motion to its end. Afterwards m->y is the state at the end. Stores samples in s.
+ * If `growth` is set, also stores the growth of perturbations. */
 void sweep_follow(sweep_scene *s, sweep_motion *m, bool growth);
 
-/* Ends the program with a message if `fine` is false. */
+/* If `fine` is false, ends the program with a message. */
 void sweep_must(bool fine, const char *what);
 
 #endif

@@ -35,12 +35,12 @@ void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv)
 typedef struct outcome {
   sweep_class class;
   baum_status status;
-  double error;     /* largest over all samples */
-  double error_end; /* at the last sample */
+  double error;     /* largest error over all samples */
+  double error_end; /* error at the last sample */
   baum_counters c;
   double seconds;
-  const char *doubt; /* code of the first warning that doubts the motion, or "" */
-  char text[400];    /* its text, or why the run has stopped */
+  const char *doubt; /* code of the first warning that doubts the motion, or "" if there is none */
+  char text[400];    /* text of this warning, or the reason why the run has stopped */
 } outcome;
 
 /* Reads the first warning that doubts the motion. */
@@ -61,7 +61,7 @@ static double error_at(const sweep_scene *s, int k, const double *q)
   double error = 0.0;
   for (int i = 0; i < s->nq; i++) {
     double one = fabs(q[i] - s->want[k][i]) / s->unit[i];
-    error = one <= error ? error : one; /* NaN stays */
+    error = one <= error ? error : one; /* this keeps NaN */
   }
   return error;
 }
@@ -158,7 +158,7 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = with->integrator;
   o.formulation = with->formulation;
-  o.max_steps = with->fixed ? 1000000 : 10000; /* right runs take up to 8300 steps */
+  o.max_steps = with->fixed ? 1000000 : 10000; /* right runs take at most 8300 steps */
   *(with->fixed ? &o.step : &o.rtol) = setting;
   outcome r = run_once(scene, &o);
   tally->runs[method][r.class]++;
@@ -172,7 +172,7 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   return r.class;
 }
 
-/* Index of the method in `all`; adds the method if it is new. */
+/* Returns the index of a method in `all`. If the method is new, adds it. */
 static int place_of(sweep_tally *all, const sweep_method *method)
 {
   int k = 0;
@@ -196,7 +196,7 @@ void sweep_add(const sweep_tally *part, sweep_tally *all)
   }
 }
 
-/* ---- print ---- */
+/* ---- printed tables ---- */
 
 static void print_counts(const char *name, const int *runs, const int *doubted)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of bench_sweeps: how they are judged and counted. */
+/* The runs of bench_sweeps, and how they are judged and counted. */
 #ifndef BAUM_BENCH_SWEEP_RUNS_H
 #define BAUM_BENCH_SWEEP_RUNS_H
 
@@ -9,7 +9,8 @@
 
 enum { SWEEP_METHODS = 64, SWEEP_FAULTS = 8000 };
 
-/* Largest error relative to the scales: below 0.01, below 0.1, or above. */
+/* The class of a run by its largest error, relative to the scales: below 0.01, below 0.1, or
+ * above. */
 typedef enum sweep_class {
   SWEEP_RIGHT,
   SWEEP_GREY,
@@ -22,7 +23,7 @@ typedef enum sweep_class {
 typedef struct sweep_method {
   const baum_integrator *integrator;
   baum_formulation formulation;
-  bool fixed; /* fixed step, else variable step with rtol */
+  bool fixed; /* true for a fixed step, false for a variable step with rtol */
 } sweep_method;
 
 typedef struct sweep_fault {
@@ -39,16 +40,19 @@ typedef struct sweep_tally {
   int runs[SWEEP_METHODS][SWEEP_CLASSES];
   int doubted[SWEEP_METHODS][SWEEP_CLASSES];
   int fault_count;
-  sweep_fault faults[SWEEP_FAULTS]; /* wrong runs without a warning that doubts the motion */
+  /* The wrong runs that have no warning which doubts the motion. */
+  sweep_fault faults[SWEEP_FAULTS];
 } sweep_tally;
 
-/* Begins a part with all methods of fixed or of variable step, with each of their formulations. */
+/* Begins a part of the sweeps. It contains all methods with a fixed or with a variable step, with
+ * each of their formulations. */
 void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv);
-/* Runs one method; setting is the step [s] or rtol. */
+/* Makes one run with a method. `setting` is the step [s] or rtol. */
 sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting);
 /* Adds the counts of a part to `all`. */
 void sweep_add(const sweep_tally *part, sweep_tally *all);
-/* Prints a line for each method that has run, and the silently wrong runs; returns their number. */
+/* Prints a line for each method that has run, and all runs that are silently wrong. Returns how
+ * many of these there are. */
 int sweep_print(const sweep_tally *tally);
 
 void sweep_csv_head(FILE *csv);

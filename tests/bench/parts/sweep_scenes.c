@@ -31,7 +31,7 @@ static baum_planar_body_def rod_def(double mass, double length)
   return def;
 }
 
-/* A uniform rod with the pose q. */
+/* Returns the definition of a uniform rod whose pose is given by q. */
 static baum_planar_body_def rod_at(double mass, double length, const long double *q)
 {
   baum_planar_body_def def = rod_def(mass, length);
@@ -51,14 +51,15 @@ static void set_turning(baum_planar_body_def *def, double rate)
 
 /* ---- four-bar ----
  *
- * Crank a from (0, 0), coupler b, rocker c from (d, 0), uniform rods of 1 kg/m at the angles th:
+ * The crank a starts at (0, 0), the coupler b follows, and the rocker c ends at (d, 0). They are
+ * uniform rods of 1 kg/m with the angles th:
  *
  *   a e(th1) + b e(th2) - c e(th3) - d e(0) = 0
  *   th' = u n(th),  n = (sin(th2 - th3) / a, sin(th3 - th1) / b, sin(th2 - th1) / c)
  *
- * n spans the null space of the Jacobian of both rows, even if the crank is in a dead centre, and
- * is zero only in singular configurations. Along the curve th(s) with dth/ds = n, Lagrange's
- * equation for T = I(s) s'^2 / 2 and V(s) is
+ * The vector n spans the null space of the Jacobian of both rows, even if the crank is in a dead
+ * centre. It is zero only in singular configurations. Along the curve th(s) with dth/ds = n, the
+ * kinetic energy is T = I(s) s'^2 / 2, and the potential is V(s). Lagrange's equation is then
  *
  *   I u' + I_s u^2 / 2 + V_s = 0
  */
@@ -78,7 +79,7 @@ static void null_vector(const linkage *k, const long double *th, long double n[3
   n[2] = sinl(th[1] - th[0]) / k->c;
 }
 
-/* Derivative of n along the curve. */
+/* Computes the derivative of n along the curve. */
 static void null_slope(const linkage *k, const long double *th, const long double n[3],
                        long double dn[3])
 {
@@ -92,7 +93,7 @@ static long double coupling_mass(const linkage *k)
   return k->b * k->a * k->b / 2.0L;
 }
 
-/* I: inertia along n. */
+/* Computes I, which is the inertia along n. */
 static long double inertia(const linkage *k, const long double *th, const long double n[3])
 {
   long double m11 = k->a * k->a * k->a / 3.0L + k->b * k->a * k->a;
@@ -108,7 +109,7 @@ static long double potential(const linkage *k, const long double *th)
                  k->b * k->b / 2.0L * sinl(th[1]) + k->c * k->c / 2.0L * sinl(th[2]));
 }
 
-/* y = (th1, th2, th3, u) */
+/* Computes dy for the state y = (th1, th2, th3, u). */
 static void linkage_rate(const void *data, const long double *y, long double *dy)
 {
   const linkage *k = data;
@@ -139,7 +140,8 @@ static long double linkage_energy(const linkage *k, const long double *y)
   return inertia(k, y, n) * y[3] * y[3] / 2.0L + potential(k, y);
 }
 
-/* Largest of both violations and the relative energy change. */
+/* Returns the largest of three numbers, which are both violations and the relative change of
+ * energy. */
 static long double linkage_fault(const linkage *k, const long double *y, long double energy,
                                  long double size)
 {
@@ -157,8 +159,8 @@ static void linkage_q(const void *data, const long double *th, long double *q)
   place(q, 2, k->d + k->c / 2.0L * cosl(th[2]), k->c / 2.0L * sinl(th[2]), th[2]);
 }
 
-/* Closes the linkage for a crank angle. The joint of coupler and rocker is left or right of the
- * diagonal. */
+/* Closes the linkage for a given crank angle. The joint between coupler and rocker is to the left
+ * or to the right of the diagonal. */
 static void close_linkage(const linkage *k, long double crank, bool left, long double th[3])
 {
   long double x = k->d - k->a * cosl(crank);
@@ -213,8 +215,8 @@ static void follow_linkage(sweep_scene *s, const linkage *k, const long double t
 
 typedef struct four_bar {
   const char *name;
-  double lengths[4]; /* [m] crank, coupler, rocker, ground, exactly at a change point */
-  int longer;        /* index of the length that is multiplied by 1 + by */
+  double lengths[4]; /* [m] crank, coupler, rocker and ground; they are exactly at a change point */
+  int longer;        /* index of the length that is then multiplied by 1 + by */
   double by;         /* [-] */
   bool left;
 } four_bar;
@@ -232,7 +234,7 @@ static const four_bar FOUR_BARS[SWEEP_FOUR_BARS] = {
   {"drag link", {3.0, 2.0, 4.0, 1.0}, 2, -1e-3, true},
 };
 
-/* A linkage for `turns` revolutions, fast enough that gravity does not stop it. */
+/* Makes a linkage for `turns` revolutions. It is so fast that gravity does not stop it. */
 sweep_scene sweep_four_bar(int k, bool gravity, double turns)
 {
   const four_bar *f = &FOUR_BARS[k];
@@ -256,21 +258,21 @@ sweep_scene sweep_four_bar(int k, bool gravity, double turns)
 
 /* ---- taut rod ----
  *
- * The uniform rod of mass mu and length 1 m at the angle phi has one end at (x, 0) and at the other
- * a particle of 1 kg:
+ * A uniform rod has the mass mu, the length 1 m and the angle phi. One of its ends is at (x, 0),
+ * and the other end carries a particle of 1 kg:
  *
  *   (mu + 1) x'' - (mu / 2 + 1) (sin phi phi'' + cos phi phi'^2) = 0
  *   -(mu / 2 + 1) sin phi x'' + (mu / 3 + 1) phi'' = 0
  */
 
-/* y = (x, phi, x', phi') */
+/* Computes dy for the state y = (x, phi, x', phi'). */
 static void taut_rate(const void *data, const long double *y, long double *dy)
 {
   long double mu = (long double)*(const double *)data;
   long double m12 = -(mu / 2.0L + 1.0L) * sinl(y[1]);
   long double m22 = mu / 3.0L + 1.0L;
   long double force = (mu / 2.0L + 1.0L) * cosl(y[1]) * y[3] * y[3];
-  /* m11 m22 - m12^2 in a form without cancellation */
+  /* This is m11 m22 - m12^2, in a form without cancellation. */
   long double cosine = cosl(y[1]);
   long double one = (mu / 2.0L + 1.0L) * cosine;
   long double det = mu / 3.0L + mu * mu / 12.0L + one * one;
@@ -333,8 +335,8 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
 
 /* ---- singular configurations ----
  *
- * On their smooth branch all scenes have one angle th with (i0 + i1 sin^2 th) th'' + i1 sin th cos
- * th th'^2 + k cos th = 0.
+ * On their smooth branch, all these scenes have one angle th, which satisfies (i0 + i1 sin^2 th)
+ * th'' + i1 sin th cos th th'^2 + k cos th = 0.
  */
 
 typedef struct swing {
@@ -352,8 +354,8 @@ static void swing_rate(const void *data, const long double *y, long double *dy)
   dy[1] = -(s->i1 * sine * cosine * y[1] * y[1] + s->k * cosine) / (s->i0 + s->i1 * sine * sine);
 }
 
-/* IFToMM benchmark A02 with N = 1 (A Coruna's library of problems): rods of 1 m and 1 kg. The
- * cranks start upright, and their tips move to the right at 1 m/s. */
+/* The IFToMM benchmark A02 with N = 1, from A Coruna's library of problems. Its rods have 1 m and 1
+ * kg. At the start the cranks are upright, and their tips move to the right at 1 m/s. */
 static void window_q(const void *data, const long double *y, long double *q)
 {
   long double th = y[0];
@@ -393,7 +395,7 @@ static void slider_q(const void *data, const long double *y, long double *q)
   place(q, 2, 2.0L * cosl(th), 0.0L, 0.0L);
 }
 
-/* A crank and a rod of 1 m each, and a slider; all bodies have 1 kg. */
+/* Builds a crank and a rod of 1 m each, and a slider. Every body has 1 kg. */
 static baum_status build_slider(model *m)
 {
   const long double start = 1.0L;
@@ -422,7 +424,7 @@ static baum_status build_slider(model *m)
 typedef struct crossing {
   const char *name;
   int bodies;
-  double start[2]; /* angle, rate */
+  double start[2]; /* the angle and the angular velocity at the start */
   double gravity;  /* k divided by the acceleration of gravity */
   long double i0;
   long double i1;

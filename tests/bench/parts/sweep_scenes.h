@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes of bench_sweeps, each with its motion in reduced coordinates, integrated without the
- * library.
+/* The scenes of bench_sweeps. For each, the motion is integrated in reduced coordinates, without
+ * the library.
  *
- * Errors are errors of positions, with lengths relative to the characteristic length of the scene
- * and angles in radians.
+ * Errors are errors of positions. Lengths are relative to the characteristic length of the scene,
+ * and angles are in radians.
  */
 #ifndef BAUM_BENCH_SWEEP_SCENES_H
 #define BAUM_BENCH_SWEEP_SCENES_H
@@ -14,7 +14,7 @@ enum { SWEEP_SAMPLES = 10, SWEEP_NQ = 12 };
 
 typedef struct sweep_scene {
   const char *name;
-  double parameter; /* [-] relative distance from a change point, mass ratio, or 0 */
+  double parameter; /* [-] relative distance from a change point, or mass ratio, or 0 */
   double gravity;   /* [m/s^2] */
   model m;
   int nq;
@@ -22,20 +22,21 @@ typedef struct sweep_scene {
   double span;           /* [s] duration of the motion */
   double rate;           /* [rad/s] initial angular velocity of the crank */
   double energy;         /* [J] initial kinetic energy */
-  double growth;         /* [-] largest growth of a perturbation; NaN: not computed */
+  double growth;         /* [-] largest growth of a perturbation; NaN if not computed */
   double times[SWEEP_SAMPLES];
   double want[SWEEP_SAMPLES][SWEEP_NQ];
 } sweep_scene;
 
-/* Linkages close to a change point: the sum of the shortest and the longest length differs from the
- * sum of the other two by at most 1 %. */
+/* Linkages close to a change point. The sum of the shortest and the longest length differs by at
+ * most 1 % from the sum of the other two. */
 enum { SWEEP_FOUR_BARS = 10 };
 sweep_scene sweep_four_bar(int k, bool gravity, double turns);
 
-/* A light rod that slides with one end in a slot, carries a bob at the other, and comes taut. */
+/* A light rod. One of its ends slides in a slot, and the other end carries a bob. During the motion
+ * the rod comes taut. */
 sweep_scene sweep_taut(double mass_ratio, bool growth);
 
-/* Motions through singular configurations. */
+/* Motions that pass through singular configurations. */
 enum { SWEEP_SINGULAR = 3 };
 sweep_scene sweep_singular(int k);
 

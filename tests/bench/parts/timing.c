@@ -16,7 +16,7 @@ double timing_now(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Time of this number of calls; NaN if one fails. */
+/* Returns the time of this number of calls. Returns NaN if a call fails. */
 static double time_calls(timing_fn *function, void *self, int part, long calls)
 {
   double start = timing_now();
@@ -28,7 +28,7 @@ static double time_calls(timing_fn *function, void *self, int part, long calls)
   return timing_now() - start;
 }
 
-/* Finds how many calls fill a window; *one receives the time of one call. */
+/* Finds how many calls fill a window. *one is set to the time of one call. */
 static long find_calls(timing_fn *function, void *self, int part, double *one)
 {
   long calls = 1;
@@ -83,10 +83,10 @@ double timing_best(timing_fn *function, void *self, int part)
 typedef struct memory {
   double *values;
   long count;
-  volatile double sink; /* written so that the compiler cannot omit the reading */
+  volatile double sink; /* written so that the compiler cannot omit reading the memory */
 } memory;
 
-/* Sixteen sums in parallel, so that additions do not wait for each other. */
+/* Computes sixteen sums in parallel, so that additions do not have to wait for each other. */
 static bool read_all(void *self, int part)
 {
   (void)part;

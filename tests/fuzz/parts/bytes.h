@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Choices and numbers read from the bytes of a fuzzer, and the report of errors. */
+/* Reads choices and numbers from the bytes of a fuzzer, and reports errors. */
 #ifndef BAUM_FUZZ_BYTES_H
 #define BAUM_FUZZ_BYTES_H
 
@@ -8,31 +8,33 @@
 
 #include <baum/status.h>
 
-/* Defined by each target; the fuzzer, or replay.c in other builds, calls it. Returns 0. */
+/* Each target defines this function. It is called by the fuzzer, or by replay.c in other builds. It
+ * returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The rest of an input. Past its end zeros are read. */
+/* The bytes of an input that have not been read yet. After the last byte, zeros are read. */
 typedef struct fuzz_bytes {
   const uint8_t *at;
   size_t left;
 } fuzz_bytes;
 
 int fuzz_byte(fuzz_bytes *b);
-/* Returns 0 to count - 1; takes one byte. */
+/* Returns a number from 0 to count - 1. This reads one byte. */
 int fuzz_below(fuzz_bytes *b, int count);
-/* Copies `count` bytes without a change. */
+/* Copies the next `count` bytes. */
 void fuzz_copy(fuzz_bytes *b, void *out, size_t count);
-/* Mostly ordinary numbers; else zeros, infinities, NaN, the smallest and largest numbers, and
- * arbitrary bits. */
+/* Returns a number. Most numbers are ordinary. Others are zeros, infinities, NaN, the smallest and
+ * the largest numbers, and arbitrary bits. */
 double fuzz_number(fuzz_bytes *b);
-/* Between 1e-6 and 1; occasionally any number. */
+/* Returns a number, usually between 1e-6 and 1, and occasionally any number. */
 double fuzz_small(fuzz_bytes *b);
 
-/* If the condition is false: prints it with the last message of the library, and aborts. */
+/* If the condition is false, prints it together with the last message of the library, and
+ * aborts. */
 #define FUZZ_CHECK(condition) ((condition) ? (void)0 : fuzz_report(#condition, __FILE__, __LINE__))
 _Noreturn void fuzz_report(const char *condition, const char *file, int line);
 
-/* Checks that a failure has a message. Returns the status. */
+/* Checks that there is a message if the status is a failure. Returns the status. */
 baum_status fuzz_status(baum_status status);
 
 #endif

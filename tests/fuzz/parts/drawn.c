@@ -7,14 +7,14 @@
 
 /* ---- fields ---- */
 
-/* A definition whose fields are being chosen. */
+/* A definition whose fields are chosen one after the other. */
 typedef struct drawing {
   design_mechanism *m;
   fuzz_bytes *b;
   const element_kind *kind;
   element_fields fields;
   any_def *def;
-  int arrays; /* arrays of numbers that are in use */
+  int arrays; /* how many arrays of numbers are in use */
 } drawing;
 
 static void put(const drawing *d, const element_field *f, const void *value, size_t size)
@@ -64,7 +64,7 @@ static void draw_flag(const drawing *d, const element_field *f)
   put(d, f, &value, sizeof value);
 }
 
-/* Mostly the handle of an existing element. */
+/* Returns a handle. Most of the time, it is the handle of an existing element. */
 static any_id draw_id_of(design_mechanism *m, fuzz_bytes *b, int family)
 {
   int roll = fuzz_byte(b);
@@ -142,7 +142,8 @@ static void draw_field(drawing *d, const element_field *f)
 
 /* ---- definitions ---- */
 
-/* Sets arrays to NULL that would be shorter than their stated length. */
+/* If an array would be shorter than the length that the definition states, sets the array to
+ * NULL. */
 static void drop_short_arrays(const drawing *d, int32_t count)
 {
   const void *none = NULL;
@@ -216,8 +217,8 @@ static void add_one(design_mechanism *m, fuzz_bytes *b)
   m->ids[family][m->counts[family]++] = id;
 }
 
-/* Reads a definition back and sets it again; then sets another one. If that is refused, the
- * definition has to be unchanged. */
+/* Reads a definition back and sets it again. Then sets another definition. If the other definition
+ * is refused, the first one must be unchanged. */
 static void replace_one(design_mechanism *m, fuzz_bytes *b)
 {
   int family = fuzz_below(b, 3);
@@ -251,7 +252,7 @@ static void ask_for_wrong_element(design_mechanism *m, fuzz_bytes *b)
   (void)fuzz_status(kind->get(m->mechanism, id, &def, (size_t)fuzz_byte(b)));
 }
 
-/* Replaces the mechanism by a copy. The handles of the elements remain valid. */
+/* Replaces the mechanism by a copy of it. The handles of its elements remain valid. */
 static void go_on_with_a_copy(design_mechanism *m)
 {
   baum_mechanism *copy = NULL;

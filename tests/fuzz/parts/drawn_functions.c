@@ -18,7 +18,7 @@ static int answer(void *user, double *out)
   return u->answer;
 }
 
-/* ---- user coordinates: masses 2, 1, 1, ... on springs ---- */
+/* ---- user coordinates: masses of 2, 1, 1, ... kg on springs ---- */
 
 static int mass(double t, const double *q, double *out, void *user)
 {
@@ -139,7 +139,7 @@ static int curve(const double xy[2], double out[6], void *user)
 typedef void any_fn(void);
 
 typedef struct row {
-  const char *kind; /* NULL: any */
+  const char *kind; /* NULL for every kind */
   const char *field;
   any_fn *function;
 } row;

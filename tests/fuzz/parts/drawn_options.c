@@ -14,7 +14,7 @@ static const baum_integrator *draw_integrator(fuzz_bytes *b)
   return baum_integrator_at(fuzz_below(b, count));
 }
 
-/* Sets the step or rtol that the integrator needs. */
+/* Sets the step or the rtol, whichever the integrator needs. */
 static void draw_steps(fuzz_bytes *b, baum_simulation_options *o)
 {
   bool fixed = baum_integrator_has_fixed_step(o->integrator);
@@ -37,7 +37,8 @@ static void draw_integer(fuzz_bytes *b, const element_field *f, unsigned char *a
   }
 }
 
-/* Options without max_steps, as in an older version, would allow a run a billion steps. */
+/* Chooses the size of the options. It always includes max_steps, because without this field, as in
+ * an older version, a run could make a billion steps. */
 static size_t draw_size(fuzz_bytes *b)
 {
   const size_t least = offsetof(baum_simulation_options, max_steps) + sizeof(int64_t);
@@ -57,7 +58,7 @@ static void draw_field(fuzz_bytes *b, baum_simulation_options *o)
   case FIELD_FLAG: *at = (unsigned char)fuzz_below(b, 2); break;
   case FIELD_GAINS: o->gains = (baum_gains){fuzz_below(b, 10) - 1, {x, fuzz_number(b)}}; break;
   case FIELD_SIZE: o->struct_size = draw_size(b); break;
-  case FIELD_FUNCTION: /* set by others: integrator, progress, user, row_gains */
+  case FIELD_FUNCTION: /* other code sets these: integrator, progress, user, row_gains */
   case FIELD_NAME:
   case FIELD_ID:
   case FIELD_ARRAY:

@@ -1,0 +1,348 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: many runs of one mechanism with different parameters, on threads, processes or a
+cluster."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import hashlib
+import itertools
+import os
+import pickle
+import time
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
+
+import numpy as np
+
+from ._values import vector
+from .errors import Error, Status
+from .progress import Line, stream
+from .run import Run
+from .typing import Array, ArrayLike, ChannelLike
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .mechanism import Mechanism
+
+CHUNKS = 64  # a sweep is divided into at most so many parts per worker
+Reduce = Callable[[Run], Any]
+
+
+class _Task(NamedTuple):
+    """The data that all runs of a sweep share. They are pickled for other processes."""
+
+    mechanism: Mechanism
+    names: tuple[str, ...]
+    times: Array
+    method: Any
+    record: tuple[Any, ...]
+    reduce: Reduce | None
+    options: dict[str, Any]
+
+
+class _Result(NamedTuple):
+    """The result of one run: arrays by name, which contain NaN after a failure."""
+
+    values: dict[str, Array]
+    status: int
+    message: str
+    warnings: tuple[str, ...]
+
+
+# ---- one run -----------------------------------------------------------------------------------
+
+
+def _changes(names: Sequence[str], row: Sequence[Any]) -> dict[str, dict[str, Any]]:
+    """Return the changes of definitions for a row of parameters, as element -> field -> value."""
+    changes: dict[str, dict[str, Any]] = {}
+    for name, value in zip(names, row):
+        element, _, field = name.rpartition(".")
+        plain = value.item() if np.ndim(value) == 0 else value
+        changes.setdefault(element, {})[field] = plain
+    return changes
+
+
+def _values_of(run: Run, reduce: Reduce | None) -> dict[str, Array]:
+    if reduce is None:
+        return {key: run[key] for key in run}
+    value = reduce(run)
+    named = value if isinstance(value, dict) else {"value": value}
+    return {name: np.asarray(x, dtype=float) for name, x in named.items()}
+
+
+def _one(task: _Task, row: Sequence[Any]) -> _Result:
+    try:
+        changed = task.mechanism.copy(**_changes(task.names, row))
+        run = changed.simulate(task.times, task.method, record=task.record, **task.options)
+        kinds = tuple(type(warning).__name__ for warning in run.warnings)
+        return _Result(_values_of(run, task.reduce), int(run.status), "", kinds)
+    except Error as error:
+        return _Result({}, int(error.status), str(error), ())
+
+
+def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
+    """Run a part of a sweep. This is a function of the module, so that other processes can import
+    it."""
+    return [_one(task, row) for row in rows]
+
+
+# ---- the rows of parameters --------------------------------------------------------------------
+
+
+def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    columns = {name: np.asarray(values, dtype=float) for name, values in parameters.items()}
+    for name, values in columns.items():
+        if "." not in name:
+            raise ValueError(f'{name!r}: "element.field" is wanted, such as "rod.mass"')
+        if values.ndim == 0:
+            raise ValueError(f"{name}: a list of values is wanted, not {values!r}")
+    return columns
+
+
+def _rows(columns: dict[str, Array], samples: Any, count: int | None) -> list[tuple[Any, ...]]:
+    if isinstance(samples, str) and samples == "grid":
+        return list(itertools.product(*columns.values()))
+    if samples is not None and samples != "rows":
+        return _drawn(columns, samples, count)
+    lengths = {name: len(values) for name, values in columns.items()}
+    if len(set(lengths.values())) > 1:
+        raise ValueError(
+            f"the parameters have different numbers of values: {lengths}; "
+            'samples="grid" runs all combinations'
+        )
+    return list(zip(*columns.values()))
+
+
+def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[tuple[Any, ...]]:
+    """Draw rows from a sampler, such as scipy.stats.qmc.Sobol, between the bounds of each
+    parameter."""
+    if count is None:
+        raise ValueError("count is missing: how many samples are drawn")
+    for name, values in columns.items():
+        if values.shape != (2,):
+            raise ValueError(f"{name}: lower and upper bound are wanted, not {values.tolist()}")
+    low, high = np.array(list(columns.values())).T
+    return [tuple(row) for row in low + (high - low) * np.asarray(sampler.random(count))]
+
+
+# ---- executors ---------------------------------------------------------------------------------
+
+
+def _calls(executor: Any, task: _Task, parts: Sequence[Any]) -> Iterator[tuple[int, Any]]:
+    """Run the parts of a sweep on an executor. Yield the number and the results of each part that
+    is done."""
+    if hasattr(executor, "submit"):
+        futures = {executor.submit(_many, task, part): k for k, part in enumerate(parts)}
+        waiting = list(futures)
+        try:
+            for future in _completed(waiting):
+                yield futures[future], future.result()
+        finally:
+            for future in waiting:
+                future.cancel()
+    elif hasattr(executor, "map"):
+        yield from enumerate(executor.map(_many, itertools.repeat(task, len(parts)), parts))
+    else:
+        raise TypeError(f"executor: an object with submit() or map() is wanted, not {executor!r}")
+
+
+def _completed(futures: Sequence[Any]) -> Iterable[Any]:
+    """Yield futures in the order in which they complete. Futures of other packages are yielded in
+    the given order."""
+    if all(isinstance(future, concurrent.futures.Future) for future in futures):
+        return concurrent.futures.as_completed(futures)
+    return futures
+
+
+def _workers(executor: Any) -> int:
+    return int(getattr(executor, "_max_workers", 0) or os.cpu_count() or 1)
+
+
+# ---- the results -------------------------------------------------------------------------------
+
+
+class Sweep:
+    """The results of a sweep of n runs.
+
+    parameters: the values of each parameter (n) or (n x size), by name.
+    status: the Status of each run (n).
+    messages: the messages of runs that failed, by the number of the run.
+    warnings: the names of the warnings of each run.
+
+    sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If `reduce` was
+    given, sweep["value"] contains its results (n x ...). The values of failed runs are NaN.
+    """
+
+    def __init__(self, names: Sequence[str], rows: Sequence[Any], results: Sequence[Any]) -> None:
+        self.parameters = {name: np.array([row[k] for row in rows]) for k, name in enumerate(names)}
+        self.status = [Status(r.status) if r else Status.STOP_CANCELLED for r in results]
+        self.messages = {k: r.message for k, r in enumerate(results) if r and r.message}
+        self.warnings = [r.warnings if r else () for r in results]
+        done = [r.values for r in results if r and r.values]
+        shapes = {name: values.shape for name, values in done[0].items()} if done else {}
+        self._values = {name: _stacked(name, shape, results) for name, shape in shapes.items()}
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+    def __repr__(self) -> str:
+        return f"<sweep of {len(self)} runs, {len(self.messages)} failed>"
+
+    def keys(self) -> list[str]:
+        """The names of the results."""
+        return list(self._values)
+
+    def __getitem__(self, name: str) -> Array:
+        found = self._values.get(name)
+        if found is None:
+            raise KeyError(f"no {name!r} in this sweep; there are: {', '.join(self._values)}")
+        return found
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return a table of the parameters, and of the results that are one number for each run.
+        Raises ImportError without pandas."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Sweep.to_dataframe() needs pandas: pip install pandas") from error
+        both = {**self.parameters, **self._values}
+        flat = {name: x.reshape(len(self)) for name, x in both.items() if x.size == len(self)}
+        return pandas.DataFrame({**flat, "status": [one.name for one in self.status]})
+
+
+def _stacked(name: str, shape: tuple[int, ...], results: Sequence[_Result | None]) -> Array:
+    stacked = np.full((len(results), *shape), np.nan)
+    for k, result in enumerate(results):
+        if result and name in result.values:
+            if result.values[name].shape != shape:
+                raise ValueError(f"reduce() returned {name} of different shapes")
+            stacked[k] = result.values[name]
+    return stacked
+
+
+def sweep(
+    mechanism: Mechanism,
+    parameters: Mapping[str, ArrayLike],
+    times: ArrayLike,
+    method: Any = None,
+    *,
+    record: ChannelLike | Sequence[ChannelLike] = (),
+    reduce: Reduce | None = None,
+    samples: Any = "rows",
+    count: int | None = None,
+    executor: Any = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
+    file: str | os.PathLike[str] | None = None,
+    **options: Any,
+) -> Sweep:
+    """Run a mechanism once for each sample of its parameters.
+
+    mechanism: frozen or not.
+    parameters: values by "element.field", such as {"rod.mass": [0.1, 0.2]}. Values of a vector
+        field have the shape (n x size).
+    times, method, record, options: as in Mechanism.simulate().
+    reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
+        keeps this result instead of the samples.
+    samples: "rows" uses the first value of every parameter for the first run, the second value for
+        the second run, and so on. "grid" uses all combinations of values. A sampler with a method
+        random(count), such as scipy.stats.qmc.Sobol, draws `count` samples; the values of a
+        parameter are then its lower and its upper bound.
+    executor: an object with a method submit() or map(), such as an executor of concurrent.futures,
+        of Dask or of mpi4py. By default the sweep uses threads, which is sufficient unless the
+        mechanism has Python functions. Results do not depend on the executor. If it uses other
+        processes, these must be able to import `reduce` and the functions of the mechanism.
+    progress: True shows a bar. A function receives the number of finished runs and the number of
+        all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
+        the status STOP_CANCELLED.
+    file: a file that keeps finished runs, so that a sweep that was interrupted continues when it is
+        called again. The file of another sweep is refused with ValueError. The file is a pickle;
+        open only files that you trust.
+
+    A run that fails does not stop the other runs. Raises TypeError, ValueError or KeyError for
+    parameters that do not exist.
+    """
+    columns = _columns(parameters)
+    rows = _rows(columns, samples, count)
+    first = vector(np.atleast_1d(times), None, "times")
+    frozen = mechanism if mechanism.frozen else mechanism.copy().freeze()
+    listed = tuple(record) if isinstance(record, (list, tuple)) else (record,)
+    task = _Task(frozen, tuple(columns), first, method, listed, reduce, options)
+    with contextlib.suppress(Error):  # wrong values are results of their runs, wrong names are not
+        frozen.copy(**_changes(task.names, rows[0] if rows else ()))
+    kept = _File(file, task, rows) if file is not None else None
+    results: list[_Result | None] = kept.read() if kept else [None] * len(rows)
+    if executor is not None:
+        _fill(results, executor, task, rows, progress, kept)
+    else:
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
+            _fill(results, threads, task, rows, progress, kept)
+    return Sweep(task.names, rows, results)
+
+
+def _fill(
+    results: list[_Result | None],
+    executor: Any,
+    task: _Task,
+    rows: Sequence[Any],
+    progress: Any,
+    kept: _File | None,
+) -> None:
+    """Run all rows that have no result yet, and store their results."""
+    missing = [k for k, result in enumerate(results) if result is None]
+    size = max(1, len(missing) // (CHUNKS * _workers(executor)))
+    parts = [missing[k : k + size] for k in range(0, len(missing), size)]
+    out = stream() if progress is True else None
+    line = Line(out, "sweep") if out else None
+    done = len(rows) - len(missing)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the sweep lists the warnings of its runs
+        for k, found in _calls(executor, task, [[rows[i] for i in part] for part in parts]):
+            for i, result in zip(parts[k], found):
+                results[i] = result
+            done += len(found)
+            if kept:
+                kept.write(results, done == len(rows))
+            if line:
+                line.update(done / len(rows))
+            if callable(progress) and progress(done, len(rows)):
+                break
+    if kept:
+        kept.write(results, True)
+    if line:
+        line.close()
+
+
+class _File:
+    """The file that keeps the finished runs of a sweep."""
+
+    def __init__(self, path: str | os.PathLike[str], task: _Task, rows: Sequence[Any]) -> None:
+        self._path = Path(path)
+        self._count = len(rows)
+        self._next = 0.0
+        given = (task.mechanism.scene(), task.names, rows, task.times.tolist())
+        options = (str(task.method), str(task.record), sorted(task.options.items()))
+        self._key = hashlib.sha256(repr((given, options)).encode()).hexdigest()
+
+    def read(self) -> list[_Result | None]:
+        if not self._path.exists():
+            return [None] * self._count
+        with open(self._path, "rb") as file:
+            key, results = pickle.load(file)
+        if key != self._key:
+            raise ValueError(f"{self._path}: this file is of another sweep")
+        found: list[_Result | None] = results
+        return found
+
+    def write(self, results: list[_Result | None], whole: bool) -> None:
+        """Replace the file, at most once per second unless the sweep has ended."""
+        if not whole and time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + 1.0
+        part = self._path.with_name(self._path.name + ".part")
+        with open(part, "wb") as file:
+            pickle.dump((self._key, results), file)
+        os.replace(part, self._path)

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A scene that is being read: its messages, values and outlines. */
+#ifndef BAUM_I_SCENE_READER_H
+#define BAUM_I_SCENE_READER_H
+
+#include "base/message.h"
+#include "scene/json.h"
+#include "scene/scene.h"
+
+typedef struct baum_i_scene_reader {
+  const baum_i_json *json;
+  const char *label; /* begins messages */
+  const baum_hook *hooks;
+  int hook_count;
+  baum_mechanism *mechanism; /* with the elements that have been read */
+  baum_i_scene_names names;  /* of bodies, when all have been read */
+} baum_i_scene_reader;
+
+/* Fail because a node is not `wanted`, such as "a number". */
+baum_status baum_i_scene_fail_kind(const baum_i_scene_reader *reader, const baum_i_json_node *node,
+                                   const char *wanted);
+
+/* Put the line of a node before the message of a call that failed with this status. */
+baum_status baum_i_scene_add_line(const baum_i_scene_reader *reader, const baum_i_json_node *node,
+                                  baum_status status);
+
+/* Read values, or fail: `count` numbers, of which null is NaN; a whole number; a text, which stays
+ * in the memory of the tree. */
+baum_status baum_i_scene_read_numbers(const baum_i_scene_reader *reader,
+                                      const baum_i_json_node *list, int count, double *out);
+baum_status baum_i_scene_read_integer(const baum_i_scene_reader *reader,
+                                      const baum_i_json_node *node, int32_t *out);
+baum_status baum_i_scene_read_text(const baum_i_scene_reader *reader, const baum_i_json_node *node,
+                                   const char **out);
+
+baum_status baum_i_scene_read_body(const baum_i_scene_reader *reader, const baum_i_json_node *node,
+                                   baum_body_id *out);
+
+/* Read a field of a definition that is not an array. `at` is its place in the definition. */
+baum_status baum_i_scene_read_field(const baum_i_scene_reader *reader,
+                                    const baum_i_def_field *field, const baum_i_json_node *node,
+                                    void *at);
+
+/* Read a list of outlines. Colors stay in the memory of the tree, the rest must be freed. After a
+ * failure nothing needs to be freed. */
+baum_status baum_i_scene_read_outlines(const baum_i_scene_reader *reader,
+                                       const baum_i_json_node *list, baum_outline **out);
+void baum_i_scene_free_outlines(baum_outline *outlines, int count);
+
+#endif

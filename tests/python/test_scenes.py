@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes: writing, reading, comparing and pickling mechanisms, and the commands."""
+
+import contextlib
+import io
+import pickle
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import baum
+from baum.__main__ import main
+
+
+def circle(t, q):
+    return q @ q - 1.0
+
+
+def drag(t, q, v, throttle):
+    return -throttle * v
+
+
+def pendulum():
+    m = baum.Mechanism(gravity=(0.1, -9.81))
+    throttle = m.input("throttle", 0.3)
+    bob = m.planar_particle("bob", mass=1.0 / 3.0, position=(1, 0), outline=baum.Circle(0.1))
+    m.constraint("circle", [bob], rows=1, phi=circle)
+    m.force("wind", [bob], force=drag, inputs=[throttle])
+    m.add_break_times([0.5])
+    return m
+
+
+def crank():
+    m = baum.Mechanism()
+    m.planar_body("crank", mass=1, inertia=0.1)
+    m.revolute("A", "ground", "crank", point=(0, 0))
+    return m
+
+
+def call(*arguments):
+    """The exit code, standard output and standard error of a command."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main([str(argument) for argument in arguments])
+    return code, out.getvalue(), err.getvalue()
+
+
+class FileTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name) / "scene.json"
+
+
+class SceneTest(FileTest):
+    def test_a_file_gives_the_same_motion_bit_for_bit(self):
+        m = pendulum()
+        m.save(self.path)
+        back = baum.load(self.path, globals())
+        self.assertEqual(back, m)
+        self.assertFalse(back != m)
+        times = np.linspace(0, 1, 11)
+        runs = [x.freeze().simulate(times, "rk8", rtol=1e-9) for x in (m, back)]
+        np.testing.assert_array_equal(runs[0].q, runs[1].q)
+
+    def test_functions_get_the_names_that_are_given(self):
+        text = pendulum().scene({"friction": drag})
+        self.assertIn('"force": "friction(0)"', text)
+        self.assertIn('"phi": "circle"', text)
+        back = baum.parse(text, {"friction": drag, "circle": circle})
+        self.assertEqual(back, pendulum())
+
+    def test_functions_without_a_name_are_named_by_their_element(self):
+        m = baum.Mechanism()
+        for name in ("a", "b"):
+            m.planar_particle(name, position=(1, 0))
+            m.constraint(f"on {name}", [name], rows=1, phi=lambda t, q: q @ q - 1)
+        text = m.scene()
+        self.assertIn('"phi": "on a.phi"', text)
+        self.assertIn('"phi": "on b.phi"', text)
+
+    def test_two_functions_of_the_same_name_are_kept_apart(self):
+        def make(radius):
+            def phi(t, q):
+                return q @ q - radius
+
+            return phi
+
+        m = baum.Mechanism()
+        functions = [make(1.0), make(4.0)]
+        for k, function in enumerate(functions):
+            m.planar_particle(f"p{k}", position=(k + 1, 0))
+            m.constraint(f"c{k}", [f"p{k}"], rows=1, phi=function)
+        back = baum.parse(m.scene(), {"phi": functions[0], "c1.phi": functions[1]})
+        self.assertEqual(back, m)
+        self.assertNotEqual(baum.parse(m.scene(), {"phi": functions[1], "c1.phi": functions[0]}), m)
+
+    def test_a_missing_function_is_named(self):
+        with self.assertRaisesRegex(KeyError, "circle: phi is 'circle'.*give functions="):
+            baum.parse(pendulum().scene())
+
+    def test_a_wrong_text_is_refused_with_its_line(self):
+        with self.assertRaisesRegex(baum.Error, 'line 2: a planar_body has no field "masss"'):
+            baum.parse(
+                '{"baum_scene": 1, "bodies": [\n{"kind": "planar_body", "masss": 1}]}'
+            )
+        for text in ("", "[]", "3", "{", '{"bodies": 3}', '{"bodies": [[]]}'):
+            with self.assertRaises(baum.Error):
+                baum.parse(text)
+
+    def test_differences_are_named(self):
+        a, b = crank(), crank()
+        self.assertEqual(a.difference(b), "")
+        b["crank"].set(mass=2)
+        b.planar_particle("more")
+        b.gravity = (0, 0)
+        self.assertNotEqual(a, b)
+        self.assertEqual(
+            a.difference(b).split("\n"),
+            [
+                "mechanism: gravity [0, -9.81, 0] -> [0, 0, 0]",
+                "crank: mass default -> 2",
+                "more: only in the second",
+            ],
+        )
+
+    def test_a_mechanism_is_not_equal_to_something_else(self):
+        self.assertNotEqual(crank(), 3)
+        self.assertEqual(len({crank(), crank()}), 2)
+
+    def test_mechanisms_and_their_functions_are_pickled(self):
+        for m in (pendulum(), crank().freeze()):
+            back = pickle.loads(pickle.dumps(m))
+            self.assertEqual(back, m)
+            self.assertEqual(back.frozen, m.frozen)
+
+    def test_handles_are_pickled_with_their_mechanism(self):
+        m, bob = pickle.loads(pickle.dumps((m := pendulum(), m["bob"])))
+        self.assertIs(bob.mechanism, m)
+        self.assertEqual(bob, m["bob"])
+
+    def test_addresses_are_not_pickled(self):
+        m = baum.Mechanism()
+        m.planar_particle("a", position=(1, 0))
+        m.constraint("c", ["a"], rows=1, phi=12345678)
+        with self.assertRaisesRegex(TypeError, "c.phi: a function given by its address"):
+            pickle.dumps(m)
+
+    @unittest.skipUnless(hasattr(baum, "catalog"), "the catalogue is missing")
+    def test_a_mechanism_of_the_library_is_written(self):
+        m = baum.catalog.build("slider_crank")
+        self.assertEqual(baum.parse(m.scene()), m)
+
+
+class CommandTest(FileTest):
+    def setUp(self):
+        super().setUp()
+        crank().save(self.path)
+        self.out = self.path.with_name
+
+    def test_run_writes_samples_and_a_page(self):
+        csv, page = self.out("run.csv"), self.out("run.html")
+        code, out, err = call(
+            "run", self.path, "--method", "rk8", "--rtol", 1e-9, "--until", 0.5, "--samples", 6,
+            "--record", "energy", "--out", csv, "--page", page,
+        )  # fmt: skip
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("rk8", out)
+        lines = csv.read_text().split("\n")
+        self.assertTrue(lines[0].startswith("t,q[0],q[1],q[2],v[0]"))
+        self.assertEqual(len(lines), 8)
+        self.assertIn("<html", page.read_text()[:500].lower())
+
+    def test_functions_come_from_a_file(self):
+        pendulum().save(self.path)
+        code, out, err = call("check", self.path)
+        self.assertEqual(code, 1)
+        self.assertIn("circle: phi is 'circle'", err)
+        code, out, err = call("check", self.path, "--functions", __file__)
+        self.assertEqual((code, err), (0, ""))
+
+    def test_mobility_and_drawing_are_printed(self):
+        self.assertIn("1 degree of freedom", call("mobility", self.path)[1])
+        self.assertIn("<svg", call("draw", self.path)[1])
+        self.assertEqual(call("draw", self.path, "--assembled", "--out", self.out("a.svg"))[0], 0)
+
+    def test_a_study_is_printed(self):
+        code, out, err = call("study", self.path, "--until", 0.1, "--page", self.out("a.html"))
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("rk8", out)
+
+    def test_errors_are_messages(self):
+        code, out, err = call("mobility", self.out("missing.json"))
+        self.assertEqual(code, 1)
+        self.assertIn("missing.json", err)
+        self.assertNotIn("Traceback", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

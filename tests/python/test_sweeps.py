@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sweeps: samples of parameters, executors, failures, cancelling and continuing."""
+
+import concurrent.futures
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import baum
+from test_scenes import pendulum
+
+TIMES = np.linspace(0, 0.2, 5)
+METHOD = {"method": "rk8", "rtol": 1e-8}
+
+
+def crank():
+    m = baum.Mechanism()
+    m.planar_body("crank", mass=1, inertia=0.1, position=(0.1, 0))
+    m.revolute("A", "ground", "crank", point=(0, 0))
+    return m
+
+
+def last_angle(run):
+    return run["crank.pose"][-1, 2]
+
+
+class Serial:
+    """An executor that only has map()."""
+
+    def map(self, function, *lists):
+        return map(function, *lists)
+
+
+class Fixed:
+    """A sampler."""
+
+    def random(self, count):
+        return np.linspace(0, 1, 2 * count).reshape(count, 2)
+
+
+class SweepTest(unittest.TestCase):
+    def test_each_run_equals_the_run_alone(self):
+        m = crank()
+        masses = np.linspace(1, 2, 20)
+        swept = baum.sweep(m, {"crank.mass": masses}, TIMES, **METHOD, record="energy")
+        self.assertEqual(len(swept), 20)
+        self.assertEqual(swept["q"].shape, (20, 5, 3))
+        for k, mass in enumerate(masses):
+            alone = m.copy(crank=dict(mass=mass)).freeze().simulate(
+                TIMES, "rk8", rtol=1e-8, record="energy"
+            )
+            np.testing.assert_array_equal(swept["q"][k], alone.q)
+            np.testing.assert_array_equal(swept["energy"][k], alone["energy"])
+
+    def test_all_executors_give_the_same_bits(self):
+        parameters = {"crank.mass": np.linspace(1, 2, 40)}
+        given = dict(METHOD, reduce=last_angle)
+        found = [baum.sweep(crank(), parameters, TIMES, **given)["value"]]
+        found.append(baum.sweep(crank(), parameters, TIMES, **given, executor=Serial())["value"])
+        with concurrent.futures.ProcessPoolExecutor(2) as executor:
+            found.append(
+                baum.sweep(crank(), parameters, TIMES, **given, executor=executor)["value"]
+            )
+        for values in found:
+            np.testing.assert_array_equal(values, found[0])
+        self.assertEqual(len(np.unique(found[0])), 40)
+
+    def test_a_mechanism_with_python_functions_goes_to_other_processes(self):
+        with concurrent.futures.ProcessPoolExecutor(1) as executor:
+            swept = baum.sweep(
+                pendulum(), {"throttle.initial": [0.0, 1.0]}, TIMES, **METHOD, executor=executor
+            )
+        self.assertEqual(swept.messages, {})
+        self.assertGreater(np.abs(swept["q"][0] - swept["q"][1]).max(), 1e-3)
+
+    def test_a_grid_has_all_combinations(self):
+        swept = baum.sweep(
+            crank(),
+            {"crank.mass": [1, 2, 3], "A.point": [(0, 0), (0, 0.1)]},
+            TIMES,
+            **METHOD,
+            samples="grid",
+        )
+        self.assertEqual(swept.parameters["crank.mass"].tolist(), [1, 1, 2, 2, 3, 3])
+        self.assertEqual(swept.parameters["A.point"].shape, (6, 2))
+
+    def test_a_sampler_draws_between_bounds(self):
+        bounds = {"crank.mass": (1, 2), "crank.inertia": (0.1, 0.3)}
+        swept = baum.sweep(crank(), bounds, TIMES, **METHOD, samples=Fixed(), count=3)
+        np.testing.assert_allclose(swept.parameters["crank.mass"], [1.0, 1.4, 1.8])
+        np.testing.assert_allclose(swept.parameters["crank.inertia"], [0.14, 0.22, 0.3])
+
+    def test_failed_runs_are_nan_with_their_message(self):
+        swept = baum.sweep(crank(), {"crank.mass": [-1, 1, 2]}, TIMES, **METHOD)
+        self.assertEqual(list(swept.messages), [0])
+        self.assertIn("mass is -1 kg", swept.messages[0])
+        self.assertEqual(swept.status[0], baum.Status.ERR_ARGUMENT)
+        self.assertTrue(np.isnan(swept["q"][0]).all())
+        self.assertTrue(np.isfinite(swept["q"][1:]).all())
+
+    def test_a_cancelled_sweep_continues_from_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "sweep.pickle"
+            parameters = {"crank.mass": np.linspace(1, 2, 30)}
+            given = dict(METHOD, reduce=last_angle, file=file, executor=Serial())
+            part = baum.sweep(
+                crank(), parameters, TIMES, **given, progress=lambda done, all: done >= 10
+            )
+            cancelled = [one is baum.Status.STOP_CANCELLED for one in part.status]
+            self.assertEqual(cancelled, [k >= 10 for k in range(30)])
+            counts = []
+            whole = baum.sweep(
+                crank(), parameters, TIMES, **given, progress=lambda done, all: counts.append(done)
+            )
+            self.assertEqual(counts[0], 11)
+            alone = baum.sweep(crank(), parameters, TIMES, **METHOD, reduce=last_angle)
+            np.testing.assert_array_equal(whole["value"], alone["value"])
+            with self.assertRaisesRegex(ValueError, "of another sweep"):
+                baum.sweep(crank(), {"crank.mass": [1, 2]}, TIMES, **given)
+
+    def test_wrong_arguments_are_refused(self):
+        def refuses(kind, text, parameters, **given):
+            with self.assertRaisesRegex(kind, text):
+                baum.sweep(crank(), parameters, TIMES, **{**METHOD, **given})
+
+        refuses(KeyError, "no 'rod'", {"rod.mass": [1]})
+        refuses(TypeError, 'body "crank" has no masss', {"crank.masss": [1]})
+        refuses(ValueError, '"element.field" is wanted', {"mass": [1]})
+        refuses(ValueError, "a list of values is wanted", {"crank.mass": 1})
+        refuses(ValueError, "different numbers", {"crank.mass": [1], "crank.inertia": [1, 2]})
+        refuses(ValueError, "count is missing", {"crank.mass": [1, 2]}, samples=Fixed())
+        refuses(ValueError, "lower and upper", {"crank.mass": [1]}, samples=Fixed(), count=1)
+        refuses(TypeError, r"submit\(\) or map\(\)", {"crank.mass": [1]}, executor=3)
+
+    def test_results_become_a_table(self):
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            self.skipTest("pandas is missing")
+        swept = baum.sweep(crank(), {"crank.mass": [1, 2]}, TIMES, **METHOD, reduce=last_angle)
+        table = swept.to_dataframe()
+        self.assertEqual(list(table), ["crank.mass", "value", "status"])
+
+
+if __name__ == "__main__":
+    unittest.main()
