@@ -12,10 +12,13 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(version "(= ${PROJECT_VERSION})")
 
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libbaum0)
+set(runtime libbaum${BAUM_SOVERSION})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libbaum 0 libbaum0\nlibbaum_catalog 0 libbaum0\n")
+# Every version may add functions, so programs need at least the version they were compiled with.
+set(needed "${BAUM_SOVERSION} ${runtime} (>= ${PROJECT_VERSION})")
+file(WRITE ${PROJECT_BINARY_DIR}/shlibs "libbaum ${needed}\nlibbaum_catalog ${needed}\n")
 file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/shlibs ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Simulates bodies tied by joints with stabilized equations of motion.
@@ -23,7 +26,7 @@ set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Simulates bodies tied by joints with stabi
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbaum-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbaum0 ${version}, libsuitesparse-dev, libsundials-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime} ${version}, libsuitesparse-dev, libsundials-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Simulates bodies tied by joints with stabilized equations of motion.
  This package contains headers, static libraries, and files for CMake and
  pkg-config.")
@@ -31,8 +34,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Simulates bodies tied by joints with s
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-baum)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+# The Python package refuses a library with another minor version.
+math(EXPR next "${PROJECT_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3 (>= 3.9), python3-numpy, libbaum0 (>= ${PROJECT_VERSION})")
+    "python3 (>= 3.9), python3-numpy, ${runtime} (>= ${PROJECT_VERSION}), ${runtime} (<< ${PROJECT_VERSION_MAJOR}.${next}~)")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Simulates bodies tied by joints with stabilized equations of motion.
  This package contains the Python package.")
 
@@ -70,7 +75,7 @@ function(documents component package)
     COMPONENT ${component}
     EXCLUDE_FROM_ALL)
 endfunction()
-documents(runtime libbaum0)
+documents(runtime ${runtime})
 documents(development libbaum-dev)
 documents(python python3-baum)
 

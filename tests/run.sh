@@ -1,10 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh tests/run.sh [STAGE...]
+#        sh tests/run.sh --list     print the names of all stages
 #
 # Installs missing packages and runs the named stages (default: the first row below) until one fails.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels   if named
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels   if named
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 # BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
@@ -13,7 +14,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages fresh trixie wheels"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -106,10 +107,8 @@ stage_python() {
   fi
   need_venv
   [ -d "$prefix" ] || install_release
-  # The package is built from a copy, because building writes into the source.
-  rm -rf build/python-source
-  cp -R bindings/python build/python-source
-  quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps build/python-source
+  quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps --config-settings=wheel.cmake=false \
+    ./bindings/python
   library=$(find "$prefix" -name libbaum.so)
   python=$PWD/$venv/bin/python
   tests=$PWD/tests/python
@@ -249,6 +248,12 @@ stage_packages() {
   fresh_run bookworm "sh tests/install/packages.sh packages"
 }
 
+# The commands for installing in README.md and docs/install.md, word by word, on bare Debians.
+stage_readme() {
+  fresh_run bookworm "sh tests/install/readme.sh"
+  fresh_run trixie "sh tests/install/readme.sh"
+}
+
 # Builds the Python packages of all systems and runs them where that is possible on Linux.
 stage_wheels() {
   need_packages debootstrap qemu-user-static wine64 nodejs binutils python3-venv
@@ -260,6 +265,10 @@ stage_analyzer() {
   build release analyzer -DBAUM_WERROR=ON -DBAUM_TESTS=OFF -DCMAKE_C_FLAGS=-fanalyzer
 }
 
+if [ "$*" = --list ]; then
+  echo "$usual $named"
+  exit 0
+fi
 for stage in "$@"; do
   case " $usual $named " in
     *" $stage "*) ;;

@@ -298,11 +298,11 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  @param simulation  the run
  *  @param t           [s] finite
  *  @return  BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_STOP_TIME,
- *           BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also if max_steps is reached, or if the mean of 10000
- *           successive variable steps is less than 1e-9 / r, where r [1/s] is the rate of the
- *           motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
- *           BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver jumps at a break),
- *           BAUM_ERR_MEMORY */
+ *           BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also if max_steps is reached, or
+ *           if the mean of 10000 successive variable steps is less than 1e-9 / r, where r [1/s] is
+ *           the rate of the motion), BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR,
+ *           BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_INCONSISTENT (kinematics: a driver
+ *           jumps at a break), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
 /** Take a number of whole steps forward in time.

@@ -16,13 +16,9 @@ bool baum_i_hot_is_wide(void)
   return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
 }
 
-#else /* the runtime of zig does not fill the table of __builtin_cpu_supports() */
+#else /* in the runtime of zig, the table of __builtin_cpu_supports() remains empty */
 
 #include <cpuid.h>
-
-/* The flag is written only once, when the library is loaded, because the CPUID instruction takes
- * 100 us on virtual machines. */
-static bool is_wide;
 
 /* Tell whether the system saves the registers of wide vectors (bits 1 and 2 of XCR0). */
 static bool are_saved(void)
@@ -33,20 +29,18 @@ static bool are_saved(void)
   return (low & 6u) == 6u;
 }
 
-__attribute__((constructor)) static void detect(void)
+bool baum_i_hot_is_wide(void)
 {
   const unsigned needed = bit_FMA | bit_OSXSAVE;
   unsigned a = 0;
   unsigned b = 0;
   unsigned c = 0;
   unsigned d = 0;
-  is_wide = __get_cpuid(1, &a, &b, &c, &d) && (c & needed) == needed && are_saved() &&
-            __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & bit_AVX2) != 0;
-}
-
-bool baum_i_hot_is_wide(void)
-{
-  return is_wide;
+  if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (b & bit_AVX2) == 0) {
+    return false;
+  }
+  __cpuid(1, a, b, c, d);
+  return (c & needed) == needed && are_saved();
 }
 
 #endif

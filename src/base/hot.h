@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
- * functions, named by BAUM_I_HOT(). Each object chooses one of the two tables when it is created.
- * Because of fused operations, results of the two tables may differ in the last digits.
+ * functions, named by BAUM_I_HOT(). A mechanism determines when it is created which of the two
+ * tables its workspaces and runs use. The results of the two tables differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H
@@ -18,14 +18,15 @@
 /* Always inline, so that the compiler can use the values of constant arguments. */
 #define BAUM_I_INLINE static inline __attribute__((always_inline))
 
-/* Tell whether this build contains the tables for wide vectors and this processor can run them. */
+/* Tell whether this build has the tables for wide vectors and this processor can run them. This
+ * may take 100 us, because virtual machines emulate CPUID. Mechanisms keep the answer. */
 bool baum_i_hot_is_wide(void);
 
-/* Return the table for this processor. */
+/* Return the table for wide vectors or the plain one. */
 #ifdef BAUM_I_HAS_WIDE
-#define BAUM_I_HOT_TABLE(name) (baum_i_hot_is_wide() ? &name##_wide : &name##_plain)
+#define BAUM_I_HOT_TABLE(wide, name) ((wide) ? &name##_wide : &name##_plain)
 #else
-#define BAUM_I_HOT_TABLE(name) (&name##_plain)
+#define BAUM_I_HOT_TABLE(wide, name) (&name##_plain)
 #endif
 
 #endif

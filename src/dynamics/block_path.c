@@ -266,9 +266,9 @@ baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
   *out = NULL;
   baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
   BAUM_I_TRY(baum_i_check_memory(path));
-  path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
-  path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
-  path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
+  path->kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_kernel);
+  path->sides_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_sides_kernel);
+  path->pins_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_pins_kernel);
   path->fixed_count = for_motion ? w->mechanism->fixed_count : 0;
   baum_status status = fill(w, for_motion, verdict, path);
   if (status != BAUM_OK) {

@@ -44,8 +44,8 @@ enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
  * to another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
-/* Limit on the ratio of successive later corrections. Above it the corrections have stopped
- * decreasing, perhaps because of rounding. */
+/* Limit on the ratio of a later correction to the one before it. If the ratio is above this limit,
+ * the corrections have stopped decreasing, perhaps because of rounding. */
 static const double STAGNATION = 0.5;
 /* Limit on the estimate of |D|. It is below 1 because the estimate is not exact and refers to the
  * end of the step only. */

@@ -41,8 +41,9 @@
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
  * with the further entries R = r^2, C = r^-1 for mu. The solution is therefore x = C A(c0)^-1 R b.
- * IDA's own factor 2 / (1 + r) is a compromise for stiff equations. With it, each iteration leaves
- * the fraction (1 - r) / (1 + r) of the error of the multipliers. */
+ * IDA itself would multiply the solution by 2 / (1 + r), which is a compromise for stiff equations.
+ * With this factor, each iteration leaves the fraction (1 - r) / (1 + r) of the error of the
+ * multipliers. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS

@@ -82,7 +82,7 @@ baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
   size_t size = ((size_t)m->nq + (size_t)m->nv + lanes - 1) / lanes * lanes;
   size_t arrays = (size_t)rate_count + 2 + (size_t)more_count;
   *rk = (baum_i_rk){.table = table, .nq = m->nq, .nv = m->nv, .size = (int)size};
-  rk->kernel = BAUM_I_HOT_TABLE(baum_i_rk_kernel);
+  rk->kernel = BAUM_I_HOT_TABLE(m->wide, baum_i_rk_kernel);
   rk->rates = baum_i_alloc(arrays * size, sizeof *rk->rates);
   BAUM_I_TRY(baum_i_check_memory(rk->rates));
   rk->start = rk->rates + (size_t)rate_count * size;

@@ -10,6 +10,7 @@
 #include <baum/breaks.h>
 
 #include "base/alloc.h"
+#include "base/hot.h"
 #include "base/message.h"
 #include "base/platform.h"
 #include "mechanism/definition.h"
@@ -43,16 +44,13 @@ static baum_i_body *make_ground(void)
   return ground;
 }
 
-baum_status baum_mechanism_create(baum_mechanism **out)
+static baum_status create(bool wide, baum_mechanism **out)
 {
-  if (!out) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_create: out is NULL");
-  }
-  *out = NULL;
   baum_mechanism *mechanism = baum_i_alloc(1, sizeof *mechanism);
   BAUM_I_TRY(baum_i_check_memory(mechanism));
   atomic_init(&mechanism->references, 1);
   mechanism->tag = make_tag(mechanism);
+  mechanism->wide = wide;
   mechanism->gravity[1] = -9.81;
   mechanism->given_length = NAN;
   mechanism->bodies = baum_i_alloc(1, sizeof(void *));
@@ -65,6 +63,15 @@ baum_status baum_mechanism_create(baum_mechanism **out)
   }
   *out = mechanism;
   return BAUM_OK;
+}
+
+baum_status baum_mechanism_create(baum_mechanism **out)
+{
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_create: out is NULL");
+  }
+  *out = NULL;
+  return create(baum_i_hot_is_wide(), out);
 }
 
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
@@ -158,7 +165,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: %s is NULL",
                        out ? "the mechanism" : "out");
   }
-  BAUM_I_TRY(baum_mechanism_create(out));
+  BAUM_I_TRY(create(mechanism->wide, out));
   baum_status status = copy_all(*out, mechanism);
   if (status != BAUM_OK) {
     baum_mechanism_destroy(*out);

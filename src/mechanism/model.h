@@ -475,6 +475,7 @@ struct baum_mechanism {
   atomic_int references;
   uint32_t tag; /* copies of a mechanism have the same tag */
   bool frozen;
+  bool wide; /* evaluated with wide vectors (base/hot.h) */
   double gravity[3];
   double given_length; /* [m] characteristic length given by the user; NaN if not set */
 

@@ -68,7 +68,7 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
   *point = (baum_i_point){.mechanism = mechanism,
                           .parameters = mechanism->parameters,
                           .inputs = baum_i_initial_inputs(mechanism),
-                          .kernel = BAUM_I_HOT_TABLE(baum_i_frames_kernel)};
+                          .kernel = BAUM_I_HOT_TABLE(mechanism->wide, baum_i_frames_kernel)};
   point->frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->frames);
   point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
   point->normalized =

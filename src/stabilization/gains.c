@@ -19,9 +19,10 @@
  * only error. Then c is as large as possible without additional cost.
  *
  * About variable steps: the step of an explicit method is limited so that (alpha h, beta^2 h^2) is
- * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. It damps violations for
- * any alpha h if alpha / beta is at least cos 51.84 = 0.618, because alpha / beta is the cosine of
- * the angle between the roots of s^2 + 2 alpha s + beta^2 and the negative real axis. */
+ * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. Violations therefore decay
+ * for any alpha h if alpha / beta is at least cos 51.84 degrees = 0.618, because alpha / beta is
+ * the cosine of the angle between the roots of s^2 + 2 alpha s + beta^2 and the negative real
+ * axis. */
 #include "stabilization/gains.h"
 
 #include <math.h>

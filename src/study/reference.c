@@ -8,8 +8,9 @@
  * tolerance is the reference. The largest difference between the reference and the other three runs
  * is the uncertainty of the reference. If runs fail, or differ by more than CLOSE, the study also
  * tries looser tolerances and implicit methods. It then uses the attempt with the smallest
- * difference. The last attempt uses RK4 with STEPS steps, and with twice as many. It succeeds even
- * after singular configurations, where constraint violations grow strongly. */
+ * difference. The last attempt makes two runs with RK4, one with STEPS steps and one with twice as
+ * many. It succeeds even after singular configurations, where constraint violations grow
+ * strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

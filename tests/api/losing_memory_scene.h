@@ -108,7 +108,8 @@ static void end_scene(scene *s)
   model_destroy(&s->pendulum);
 }
 
-/* A scene, because the scene of the parts would need hooks for all functions. */
+/* A small scene as text. It is used because a scene of the parts above would need hooks for all
+ * functions. */
 static const char SCENE_TEXT[] =
   "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
   "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "

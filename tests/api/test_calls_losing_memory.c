@@ -41,7 +41,6 @@ static void add_mechanism(baum_i_digest *d, const baum_mechanism *m)
   }
 }
 
-/* Adds to the digest all bytes that the run saves. */
 static void add_saved(baum_i_digest *d, baum_simulation *run)
 {
   static unsigned char bytes[BYTES];
@@ -50,7 +49,6 @@ static void add_saved(baum_i_digest *d, baum_simulation *run)
   baum_i_digest_add(d, bytes, size);
 }
 
-/* Adds the time and the state of a run to the digest. */
 static void add_state(baum_i_digest *d, const baum_simulation *run)
 {
   double t = baum_simulation_time(run);
@@ -103,7 +101,6 @@ static uint64_t look(const scene *s, bool all)
   return d.value;
 }
 
-/* Takes steps and returns the digest of the state that the run reaches. */
 static uint64_t go_on(const scene *s)
 {
   if (s->run) {
@@ -337,7 +334,6 @@ CALL(baum_mechanism_write_svg)
   return baum_mechanism_write_svg(s->parts.mechanism, NULL, FILE_NAME);
 }
 
-/* All calls for scenes, one after the other. */
 CALL(baum_mechanism_parse)
 {
   (void)s;
@@ -457,7 +453,6 @@ static const call CALLS[] = {
   ROW(baum_page_write, FROZEN),
 };
 
-/* Counts the allocations of a call. *seen is set to the digest of the scene after the call. */
 static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
@@ -482,7 +477,6 @@ static bool is_for_memory(baum_status status)
          (status == BAUM_ERR_FILE && strstr(baum_message(), strerror(ENOMEM)));
 }
 
-/* Makes one allocation of a call fail. Returns whether the call failed. */
 static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 {
   scene s;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes: mechanisms of every kind survive writing and reading bit for bit; wrong texts are refused
- * with their line; failing allocations lose nothing. */
-#define _GNU_SOURCE /* of heap.h */
+/* Tests scenes, which are mechanisms written as text. Mechanisms of every kind must be the same,
+ * bit for bit, after they were written and read. Wrong texts must be refused with a message that
+ * names the line. If allocations fail, no memory may be lost. */
+#define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -94,7 +95,8 @@ static void must_be_equal(const baum_mechanism *a, const baum_mechanism *b)
   assert_true(equal);
 }
 
-/* Write and read a mechanism, and compare both. The result is frozen. */
+/* Writes a mechanism, reads the text, and compares the result with the mechanism. The result is
+ * frozen. */
 static baum_mechanism *round_trip(const baum_mechanism *m)
 {
   all_hooks *all = hooks_of(m);
@@ -111,7 +113,7 @@ static baum_mechanism *round_trip(const baum_mechanism *m)
   return back;
 }
 
-/* Run both mechanisms and compare every bit. */
+/* Runs both mechanisms and compares every bit of their motions. */
 static void must_move_alike(const baum_mechanism *a, const baum_mechanism *b, double t0, double dt)
 {
   baum_simulation_options o = baum_simulation_options_default();
@@ -208,7 +210,7 @@ static void add_pin(baum_mechanism *m, baum_body_id a, baum_body_id b)
   check(baum_mechanism_add_planar_revolute(m, &def, NULL));
 }
 
-/* Two bodies with the same name, and one that is called ground. */
+/* Makes two bodies with the same name, and one body that is called ground. */
 static baum_mechanism *make_unclear(void)
 {
   baum_mechanism *m = NULL;

@@ -261,9 +261,30 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The file begins with the first line that belongs to this study. The other lines come from the
- * study of a heavier pendulum. Their digests do not match the first line. Their entries must
- * therefore be run again. */
+/* The first line of this study, but from another version of the library. */
+static void a_file_of_another_library_is_refused(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  int first = 0;
+  baum_study_destroy(run_to_the_end(&s, &first));
+  char *text = read_file(s.path);
+  char line[BAUM_I_STUDY_LINE] = "";
+  memcpy(line, text, strcspn(text, "\n") + 1);
+  assert_true(baum_i_study_unseal(line, 0));
+  char *last = line + strlen(line) - 1; /* digit of the mark "library" */
+  *last = *last == '0' ? '1' : '0';
+  baum_i_study_seal(line, 0);
+  write_file(s.path, line, strlen(line));
+  baum_study *study = study_of(&s);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "another study|the version of the library");
+  baum_study_destroy(study);
+  test_free(text);
+  end_scene(&s);
+}
+
+/* The file has the first line of this study, but the other lines come from the study of a heavier
+ * pendulum. Their checksums do not match the first line, so the entries run again. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;
@@ -419,6 +440,7 @@ int main(void)
     cmocka_unit_test(a_line_that_is_cut_off_or_damaged_is_run_again),
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
     cmocka_unit_test(a_file_of_another_version_is_refused),
+    cmocka_unit_test(a_file_of_another_library_is_refused),
     cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
     cmocka_unit_test(lines_may_end_as_on_other_systems),

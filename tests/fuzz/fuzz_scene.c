@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes are read from arbitrary bytes. If a scene is accepted, writing it and reading it back
- * gives an equal mechanism, and freezing it may fail but not crash. */
+/* Reads scenes from arbitrary bytes. If a scene is accepted, it is written and read back, and this
+ * must give an equal mechanism. Freezing this mechanism may fail, but it must not crash. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -11,8 +11,9 @@ set -eu
 cd "$1"
 project=$PWD
 work=$project/build/wheels
-targets=${BAUM_TARGETS:-linux-x86_64 linux-aarch64 windows-x86_64 wasm32-wasi macos-arm64 macos-x86_64}
+targets=${BAUM_TARGETS:-linux-x86_64 linux-aarch64 windows-x86_64 wasm32-wasi macos-arm64 macos-x86_64 sdist}
 . tests/install/root.sh
+. tests/install/documented.sh
 
 fail() {
   echo "$*"
@@ -107,18 +108,15 @@ test_linux() {
   done
 }
 
-# Prints the first Python program of the README.
-readme_program() {
-  awk '/^```python/ { inside = 1; next } /^```/ && inside { exit } inside' "$project/bindings/python/README.md"
-}
-
 test_bare() {
   bare=$work/root-$1
-  make_root "$bare" "$1" --include=python3-venv
+  make_root "$bare" "$1"
   mkdir -p "$bare/root/baum"
   tar -C "$project" --exclude=./build --exclude=./.git -cf - . | tar -C "$bare/root/baum" -xf -
   cp "$(package manylinux*x86_64)" "$bare/root"
-  readme_program >"$bare/root/program.py"
+  first_block README.md python >"$bare/root/first.py"
+  first_block bindings/python/README.md python >"$bare/root/program.py"
+  documented README.md Install 1 >"$bare/root/install.sh"
   cat >"$bare/root/time.py" <<'END'
 import time, sys
 import numpy
@@ -133,12 +131,13 @@ END
       echo "this root is not bare"
       exit 1
     fi
-    python3 -m venv venv
-    venv/bin/pip install --quiet numpy baum-*.whl
-    venv/bin/python time.py && venv/bin/python time.py
-    venv/bin/python program.py
+    sed "s/^/$ /" install.sh
+    sh -e install.sh >install.log 2>&1 || { cat install.log; exit 1; }
+    env/bin/python time.py && env/bin/python time.py
+    env/bin/python first.py
+    env/bin/python program.py
     cd baum
-    ../venv/bin/python -m unittest discover -s tests/python >../tests.log 2>&1 || { cat ../tests.log; exit 1; }
+    ../env/bin/python -m unittest discover -s tests/python >../tests.log 2>&1 || { cat ../tests.log; exit 1; }
     tail -n 3 ../tests.log' ||
     fail "$1: failed"
   rm -rf "$bare"
@@ -203,6 +202,23 @@ END
     "$work/venv/bin/python" -m unittest discover -s tests/python -p test_abi.py
 }
 
+# pip compiles the source archive for the SuiteSparse and SUNDIALS of this system.
+test_sdist() {
+  fresh=$work/sdist-venv
+  python3 -m venv --clear "$fresh"
+  "$fresh/bin/pip" install --quiet "$(package "[0-9].tar.gz")"
+  first_block README.md python >"$work/program.py"
+  (cd "$work" && "$fresh/bin/python" program.py)
+  "$fresh/bin/python" - "$fresh" <<'END'
+import importlib.metadata, sys
+import baum
+files = [str(file) for file in importlib.metadata.files("baum")]
+assert baum._lib.path.startswith(sys.argv[1]), baum._lib.path
+assert any(file.endswith("licenses/LICENSE") for file in files), files
+print("compiled", baum._lib.path)
+END
+}
+
 test_wasm() {
   unpack wasm32-wasi "$(package wasm32)"
   compile wasm32-wasi .wasm -L"$test/lib" -lbaum_catalog -lbaum
@@ -218,6 +234,7 @@ for target in $targets; do
     linux-aarch64) test_aarch64 ;;
     windows-x86_64) test_windows ;;
     wasm32-wasi) test_wasm ;;
+    sdist) test_sdist ;;
     macos-*) unpack "$target" "$(package "macosx*_${target#*-}")" ;;
   esac
 done

@@ -1,17 +1,30 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: check_version.sh VERSION PROJECT
-# Checks that the build, the header and the Python package have the same version.
+# usage: check_version.sh VERSION SOVERSION PROJECT
+# include/baum/version.h is the only place of the version: the build and generate_abi.py read it, the Python package has
+# that of _abi.py, and the documents name no other. The Python package looks for the library by its soname.
 set -eu
 version=$1
-cd "$2"
+soversion=$2
+cd "$3"
+failures=0
 
-header=$(sed -n 's/^#define BAUM_VERSION  *"\([^"]*\)".*/\1/p' include/baum/version.h)
-numbers=$(sed -n 's/^#define BAUM_VERSION_\(MAJOR\|MINOR\|PATCH\)  *\([0-9]*\).*/\2/p' \
-  include/baum/version.h | paste -s -d .)
-python=$version
-if [ -e bindings/python/pyproject.toml ]; then
-  python=$(sed -n 's/^version *= *"\([^"]*\)".*/\1/p' bindings/python/pyproject.toml)
-fi
-echo "build $version, header $header and $numbers, Python $python"
-[ "$header" = "$version" ] && [ "$numbers" = "$version" ] && [ "$python" = "$version" ]
+# same WHAT FOUND WANTED
+same() {
+  [ "$2" = "$3" ] && return
+  echo "$1 has $2, must have $3"
+  failures=$((failures + 1))
+}
+
+header=include/baum/version.h
+same "the text in $header" "$(sed -n 's/^#define BAUM_VERSION  *"\([^"]*\)".*/\1/p' $header)" "$version"
+same "the numbers in $header" "$(sed -n 's/^#define BAUM_VERSION_[A-Z]*  *\([0-9]*\).*/\1/p' $header | paste -s -d .)" "$version"
+same bindings/python/baum/_abi.py "$(sed -n 's/^VERSION = "\(.*\)"/\1/p' bindings/python/baum/_abi.py)" "$version"
+same "section project of bindings/python/pyproject.toml" \
+  "$(sed -n '/^\[project\]/,/^\[/p' bindings/python/pyproject.toml | grep -E '^(version|dynamic) *=')" 'dynamic = ["version"]'
+same "the first heading of docs/changelog.md" "$(sed -n 's/^## \([0-9.]*\),.*/\1/p' docs/changelog.md | head -n 1)" "$version"
+same "the package in README.md" "$(grep -oE 'baum-[0-9]+[.][0-9.]+' README.md | sort -u)" "baum-$version"
+same "find_package() in docs/install.md" "$(grep -oE 'find_package\(baum [0-9.]+' docs/install.md | sort -u)" "find_package(baum ${version%.*}"
+same bindings/python/baum/_lib.py "$(grep -oE 'libbaum[.]so[.][0-9]+' bindings/python/baum/_lib.py)" "libbaum.so.$soversion"
+echo "version $version, soname libbaum.so.$soversion, $failures differences"
+[ "$failures" -eq 0 ]

@@ -197,8 +197,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
  * accelerations may therefore be more than twice this violation. */
 static double allowed(double rate)
 {
-  /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by this angle, a changes
-   * by as much. */
+  /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by an angle of 1e-10,
+   * the accelerations change by about this fraction. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 

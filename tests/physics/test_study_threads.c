@@ -24,7 +24,7 @@
 
 enum { THREADS = 8, STUDIES = 3 };
 
-/* Counts the calls of a progress function. No call may begin while another one is running. */
+/* What a progress function counts. No call of it may begin while another call is running. */
 typedef struct seen {
   atomic_int inside;
   atomic_int together; /* number of calls that began while another one was running */

@@ -12,12 +12,16 @@ from baum import _abi
 from compiler import CC, ROOT, Folder
 
 
-def generator():
-    path = ROOT / "bindings" / "python" / "tools" / "generate_abi.py"
-    spec = importlib.util.spec_from_file_location("generate_abi", path)
+def tool(name):
+    path = ROOT / "bindings" / "python" / "tools" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def generator():
+    return tool("generate_abi")
 
 
 def enums():
@@ -90,6 +94,51 @@ class Abi(unittest.TestCase):
             ("BAUM_CATALOG_API ", _abi.CATALOG_PROTOTYPES),
         ):
             self.assertEqual(text.count(macro) - text.count("#define " + macro), len(prototypes))
+
+
+class Changes(unittest.TestCase):
+    """What breaks compiled programs is found by tools/compare_abi.py, which a release runs."""
+
+    def found_after(self, *replacements):
+        """The changes that replacements in the text of _abi.py cause."""
+        text = Path(_abi.__file__).read_text(encoding="utf-8")
+        for old, new in replacements:
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name) / "changed.py"
+        path.write_text(text, encoding="utf-8")
+        comparison = tool("compare_abi")
+        return comparison.changes(comparison.load(_abi.__file__), comparison.load(str(path)))
+
+    def test_additions_break_nothing(self):
+        last = '("coordinate", c_int),\n'  # of baum_driver_def, which has a struct_size
+        value = "BAUM_STOP_EVENT = 2\n"
+        found = self.found_after(
+            (value, value + "    BAUM_STOP_NEW = 3\n"),
+            (last, last + '        ("new", c_double),\n'),
+            ("PROTOTYPES = {\n", 'PROTOTYPES = {\n    "baum_new": (c_int, []),\n'),
+        )
+        self.assertEqual(found, [])
+
+    def test_every_kind_of_break_is_found(self):
+        version = '"baum_version": (c_char_p, ['
+        index = '("index1", c_int32),'
+        for old, new, expected in (
+            ("BAUM_WARNED = 10", "BAUM_WARNED = 11", "enum baum_status: BAUM_WARNED"),
+            ("    BAUM_WARNED = 10\n", "", "enum baum_status: BAUM_WARNED"),
+            (version, '"baum_new": (c_char_p, [', "function baum_version() is missing"),
+            (version, version + "c_int, ", "function baum_version(): arguments"),
+            ("CFUNCTYPE(c_int, c_double,", "CFUNCTYPE(c_int, c_int,", "struct baum_user_constraint"),
+            (index, index.replace("32", "64"), "struct baum_body_id: fields"),
+            (index, index + '("new", c_int32),', "struct baum_body_id: fields"),
+            ("STRUCTS = [\n    baum_body_id,", "STRUCTS = [", "struct baum_body_id is missing"),
+        ):
+            with self.subTest(new):
+                self.assertTrue(
+                    any(line.startswith(expected) for line in self.found_after((old, new)))
+                )
 
 
 if __name__ == "__main__":

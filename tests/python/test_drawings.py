@@ -90,6 +90,14 @@ class Pages(unittest.TestCase):
         x = self.run_["slider.pose"][:, 0]
         np.testing.assert_allclose(values, [x.min(), x.max()], rtol=1e-8)
 
+    def test_keys_of_the_description_stay(self):
+        drawing = data_of(self.page())["drawing"]
+        self.assertEqual(drawing["version"], 1)
+        self.assertLessEqual({"unit", "spatial", "gravity", "bodies", "shapes"}, set(drawing))
+        self.assertLessEqual({"name", "kind", "q"}, set(drawing["bodies"][0]))
+        shape = {"style", "form", "body", "other", "element", "radius", "points"}
+        self.assertLessEqual(shape, set(drawing["shapes"][0]))
+
     def test_one_name_need_not_be_in_a_list(self):
         data = data_of(self.page(traces="rod", forces="B.reaction", plots="slider.pose", title=5))
         self.assertEqual([len(data[key]) for key in ("traces", "reactions", "plots")], [1, 1, 3])

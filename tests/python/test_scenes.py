@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes: writing, reading, comparing and pickling mechanisms, and the commands."""
+"""Tests scenes: mechanisms are written, read, compared and pickled, also by commands."""
 
 import contextlib
 import io
@@ -40,7 +40,7 @@ def crank():
 
 
 def call(*arguments):
-    """The exit code, standard output and standard error of a command."""
+    """Run a command, and return its exit code, its standard output and its standard error."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = main([str(argument) for argument in arguments])

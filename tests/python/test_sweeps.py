@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sweeps: samples of parameters, executors, failures, cancelling and continuing."""
+"""Tests sweeps: samples of parameters, executors, failures, cancelling and continuing."""
 
 import concurrent.futures
 import tempfile
@@ -27,7 +27,7 @@ def last_angle(run):
 
 
 class Serial:
-    """An executor that only has map()."""
+    """An executor whose only method is map()."""
 
     def map(self, function, *lists):
         return map(function, *lists)

@@ -186,9 +186,9 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Errors of up to 5e-10 were measured, because the errors of hundreds of steps add up. After nine
-   * revolutions of the spatial slider-crank, 1.9e-9 was measured, and after flat configurations
-   * 6e-9. */
+  /* Errors of up to 5e-10 were measured, because the errors of hundreds of steps add up. The error
+   * was 1.9e-9 after nine revolutions of the spatial slider-crank, and 6e-9 after flat
+   * configurations. */
   double wanted = k->entry.smooth ? 3e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);

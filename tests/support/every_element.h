@@ -31,8 +31,8 @@ typedef struct any_id {
   uint32_t tag;
 } any_id;
 
-/* Makes the functions of the elements fail on purpose, and counts their calls. If all fields are
- * zero, the functions do not fail. */
+/* Decides which calls of the elements' functions fail on purpose, and counts the calls. If all
+ * fields are zero, the functions do not fail. */
 typedef struct every_fault {
   int answer;    /* return value of a failing call; if 0, the call sets NaN instead */
   bool fails;    /* whether calls fail */

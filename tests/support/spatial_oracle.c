@@ -12,8 +12,9 @@
  * 1. */
 static const double NO_ROW = 1e-13;
 
-/* A reaction of a joint is unique if the following holds for every linear combination of rows that
- * is zero: the reaction caused by the joint's rows in it is smaller than this. */
+/* Some linear combinations of rows are zero. In each of them, the rows of one joint cause a
+ * reaction of this joint. The reaction of the joint is unique if all these reactions are smaller
+ * than this. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)

@@ -139,7 +139,8 @@ static void rotations_are_of_order_two_and_keep_the_momentum(void **state)
     bool symmetric =
       moments[0] == moments[1] || moments[1] == moments[2] || moments[0] == moments[2];
     if (symmetric) {
-      /* A rounding error of 1e-14, divided by the smallest moment, which is 1e-3. */
+      /* The method is exact. The limit is a rounding error of 1e-14, divided by the smallest
+       * moment, which is 1e-3. */
       assert_true(error[0] <= 1e-11);
     } else {
       assert_true(error[0] >= 1e-7);

@@ -18,7 +18,8 @@ static void limits_are_the_known_ones(void **state)
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
-    [RK3] = 2.5127453266183286, /* this and the following: bisection of |R| - 1, in Python */
+    /* This and the next number were found in Python, by bisection of |R| - 1. */
+    [RK3] = 2.5127453266183286,
     [RK4] = 2.785293563405282,
   };
   double taylor[ONE_STEP_COUNT] = {

@@ -3,10 +3,11 @@
 """Build Python packages for all systems on one Debian machine: the C compiler zig makes libraries
 that contain the parts of SuiteSparse and SUNDIALS they need, from Debian's source packages.
 
-usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS)
+usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS, and sdist)
 
 Writes into build/wheels/out. Needs cmake and ninja, and apt or the two archives of SOURCES in
-build/wheels/sources. For wasm32-wasi it makes an archive of static libraries and headers instead.
+build/wheels/sources. For wasm32-wasi it makes an archive of static libraries and headers instead,
+for sdist the source archive of the Python package.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from typing import NamedTuple
 PROJECT = Path(__file__).resolve().parents[3]
 WORK = PROJECT / "build" / "wheels"
 OUT = WORK / "out"
+BINDING = PROJECT / "bindings" / "python"
 TOOLS = ["ziglang==0.17.1", "scikit-build-core==1.1.2", "wheel==0.48.0"]
 
 
@@ -55,6 +57,10 @@ class Target(NamedTuple):
     processor: str
     tag: str
 
+
+SDIST = "sdist"
+SDIST_PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "include", "src")
+BINDING_PARTS = ("README.md", "pyproject.toml", "baum")
 
 WASM = "wasm32-wasi"
 TARGETS = {
@@ -161,7 +167,7 @@ def build_wheel(name: str, target: Target, settings: dict[str, object], python: 
     shutil.rmtree(made, ignore_errors=True)
     options = [f"--config-settings=cmake.define.{key}={value}" for key, value in settings.items()]
     options.append(f"--config-settings=build-dir={WORK / name / 'cmake'}")
-    wheel = [python, "-m", "pip", "wheel", PROJECT, "--no-deps", "--no-build-isolation"]
+    wheel = [python, "-m", "pip", "wheel", BINDING, "--no-deps", "--no-build-isolation"]
     run(*wheel, "--wheel-dir", made, *options)
     (untagged,) = made.glob("*.whl")
     tag = run(python, "-m", "wheel", "tags", "--platform-tag", target.tag, untagged)
@@ -185,21 +191,44 @@ def build_archive(name: str, settings: dict[str, object]) -> Path:
     return file
 
 
+def build_target(name: str, python: Path) -> Path:
+    """The package or archive for a target."""
+    target = TARGETS[name]
+    settings = settings_for(target, WORK / name / "bin", python, unpack())
+    if name == WASM:
+        return build_archive(name, settings)
+    return build_wheel(name, target, settings, python)
+
+
+def build_sdist(python: Path) -> Path:
+    """The source archive. It contains C sources, which are outside of the folder of the package."""
+    folder = WORK / SDIST
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    unwanted = shutil.ignore_patterns("__pycache__")
+    for part in [*(PROJECT / name for name in SDIST_PARTS), *map(BINDING.joinpath, BINDING_PARTS)]:
+        if part.is_dir():
+            shutil.copytree(part, folder / part.name, ignore=unwanted)
+        else:
+            shutil.copy(part, folder)
+    build = "import os, sys; os.chdir(sys.argv[1]); import scikit_build_core.build as b; "
+    said = run(python, "-c", build + "print(b.build_sdist(sys.argv[2]))", folder, OUT)
+    return OUT / said.split()[-1]
+
+
 def main() -> None:
-    names = sys.argv[1:] or list(TARGETS)
+    known = [*TARGETS, SDIST]
+    names = sys.argv[1:] or known
     for name in names:
-        if name not in TARGETS:
-            sys.exit(f"no target {name}; there are: {' '.join(TARGETS)}")
+        if name not in known:
+            sys.exit(f"no target {name}; there are: {' '.join(known)}")
     python = make_tools()
-    sources = unpack()
     OUT.mkdir(parents=True, exist_ok=True)
     for name in names:
-        target = TARGETS[name]
-        settings = settings_for(target, WORK / name / "bin", python, sources)
-        if name == WASM:
-            made = build_archive(name, settings)
+        if name == SDIST:
+            made = build_sdist(python)
         else:
-            made = build_wheel(name, target, settings, python)
+            made = build_target(name, python)
         print(f"{made.stat().st_size / 1e6:.2f} MB {made.relative_to(PROJECT)}", flush=True)
 
 

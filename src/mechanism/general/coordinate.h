@@ -14,15 +14,17 @@
 
 #include "mechanism/identify.h"
 
-/* Check that a definition names an existing joint and that this joint has the coordinate. Returns
- * BAUM_OK or BAUM_ERR_ARGUMENT. `joint` and `coordinate` are the names of these two fields in the
- * definition. `purpose`, for example "to drive", is the end of the message. */
+/* Texts for a message about the two fields of a definition that select a coordinate. `joint` and
+ * `coordinate` are the names of these fields. `purpose`, for example "to drive", is the end of the
+ * message. */
 typedef struct baum_i_coordinate_fields {
   const char *joint;
   const char *coordinate;
   const char *purpose;
 } baum_i_coordinate_fields;
 
+/* Check that a definition names an existing joint and that this joint has the coordinate. Returns
+ * BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     baum_joint_coordinate which, const char *label,
                                     const baum_i_coordinate_fields *fields);

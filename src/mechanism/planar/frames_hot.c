@@ -39,8 +39,8 @@ BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
 }
 
 /* Gather the angles of a batch. For bodies without an angle, the angle is 0. Angles are stored as
- * vectors, because they are loaded as vectors immediately afterwards. Such a load would have to
- * wait if the stores were of single numbers. */
+ * vectors, because they are loaded as vectors immediately afterwards. If single numbers were stored
+ * instead, the processor would have to wait before it can load them as a vector. */
 BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
   int i = 0;

@@ -16,8 +16,8 @@ typedef struct problem {
 /* Returns problem number k, or NULL if k is too large. */
 const problem *problem_at(int k);
 
-/* Writes a pair as a text of the form "integrator/formulation". */
 enum { PAIR_SIZE = 64 };
+/* Writes a pair as a text of the form "integrator/formulation". */
 void problem_pair(const baum_integrator *integrator, baum_formulation formulation,
                   char text[PAIR_SIZE]);
 

@@ -1,0 +1,112 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: sh tests/release.sh [--check]
+#
+# Makes the files of a release: checks the sources, runs every stage of tests/run.sh, and copies the packages and their
+# SHA-256 digests into build/dist. This takes hours; if a stage fails, the next run continues there, as long as the
+# commit is the same. --check only checks the sources, in a few seconds. Publishing is left to you.
+set -eu
+cd "$(dirname "$0")/.."
+. tests/setup.sh
+
+text=$(sed -n 's/^#define BAUM_VERSION  *"\([^"]*\)".*/\1/p' include/baum/version.h)
+tag=v$text
+out=build/dist
+failures=0
+
+# check WHAT COMMAND...: run it and report. A failed check does not end the script, so that all are seen.
+check() {
+  what=$1
+  shift
+  if said=$("$@" 2>&1); then
+    echo "ok      $what"
+  else
+    echo "FAILED  $what"
+    [ -z "$said" ] || echo "$said" | sed 's/^/        /'
+    failures=$((failures + 1))
+  fi
+}
+
+tree_is_clean() {
+  changed=$(git status --porcelain)
+  echo "$changed"
+  [ -z "$changed" ]
+}
+
+tag_is_new() {
+  ! git rev-parse --quiet --verify "refs/tags/$tag" >/dev/null
+}
+
+# The first heading is "## VERSION, DATE", and an entry follows.
+changelog_is_dated() {
+  heading=$(grep -m 1 '^## ' docs/changelog.md)
+  day=${heading#"## $text, "}
+  echo "its first heading is \"$heading\", must be \"## $text, YYYY-MM-DD\" followed by entries"
+  [ "$(date -d "$day" +%F 2>/dev/null)" = "$day" ] &&
+    awk '/^## / { if (++n == 2) exit } n == 1 && /^- / { found = 1 } END { exit !found }' docs/changelog.md
+}
+
+version_has_one_place() {
+  sh tests/layout/check_version.sh "$text" "$(soname <CMakeLists.txt)" .
+}
+
+soname() {
+  sed -n 's/^set(BAUM_SOVERSION \([0-9]*\))/\1/p'
+}
+
+# The release before this one, by version; nothing before the first release.
+last_tag() {
+  { git tag --list 'v[0-9]*' && echo "$tag"; } | sort -V |
+    awk -v tag="$tag" '$0 == tag { print last; exit } { last = $0 }'
+}
+
+# The part of a version that changes if programs break: the major version, before 1.0 also the minor version.
+breaking_part() {
+  case $1 in
+    v0.*) echo "${1%.*}" ;;
+    *) echo "${1%%.*}" ;;
+  esac
+}
+
+# What breaks compiled programs needs another soname and another major version, before 1.0 minor version.
+soname_counts_breaks() {
+  last=$(last_tag)
+  [ -n "$last" ] || return 0
+  mkdir -p "$out"
+  git show "$last:bindings/python/baum/_abi.py" >"$out/last_abi.py"
+  python3 bindings/python/tools/compare_abi.py "$out/last_abi.py" bindings/python/baum/_abi.py && return
+  echo "since $last: raise BAUM_SOVERSION in CMakeLists.txt and the major version, before 1.0 the minor version"
+  [ "$(soname <CMakeLists.txt)" -gt "$(git show "$last:CMakeLists.txt" | soname)" ] &&
+    [ "$(breaking_part "$last")" != "$(breaking_part "$tag")" ]
+}
+
+check "the working tree is clean" tree_is_clean
+check "there is no tag $tag yet" tag_is_new
+check "docs/changelog.md has entries and a date for $text" changelog_is_dated
+check "the version has one place" version_has_one_place
+check "generated files of the Python package are up to date" python3 bindings/python/tools/generate_abi.py --check
+check "the soname counts what breaks compiled programs" soname_counts_breaks
+[ "$failures" -eq 0 ] || exit 1
+[ "${1:-}" != --check ] || exit 0
+
+commit=$(git rev-parse HEAD)
+passed=$out/passed-$commit
+mkdir -p "$out"
+touch "$passed"
+for stage in $(sh tests/run.sh --list); do
+  grep -qx "$stage" "$passed" && continue
+  # Only packages of this commit may remain there.
+  [ "$stage" != wheels ] || rm -rf build/wheels/out
+  sh tests/run.sh "$stage"
+  echo "$stage" >>"$passed"
+done
+
+heading "files of $tag"
+tree_is_clean
+. /etc/os-release
+rm -rf "$out/files"
+mkdir -p "$out/files/$ID$VERSION_ID"
+cp build/wheels/out/* "$out/files"
+cp build/debian/*.deb "$out/files/$ID$VERSION_ID"
+(cd "$out/files" && find . -type f ! -name SHA256SUMS | sort | xargs sha256sum >SHA256SUMS && cat SHA256SUMS)
+echo "To publish: git tag -a $tag -m 'baum $text' && git push origin $tag, and upload $out/files."
