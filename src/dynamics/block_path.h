@@ -11,6 +11,7 @@
 #include "dynamics/dynamics.h"
 #include "dynamics/pins.h"
 #include "linear/block.h"
+#include "linear/space_block.h"
 
 /* An omitted row. No node of the block sets its Phi' and its multiplier. */
 typedef struct baum_i_omitted_row {
@@ -20,7 +21,12 @@ typedef struct baum_i_omitted_row {
   const int *columns; /* (count) */
 } baum_i_omitted_row;
 
+/* The block solver is `space` if the mechanism has bodies in space and none with user coordinates,
+ * otherwise `block`; the other is NULL. */
 struct baum_i_block_path {
+  baum_i_space *space;
+  const baum_i_space_kernel *space_kernel;
+  const baum_i_space_sides_kernel *space_sides;
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
@@ -40,6 +46,14 @@ struct baum_i_block_path {
   int64_t factorizations;
   int64_t refinements;
 };
+
+/* The size of the system of a path. */
+typedef struct baum_i_block_size {
+  int nodes;
+  int couplings;
+  int fill;           /* couplings of nodes that share no body */
+  int most_couplings; /* of one node */
+} baum_i_block_size;
 
 /* Create a path for the rows that are omitted now. for_motion: exclude fixed bodies and the rows
  * between them. If blocks do not suit the mechanism, returns BAUM_OK with *out = NULL and the
@@ -77,6 +91,16 @@ typedef struct baum_i_right_side {
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
+
+/* With the factors of the last solution: set out (nv) to the smallest vector, in the metric of M,
+ * with J out = r (nc), or to x minus its part in the null space of J. BAUM_ERR_NOT_FINITE: without
+ * a message. */
+baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
+                                        double *out);
+baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
+                                          double *out);
+
+baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
  * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
