@@ -53,11 +53,11 @@ static double smaller(double a, double b)
   return isnan(a) || a < b ? a : b;
 }
 
-static int create_all(scene *at, measured all[MOST_SOLVERS])
+static int create_all(scene *at, solver_list *list, measured all[MOST_SOLVERS])
 {
   int count = 0;
-  for (int k = 0; solver_at(k) && count < MOST_SOLVERS; k++) {
-    measured m = {.way = solver_at(k), .whole = (double)INFINITY, .apart = (double)NAN};
+  for (int k = 0; list(k) && count < MOST_SOLVERS; k++) {
+    measured m = {.way = list(k), .whole = (double)INFINITY, .apart = (double)NAN};
     m.self = m.way->create(at);
     for (int phase = 0; phase < PHASE_COUNT; phase++) {
       m.upto[phase] = (double)INFINITY;
@@ -69,12 +69,17 @@ static int create_all(scene *at, measured all[MOST_SOLVERS])
   return count;
 }
 
+static void time_whole(measured *m)
+{
+  m->whole = smaller(timing_round(m->way->run, m->self, PHASE_WHOLE), m->whole);
+}
+
 static void time_round(measured *m)
 {
   for (int phase = 0; phase < PHASE_COUNT && m->way->has_phases; phase++) {
     m->upto[phase] = smaller(timing_round(m->way->run, m->self, phase), m->upto[phase]);
   }
-  m->whole = smaller(timing_round(m->way->run, m->self, PHASE_WHOLE), m->whole);
+  time_whole(m);
 }
 
 /* Compares the accelerations of all solvers. */
@@ -145,6 +150,17 @@ static void print_head(void)
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
+/* Destroys the solvers. Returns false if there is none, one failed, or they disagree. */
+static bool finish_all(const measured *all, int count)
+{
+  bool fine = count > 0;
+  for (int k = 0; k < count; k++) {
+    fine = fine && all[k].apart < 1e-6 && all[k].whole > 0.0;
+    all[k].way->destroy(all[k].self);
+  }
+  return fine;
+}
+
 /* Returns false if something failed or solvers disagree. */
 static bool bench_scene(scene_kind kind, int n, bool json)
 {
@@ -154,23 +170,21 @@ static bool bench_scene(scene_kind kind, int n, bool json)
     (void)fprintf(stderr, "%s %d: %s\n", scene_name(kind), n, baum_message());
     return false;
   }
-  int count = create_all(&at, all);
+  int count = create_all(&at, solver_at, all);
   for (int round = 0; round < TIMING_ROUNDS; round++) {
     for (int k = 0; k < count; k++) {
       time_round(&all[k]);
     }
   }
   compare_solutions(&at, all, count);
-  bool fine = count > 0;
   for (int k = 0; k < count; k++) {
     if (json) {
       print_json(&at, all[k].way->name, all[k].whole);
     } else {
       print_row(&at, &all[k], all[0].whole);
     }
-    fine = fine && all[k].apart < 1e-6 && all[k].whole > 0.0;
-    all[k].way->destroy(all[k].self);
   }
+  bool fine = finish_all(all, count);
   scene_clear(&at);
   return fine;
 }
@@ -192,6 +206,109 @@ static bool bench_solvers(const arguments *given)
       fine = bench_scene(CASES[k].kind, CASES[k].n, given->json) && fine;
     }
   }
+  return fine;
+}
+
+/* ---- spatial scenes ---- */
+
+/* [s] The driven planar slider-crank took this long where the peers were timed. */
+static const double CRANK_OF_PEERS = 184e-9;
+
+/* ns per acceleration of the fastest of other programs, measured on one machine of 3.2 GHz with
+ * their fastest calls (Pinocchio 4.1.0, MuJoCo 4.0.0). NaN: not measured. MuJoCo's flyball had no
+ * springs. No command repeats these measurements. */
+static const struct {
+  scene_kind kind;
+  int n;
+  double peer;
+} SPATIAL[] = {
+  {SCENE_SPATIAL_SLIDER_CRANK, 1, 1590.0},
+  {SCENE_RSSR, 1, 1538.0},
+  {SCENE_BRICARD, 1, 2595.0},
+  {SCENE_SLENDER_BRICARD, 1, (double)NAN},
+  {SCENE_STEWART, 1, 8640.0},
+  {SCENE_QUADRUPED, 1, 2630.0},
+  {SCENE_FLYBALL, 1, 807.0},
+  {SCENE_SPHERICAL_CHAIN, 10, 3700.0},
+  {SCENE_SPHERICAL_CHAIN, 100, 39100.0},
+  {SCENE_SPHERICAL_CHAIN, 1000, (double)NAN},
+  {SCENE_SPHERICAL_CHAIN, 10000, (double)NAN},
+  {SCENE_REVOLUTE_CHAIN, 10, 1720.0},
+  {SCENE_REVOLUTE_CHAIN, 100, 31800.0},
+  {SCENE_REVOLUTE_CHAIN, 1000, (double)NAN},
+  {SCENE_REVOLUTE_CHAIN, 10000, (double)NAN},
+};
+enum { SPATIAL_COUNT = sizeof SPATIAL / sizeof SPATIAL[0] };
+
+static void print_spatial_head(void)
+{
+  printf("\nspatial scenes, ns of CPU time per acceleration. scaled: as if the driven planar "
+         "slider-crank, timed\nin turn with every scene, took %.0f ns. peers: the fastest other "
+         "program there. apart: as above\n",
+         1e9 * CRANK_OF_PEERS);
+  printf("%-20s %6s %-11s %10s %8s %10s %8s %8s %6s %6s\n", "case", "n", "solver", "ns", "per body",
+         "scaled", "per body", "peers", "rel", "apart");
+}
+
+static void print_spatial_row(const scene *at, const measured *m, double crank, double peer,
+                              double reference)
+{
+  double scaled = m->whole * CRANK_OF_PEERS / crank;
+  printf("%-20s %6d %-11s %10.0f %8.1f %10.0f %8.1f %8.0f %6.2f %6.0e\n", scene_name(at->kind),
+         at->n, m->way->name, 1e9 * m->whole, 1e9 * m->whole / at->bodies, 1e9 * scaled,
+         1e9 * scaled / at->bodies, peer, m->whole / reference, m->apart);
+  (void)fflush(stdout);
+}
+
+/* Times the solvers of a spatial scene in turn with the planar slider-crank `crank`. */
+static bool bench_spatial_scene(int k, measured *crank, bool json)
+{
+  scene at;
+  measured all[MOST_SOLVERS];
+  if (!scene_make(SPATIAL[k].kind, SPATIAL[k].n, &at)) {
+    (void)fprintf(stderr, "%s %d: %s\n", scene_name(SPATIAL[k].kind), SPATIAL[k].n, baum_message());
+    return false;
+  }
+  int count = create_all(&at, solver_in_space_at, all);
+  crank->whole = (double)INFINITY;
+  for (int round = 0; round < TIMING_ROUNDS; round++) {
+    time_whole(crank);
+    for (int i = 0; i < count; i++) {
+      time_whole(&all[i]);
+    }
+  }
+  compare_solutions(&at, all, count);
+  for (int i = 0; i < count; i++) {
+    if (json) {
+      print_json(&at, all[i].way->name, all[i].whole);
+    } else {
+      print_spatial_row(&at, &all[i], crank->whole, SPATIAL[k].peer, all[0].whole);
+    }
+  }
+  bool fine = finish_all(all, count);
+  scene_clear(&at);
+  return fine;
+}
+
+static bool bench_spatial(const arguments *given)
+{
+  scene planar;
+  measured crank = {.way = &solver_automatic};
+  bool fine = scene_make(SCENE_SLIDER_CRANK, 1, &planar);
+  crank.self = fine ? crank.way->create(&planar) : NULL;
+  fine = fine && crank.self;
+  bool begun = given->json;
+  for (int k = 0; k < SPATIAL_COUNT && crank.self; k++) {
+    if (is_wanted(given, SPATIAL[k].kind, SPATIAL[k].n)) {
+      if (!begun) {
+        print_spatial_head();
+        begun = true;
+      }
+      fine = bench_spatial_scene(k, &crank, given->json) && fine;
+    }
+  }
+  crank.way->destroy(crank.self);
+  scene_clear(&planar);
   return fine;
 }
 
@@ -394,10 +511,12 @@ int main(int count, char **words)
     return 2;
   }
   if (given.json) {
-    return bench_solvers(&given) ? 0 : 1;
+    bool solved = bench_solvers(&given);
+    return bench_spatial(&given) && solved ? 0 : 1;
   }
   print_machine();
   bool fine = bench_solvers(&given);
+  fine = bench_spatial(&given) && fine;
   fine = bench_steps(&given) && fine;
   if (!given.only) {
     fine = bench_fixed_bodies() && fine;

@@ -106,14 +106,18 @@ static bool run_phases(const block_solver *s, int last_phase)
   return done;
 }
 
+static bool accelerate(const scene *at)
+{
+  return baum_i_acceleration(at->workspace, 0.0, at->q, at->v, SOLVER_GAIN, SOLVER_GAIN) == BAUM_OK;
+}
+
 static bool block_run(void *self, int last_phase)
 {
   block_solver *s = self;
   if (last_phase < PHASE_WHOLE) {
     return run_phases(s, last_phase);
   }
-  return baum_i_acceleration(s->at->workspace, 0.0, s->at->q, s->at->v, SOLVER_GAIN, SOLVER_GAIN) ==
-         BAUM_OK;
+  return accelerate(s->at);
 }
 
 /* The eight assignments take negligible time. */
@@ -142,6 +146,29 @@ static void block_read(const void *self, double *a, double *lambda)
   const block_solver *s = self;
   solver_read_workspace(s->at->workspace, a, lambda);
 }
+
+/* The solver that the library chooses, without phases. */
+static void *automatic_create(scene *at)
+{
+  block_solver *s = calloc(1, sizeof *s);
+  if (s) {
+    s->at = at;
+  }
+  return s;
+}
+
+static bool automatic_run(void *self, int last_phase)
+{
+  (void)last_phase;
+  const block_solver *s = self;
+  return accelerate(s->at);
+}
+
+const solver solver_automatic = {.name = "automatic",
+                                 .create = automatic_create,
+                                 .run = automatic_run,
+                                 .read = block_read,
+                                 .destroy = free};
 
 const solver solver_block = {.name = "block",
                              .has_phases = true,

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "spatial.h"
+
 const char *scene_name(scene_kind kind)
 {
   static const char *const names[] = {
@@ -17,8 +19,22 @@ const char *scene_name(scene_kind kind)
     [SCENE_THIRD_BY_A_ROD] = "three_cranks_by_a_rod",
     [SCENE_THREE_CRANKS] = "three_cranks",
     [SCENE_TWO_CRANKS] = "two_cranks",
+    [SCENE_SPATIAL_SLIDER_CRANK] = "spatial_slider_crank",
+    [SCENE_RSSR] = "rssr",
+    [SCENE_BRICARD] = "bricard",
+    [SCENE_SLENDER_BRICARD] = "slender_bricard",
+    [SCENE_STEWART] = "stewart",
+    [SCENE_QUADRUPED] = "quadruped",
+    [SCENE_FLYBALL] = "flyball",
+    [SCENE_SPHERICAL_CHAIN] = "spherical_chain",
+    [SCENE_REVOLUTE_CHAIN] = "revolute_chain",
   };
   return names[kind];
+}
+
+bool scene_is_spatial(scene_kind kind)
+{
+  return kind >= SCENE_SPATIAL_SLIDER_CRANK;
 }
 
 /* A chain whose links have irregular angles to both sides. */
@@ -40,7 +56,7 @@ static baum_status build_chain(int links, model *out)
   return status;
 }
 
-static baum_status build(scene_kind kind, int n, model *out)
+static baum_status build_planar(scene_kind kind, int n, model *out)
 {
   model_slider_crank crank = {.driven = kind == SCENE_SLIDER_CRANK,
                               .doubled_guide = kind == SCENE_TWO_GUIDES,
@@ -48,7 +64,7 @@ static baum_status build(scene_kind kind, int n, model *out)
                               .moving = true};
   model_n_four_bar bars = model_n_four_bar_a02(n);
   bars.angle = 1.0;
-  switch (kind) {
+  switch ((int)kind) {
   case SCENE_SLIDER_CRANK:
   case SCENE_ONE_GUIDE:
   case SCENE_TWO_GUIDES: return model_slider_crank_build(crank, out);
@@ -58,8 +74,24 @@ static baum_status build(scene_kind kind, int n, model *out)
   case SCENE_THIRD_BY_A_ROD: return model_parallelogram_build(MODEL_THIRD_BY_A_ROD, 1.0, out);
   case SCENE_THREE_CRANKS: return model_parallelogram_build(MODEL_THREE_CRANKS, 1.0, out);
   case SCENE_TWO_CRANKS: return model_parallelogram_build(MODEL_TWO_CRANKS, 1.0, out);
+  default: return BAUM_ERR_ARGUMENT;
   }
-  return BAUM_ERR_ARGUMENT;
+}
+
+static baum_status build_spatial(scene_kind kind, int n, model *out)
+{
+  static const model_spatial models[] = {
+    [SCENE_SPATIAL_SLIDER_CRANK] = MODEL_SPATIAL_SLIDER_CRANK,
+    [SCENE_RSSR] = MODEL_RSSR,
+    [SCENE_BRICARD] = MODEL_BRICARD,
+    [SCENE_SLENDER_BRICARD] = MODEL_SLENDER_BRICARD,
+    [SCENE_STEWART] = MODEL_STEWART,
+    [SCENE_QUADRUPED] = MODEL_QUADRUPED,
+    [SCENE_FLYBALL] = MODEL_FLYBALL,
+    [SCENE_SPHERICAL_CHAIN] = MODEL_SPHERICAL_CHAIN,
+    [SCENE_REVOLUTE_CHAIN] = MODEL_REVOLUTE_CHAIN,
+  };
+  return model_spatial_build(models[kind], n, out);
 }
 
 bool scene_make(scene_kind kind, int n, scene *out)
@@ -67,20 +99,24 @@ bool scene_make(scene_kind kind, int n, scene *out)
   memset(out, 0, sizeof *out);
   out->kind = kind;
   out->n = n;
-  if (build(kind, n, &out->m) != BAUM_OK ||
-      baum_workspace_create(out->m.mechanism, &out->workspace) != BAUM_OK) {
+  baum_status status =
+    scene_is_spatial(kind) ? build_spatial(kind, n, &out->m) : build_planar(kind, n, &out->m);
+  if (status != BAUM_OK || baum_workspace_create(out->m.mechanism, &out->workspace) != BAUM_OK) {
     scene_clear(out);
     return false;
   }
+  size_t nq = (size_t)out->workspace->mechanism->nq;
   size_t nv = (size_t)out->workspace->mechanism->nv;
   out->bodies = out->m.body_count;
-  out->q = calloc(2 * nv, sizeof *out->q);
+  out->q = calloc(nq + nv, sizeof *out->q);
   if (!out->q) {
     scene_clear(out);
     return false;
   }
-  out->v = out->q + nv;
-  return baum_workspace_design(out->workspace, out->q, out->v) == BAUM_OK;
+  out->v = out->q + nq;
+  return baum_workspace_design(out->workspace, out->q, out->v) == BAUM_OK &&
+         (!scene_is_spatial(kind) || /* rssr has free velocities */
+          baum_workspace_assemble(out->workspace, 0.0, out->q, out->v, NULL, 0) == BAUM_OK);
 }
 
 void scene_clear(scene *out)

@@ -338,3 +338,9 @@ const solver *solver_at(int k)
   static const solver *const all[] = {&solver_block, &solver_block_plain, &KLU, &FRONT, &DENSE};
   return k < (int)(sizeof all / sizeof all[0]) ? all[k] : NULL;
 }
+
+const solver *solver_in_space_at(int k)
+{
+  static const solver *const all[] = {&solver_automatic, &solver_block_plain, &KLU, &FRONT, &DENSE};
+  return k < (int)(sizeof all / sizeof all[0]) ? all[k] : NULL;
+}

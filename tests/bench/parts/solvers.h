@@ -37,8 +37,12 @@ void solver_read_workspace(const baum_workspace *workspace, double *a, double *l
 
 extern const solver solver_block;
 extern const solver solver_block_plain;
+extern const solver solver_automatic;
 
 /* The k-th solver, k = 0, 1, ...; NULL if k is too large. */
+typedef const solver *solver_list(int k);
 const solver *solver_at(int k);
+/* The solvers of spatial scenes; the first is the one that the library chooses. */
+const solver *solver_in_space_at(int k);
 
 #endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Spatial mechanisms for tests of accuracy and for timing: those of the catalogue in a moving
+ * configuration, and larger ones. */
+#ifndef BAUM_TEST_MODELS_SPATIAL_H
+#define BAUM_TEST_MODELS_SPATIAL_H
+
+#include "models.h"
+
+typedef enum model_spatial {
+  MODEL_SPATIAL_SLIDER_CRANK, /* 3 bodies, 17 rows: revolute, spherical, universal, prismatic */
+  MODEL_RSSR,                 /* 3 bodies, 16 rows: revolute, spherical, spherical, revolute */
+  MODEL_BRICARD,              /* 5 bodies, 30 rows of revolute joints, one redundant */
+  MODEL_SLENDER_BRICARD,      /* the same of rods without inertia about themselves */
+  MODEL_STEWART,              /* 13 bodies, 72 rows: a platform on six legs of two bodies each */
+  MODEL_QUADRUPED,            /* 14 bodies, 65 rows: a free trunk with four legs and a neck */
+  MODEL_FLYBALL,              /* 4 bodies, 20 rows, with springs and dampers */
+  MODEL_SPHERICAL_CHAIN,      /* links of 1 m and 1 kg on spherical joints: 3 rows a link */
+  MODEL_REVOLUTE_CHAIN,       /* the same on revolute joints with skew axes: 5 rows a link */
+  MODEL_SPATIAL_COUNT
+} model_spatial;
+
+/* Gives a mechanism under gravity along -z (Bricard: -y). `links`: number of links of a chain;
+ * others ignore it. Only the coupler and the rocker of MODEL_RSSR have free velocities. */
+baum_status model_spatial_build(model_spatial which, int links, model *out);
+
+#endif
