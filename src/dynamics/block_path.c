@@ -190,8 +190,9 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 }
 
 /* Evaluate joints, masses and forces at a state, and write them to the block. */
-static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
-                             const double *q, const double *v, const baum_i_right_side *right)
+BAUM_I_INLINE baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
+                                    const double *q, const double *v,
+                                    const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
@@ -304,6 +305,13 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
 }
 
 /* ---- both ---- */
+
+baum_status baum_i_block_path_evaluate(baum_workspace *w, const baum_i_block_path *path, double t,
+                                       const double *q, const double *v,
+                                       const baum_i_right_side *right)
+{
+  return path->space ? set_space(w, path, t, q, v, right) : set_state(w, path, t, q, v, right);
+}
 
 baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path, double t,
                                      const double *q)

@@ -86,6 +86,11 @@ typedef struct baum_i_right_side {
   const double *row_gains;
 } baum_i_right_side;
 
+/* The first part of baum_i_block_path_solve(): evaluate a state and write it to the solver. */
+baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_block_path *path,
+                                       double t, const double *q, const double *v,
+                                       const baum_i_right_side *right);
+
 /* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints that are not pins. v may be
  * NULL if the right side does not need it. BAUM_ERR_SINGULAR means that the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
