@@ -15,6 +15,10 @@ enum { MOST_REFINEMENTS = 3 };
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
+/* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding level.
+ * A thin shaft that carries heavy bodies has such pivots at all times. */
+static const double FAIR_PIVOT = 1e-6;
+
 /* The residual is checked if masses are uneven and the largest a0 exceeds the largest a by more
  * than this factor, because then digits have cancelled in a = a0 - W J^T lambda (W: inverse masses;
  * a0: accelerations without constraint forces). */
@@ -60,7 +64,7 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
 BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path,
                                      const double *v)
 {
-  for (int i = 0; v && i < path->omitted_count; i++) {
+  for (int i = 0; v && i < path->rated_count; i++) {
     const baum_i_omitted_row *omitted = &path->omitted[i];
     double rate = -w->nu[omitted->row];
     for (int c = 0; c < omitted->count; c++) {
@@ -210,20 +214,6 @@ BAUM_I_INLINE baum_status set_state(baum_workspace *w, const baum_i_block_path *
 
 /* ---- in space ---- */
 
-static baum_i_block_rows rows_of(const baum_workspace *w, const double *v,
-                                 const baum_i_right_side *right)
-{
-  return (baum_i_block_rows){.jacobian = w->jacobian,
-                             .v = v,
-                             .phi = w->phi,
-                             .nu = w->nu,
-                             .gamma = w->gamma,
-                             .bending = right->bending,
-                             .damping = right->damping,
-                             .stiffness = right->stiffness,
-                             .phi_rate = w->phi_rate};
-}
-
 /* As add_row_gains(). */
 static void add_row_gains_in_space(const baum_workspace *w, const baum_i_space *space,
                                    const baum_i_right_side *right)
@@ -232,28 +222,90 @@ static void add_row_gains_in_space(const baum_workspace *w, const baum_i_space *
     const baum_i_space_node *node = &space->list[k];
     double *numbers = space->nodes + node->at;
     for (int i = 0; i < node->rows; i++) {
-      double more = gain_of_row(w, right, node->row[i]);
+      bool omitted = (node->omitted >> i & 1u) != 0;
+      double more = omitted ? 0.0 : gain_of_row(w, right, node->row[i]);
       numbers[baum_i_space_vector(node->rows) + i] -= more;
       numbers[i] += more;
     }
   }
 }
 
+/* Add the forces of all but the bodies in space. */
+static baum_status add_other_forces(baum_workspace *w, const baum_i_block_path *path)
+{
+  const baum_mechanism *m = w->mechanism;
+  for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
+    if (!baum_i_is_spatial(group->type->frame)) {
+      for (int i = 0; i < group->count; i++) {
+        memset(w->force + group->bodies[i]->v, 0, (size_t)group->bodies[i]->nv * sizeof *w->force);
+      }
+      BAUM_I_TRY(group->type->force(group, &w->point, w->force));
+    }
+  }
+  for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
+    BAUM_I_TRY(group->type->force(group, &w->point, w->force));
+  }
+  path->space_sides->set_force(path->space, w->force);
+  return BAUM_OK;
+}
+
+/* As baum_i_point_set(). */
+static void begin_point(baum_i_point *point, double t, const double *q, const double *v)
+{
+  point->t = t;
+  point->q = point->normalized ? point->normalized : q;
+  point->v = v;
+  point->retry = false;
+}
+
+static baum_i_space_pass pass_of(const baum_workspace *w, const baum_i_block_path *path,
+                                 const double *q, const double *v, const baum_i_right_side *right)
+{
+  return (baum_i_space_pass){.joints = path->space_joints,
+                             .places = w->mechanism->places,
+                             .q = q,
+                             .v = v,
+                             .normalized = w->point.normalized,
+                             .spatial = w->point.spatial,
+                             .gravity = right->force ? w->mechanism->gravity : NULL,
+                             .moments = w->point.moments,
+                             .force = w->force,
+                             .bending = right->bending,
+                             .damping = right->damping,
+                             .stiffness = right->stiffness,
+                             .phi = w->phi,
+                             .phi_rate = w->phi_rate,
+                             .gamma = w->gamma};
+}
+
 static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, double t,
                              const double *q, const double *v, const baum_i_right_side *right)
 {
-  baum_i_point_set(&w->point, t, q, v);
+  const baum_i_space_pass pass = pass_of(w, path, q, v, right);
+  const baum_i_block_rows rows = {.jacobian = w->jacobian,
+                                  .v = v,
+                                  .phi = w->phi,
+                                  .nu = w->nu,
+                                  .gamma = w->gamma,
+                                  .bending = right->bending,
+                                  .damping = right->damping,
+                                  .stiffness = right->stiffness,
+                                  .phi_rate = w->phi_rate};
+  if (path->has_planar) {
+    baum_i_point_set(&w->point, t, q, v);
+  } else {
+    begin_point(&w->point, t, q, v);
+  }
+  path->joints_kernel->set_bodies(path->space, &pass);
   w->eliminated_by = NULL;
-  w->jacobian_ready = false;
+  w->jacobian_ready = false; /* if a function fails, J is partly overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
   baum_i_space_use_force(path->space, right->force);
-  if (right->force && !path->force_is_constant) {
-    memcpy(w->force, path->constant_force, (size_t)w->mechanism->nv * sizeof *w->force);
-    BAUM_I_TRY(baum_i_mechanism_add_varying_forces(&w->point, w->force));
-    path->space_sides->set_force(path->space, w->force);
+  if (right->force && !path->only_weights) {
+    BAUM_I_TRY(add_other_forces(w, path));
   }
-  w->jacobian_ready = path->fixed_count == 0;
-  const baum_i_block_rows rows = rows_of(w, v, right);
+  w->jacobian_ready = path->space_joints.count == 0 && path->fixed_count == 0;
+  path->joints_kernel->set_joints(path->space, &pass);
   path->space_sides->set(path->space, &rows);
   set_omitted_rates(w, path, v);
   if (right->row_gains) {
@@ -270,10 +322,10 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->space_kernel->eliminate(path->space);
 }
 
-static baum_status refine_space(baum_i_block_path *path, baum_i_pivots pivots)
+static baum_status refine_space(baum_i_block_path *path, bool fair)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
-  bool done = kernel->check(path->space) && pivots == BAUM_I_PIVOTS_GOOD;
+  bool done = kernel->check(path->space) && fair;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     path->refinements++;
@@ -299,7 +351,8 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   if (!check) {
     return BAUM_OK;
   }
-  baum_status status = refine_space(path, pivots);
+  bool fair = pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT);
+  baum_status status = refine_space(path, fair);
   kernel->read_lambda(space, w->lambda);
   return status;
 }

@@ -10,6 +10,7 @@
 
 #include "dynamics/dynamics.h"
 #include "dynamics/pins.h"
+#include "dynamics/space_joints.h"
 #include "linear/block.h"
 #include "linear/space_block.h"
 
@@ -27,15 +28,20 @@ struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
   const baum_i_space_sides_kernel *space_sides;
+  const baum_i_space_joints_kernel *joints_kernel;
+  baum_i_space_joints space_joints;
+  bool has_planar;   /* a body is planar */
+  bool only_weights; /* all bodies are in space, and nothing else exerts forces */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
   double *points;              /* (pin_count, made even, x 4) points of the pins */
-  int group_count;             /* groups of joints that are not pins of the block */
+  int group_count;             /* groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
+  int rated_count;             /* those whose Phi' comes from J; they are first in the list */
   baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
@@ -62,6 +68,14 @@ typedef struct baum_i_block_size {
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
+
+/* space_joints.c: find the joints that space_joints_hot.c evaluates and mark them; later set their
+ * constants. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_space_joints_find(const baum_workspace *workspace, baum_i_space *space,
+                                     unsigned char *is_done, baum_i_space_joints *out);
+baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_i_space *space,
+                                    baum_i_space_joints *joints);
+void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
  * They are the same path if no body is fixed. *verdict describes the first. */
@@ -91,7 +105,7 @@ baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_b
                                        double t, const double *q, const double *v,
                                        const baum_i_right_side *right);
 
-/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints that are not pins. v may be
+/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints of the path's groups. v may be
  * NULL if the right side does not need it. BAUM_ERR_SINGULAR means that the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,

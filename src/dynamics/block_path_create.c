@@ -52,6 +52,21 @@ static baum_i_space_kind kind_of(const baum_i_body *body)
   }
 }
 
+/* Tell whether the omitted rows of a joint become rows of zeros, so that space_joints_hot.c can
+ * evaluate it: not if points coincide only in part, and not if nothing is left. */
+static bool stays_whole(const baum_mechanism *m, const baum_i_joint *joint,
+                        const unsigned char *omitted)
+{
+  baum_i_space_shape shape = baum_i_shape_of(m, joint);
+  bool coincide = shape <= BAUM_I_SHAPE_PDDD;
+  int left = 0;
+  for (int i = 0; i < joint->rows; i++) {
+    left += omitted[i] ? 0 : 1;
+  }
+  return shape != BAUM_I_SHAPES && left > 0 &&
+         !(coincide && (omitted[0] || omitted[1] || omitted[2]));
+}
+
 /* Return the number of body_a if the first three rows make points of bodies in space coincide and
  * the others compare directions; otherwise -1. */
 static int pinned_body(const baum_mechanism *m, const baum_i_joint *joint)
@@ -72,6 +87,7 @@ static int pinned_body(const baum_mechanism *m, const baum_i_joint *joint)
 typedef struct traits {
   baum_i_block_pin *pins;
   int *pinned;
+  unsigned char *whole;
   unsigned char *kinds;
   unsigned char *diagonal;
   unsigned char *fixed;
@@ -97,6 +113,7 @@ static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
       bool redundant = w->rows.omitted[k];
       out->omitted[k] = redundant || (for_motion && joint->fixed) ? 1 : 0;
     }
+    out->whole[i] = stays_whole(m, joint, out->omitted + joint->row) ? 1 : 0;
   }
 }
 
@@ -107,6 +124,7 @@ static baum_status make_solver(const baum_workspace *w, const traits *t, int *hu
     const baum_i_space_layout layout = {.structure = &w->structure,
                                         .kinds = t->kinds,
                                         .pinned = t->pinned,
+                                        .whole = t->whole,
                                         .omitted = t->omitted,
                                         .fixed = t->fixed};
     return baum_i_space_create(&layout, hub, &path->space);
@@ -125,12 +143,13 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   const baum_mechanism *m = w->mechanism;
   traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
               .pinned = baum_i_alloc((size_t)m->joint_count, sizeof *t.pinned),
+              .whole = baum_i_alloc((size_t)m->joint_count, 1),
               .kinds = baum_i_alloc((size_t)m->body_count, 1),
               .diagonal = baum_i_alloc((size_t)m->body_count, 1),
               .fixed = baum_i_alloc((size_t)m->body_count, 1),
               .omitted = baum_i_alloc((size_t)m->nc, 1)};
   baum_status status = BAUM_ERR_MEMORY;
-  if (t.pins && t.pinned && t.kinds && t.diagonal && t.fixed && t.omitted) {
+  if (t.pins && t.pinned && t.whole && t.kinds && t.diagonal && t.fixed && t.omitted) {
     int hub = -1;
     find_traits(w, for_motion, &t);
     status = make_solver(w, &t, &hub, path);
@@ -139,6 +158,7 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   }
   baum_i_free(t.pins);
   baum_i_free(t.pinned);
+  baum_i_free(t.whole);
   baum_i_free(t.kinds);
   baum_i_free(t.diagonal);
   baum_i_free(t.fixed);
@@ -151,8 +171,8 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
                                 unsigned char *is_done)
 {
   const baum_i_block *block = path->block;
-  if (!block) {
-    return BAUM_OK;
+  if (path->space) {
+    return baum_i_space_joints_find(w, path->space, is_done, &path->space_joints);
   }
   size_t count = baum_i_even((size_t)block->pin_count);
   path->points = baum_i_alloc(4 * count, sizeof *path->points);
@@ -192,11 +212,37 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
   return BAUM_OK;
 }
 
+/* List the omitted rows, first those of joints in the path's groups. */
+static baum_status list_omitted_rows(const baum_workspace *w, const unsigned char *is_done,
+                                     baum_i_block_path *path)
+{
+  path->omitted = baum_i_alloc((size_t)w->mechanism->nc, sizeof *path->omitted);
+  if (!path->omitted) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int done = 0; done < 2; done++) {
+    for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
+      int number = baum_i_row_joint(w->mechanism, i);
+      if (w->rows.omitted[i] && is_done[number] == done) {
+        const baum_i_joint *joint = w->mechanism->joints[number];
+        int nl = joint->span.nl;
+        path->omitted[path->omitted_count++] =
+          (baum_i_omitted_row){i, joint->jacobian + (i - joint->row) * nl, nl, joint->span.columns};
+        path->rated_count += 1 - done;
+      }
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
   unsigned char *is_done = baum_i_alloc((size_t)m->joint_count, 1);
   baum_status status = is_done ? place_points(w, path, is_done) : BAUM_ERR_MEMORY;
+  if (status == BAUM_OK) {
+    status = list_omitted_rows(w, is_done, path);
+  }
   for (int k = 0; k < m->joint_count && status == BAUM_OK; k++) {
     is_done[k] |= for_motion && m->joints[k]->fixed ? 1 : 0;
   }
@@ -205,23 +251,6 @@ static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum
   }
   baum_i_free(is_done);
   return status;
-}
-
-static baum_status list_omitted_rows(const baum_workspace *w, baum_i_block_path *path)
-{
-  path->omitted = baum_i_alloc((size_t)w->mechanism->nc, sizeof *path->omitted);
-  if (!path->omitted) {
-    return BAUM_ERR_MEMORY;
-  }
-  for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
-    if (w->rows.omitted[i]) {
-      const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, i)];
-      int nl = joint->span.nl;
-      path->omitted[path->omitted_count++] =
-        (baum_i_omitted_row){i, joint->jacobian + (i - joint->row) * nl, nl, joint->span.columns};
-    }
-  }
-  return BAUM_OK;
 }
 
 static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
@@ -299,7 +328,7 @@ static bool is_uneven_in_space(const baum_i_space *b)
   range turns = {.least = (double)INFINITY};
   for (int i = 1; i < b->body_count; i++) {
     include(&moves, b->bodies[i].weight[0]);
-    for (int c = 0; c < 9; c += 4) {
+    for (int c = 0; c < 12; c += 5) {
       include(&turns, b->bodies[i].whiten[c] * b->bodies[i].whiten[c]);
     }
   }
@@ -331,13 +360,26 @@ static bool is_uneven(const baum_i_block_path *path)
          turns.most > UNEVEN * turns.least;
 }
 
+static bool has_planar_bodies(const baum_mechanism *m)
+{
+  bool found = false;
+  for (int i = 1; i <= m->body_count; i++) {
+    found = found || !baum_i_is_spatial(m->bodies[i]->type->frame);
+  }
+  return found;
+}
+
 static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
                         baum_i_block_path *path)
 {
   BAUM_I_TRY(make_block(w, for_motion, verdict, path));
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
-  BAUM_I_TRY(list_omitted_rows(w, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
+  if (path->space) {
+    path->has_planar = has_planar_bodies(w->mechanism);
+    path->only_weights = !path->has_planar && w->mechanism->force_count == 0;
+    BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
+  }
   BAUM_I_TRY(prepare_forces(w, path));
   path->uneven = path->space ? is_uneven_in_space(path->space) : is_uneven(path);
   path->always_check = baum_i_block_path_size(path).nodes > FEW_NODES;
@@ -352,6 +394,7 @@ baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
   BAUM_I_TRY(baum_i_check_memory(path));
   path->space_kernel = BAUM_I_HOT_TABLE(baum_i_space_kernel);
   path->space_sides = BAUM_I_HOT_TABLE(baum_i_space_sides_kernel);
+  path->joints_kernel = BAUM_I_HOT_TABLE(baum_i_space_joints_kernel);
   path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
   path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
   path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
@@ -376,6 +419,7 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
   }
   baum_i_block_destroy(path->block);
   baum_i_space_destroy(path->space);
+  baum_i_space_joints_clear(&path->space_joints);
   baum_i_free(path->points);
   baum_i_free(path->groups);
   baum_i_free(path->joints);

@@ -60,7 +60,10 @@ static double smallest_in_space(const baum_i_space *space, int *row)
   double smallest = 1.0;
   *row = -1;
   for (int k = 0; k < space->node_count; k++) {
-    double pivot = fabs(space->det[k] / baum_i_space_undivided(space, k));
+    const double *det = space->measures[k].det;
+    double whole[2];
+    baum_i_space_undivided(space, k, whole);
+    double pivot = fabs(det[0] / whole[0] * (det[1] / whole[1]));
     compare_pivot(pivot, space->list[k].row[0], &smallest, row);
   }
   return smallest;

@@ -7,8 +7,9 @@
 
 #include "base/alloc.h"
 
-/* As in block.c. */
-static const double weak_pivot = 1e-3;
+/* The determinants are products of up to three ratios, each of which is a few hundredths in healthy
+ * loops, so this limit is lower than that of block.c. many_nodes is the same. */
+static const double weak_pivot = 1e-4;
 static const double many_nodes = 128.0;
 
 /* ---- memory ---- */
@@ -18,7 +19,7 @@ typedef struct array {
   size_t count;
 } array;
 
-enum { ARRAY_COUNT = 14, LINE = 8 /* doubles in a cache line */ };
+enum { ARRAY_COUNT = 12, LINE = 8 /* doubles in a cache line */ };
 
 /* Each array begins on a cache line, and no two at a distance of whole pages. */
 static size_t padded(size_t count)
@@ -36,8 +37,7 @@ static baum_status make_arrays(baum_i_space *b)
   const array list[ARRAY_COUNT] = {
     {&b->sides, (size_t)b->numbers_of_sides},
     {&b->nodes, (size_t)b->numbers_of_nodes},
-    {&b->size, nodes},
-    {&b->det, nodes},
+    {&b->measures, sizeof(baum_i_space_measure) / sizeof(double) * nodes},
     {&b->off, (size_t)b->numbers_off},
     {&b->free, motion},
     {&b->motion, motion},
@@ -58,7 +58,7 @@ static baum_status make_arrays(baum_i_space *b)
   }
   size_t over = (uintptr_t)b->numbers / sizeof(double) % LINE;
   double *next = b->numbers + (over > 0 ? LINE - over : 0);
-  for (int i = 0; i < ARRAY_COUNT && list[i].place; i++) {
+  for (int i = 0; i < ARRAY_COUNT; i++) {
     memcpy(list[i].place, &next, sizeof next);
     next += padded(list[i].count);
   }
@@ -142,9 +142,9 @@ static bool whiten(const double *tensor, int stride, baum_i_space_body *body)
     for (int i = 2; i >= 0; i--) {
       double sum = i == c ? 1.0 : 0.0;
       for (int k = i + 1; k < 3; k++) {
-        sum -= l[3 * k + i] * body->whiten[3 * k + c];
+        sum -= l[3 * k + i] * body->whiten[4 * k + c];
       }
-      body->whiten[3 * i + c] = sum / l[4 * i];
+      body->whiten[4 * i + c] = sum / l[4 * i];
     }
   }
   return true;
@@ -164,7 +164,7 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
   } else if (n == 3 && body->slots[2] == 5) {
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);
-    body->whiten[8] = 1.0 / body->unwhite[8];
+    body->whiten[10] = 1.0 / body->unwhite[8];
   }
   return positive;
 }
@@ -172,8 +172,13 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
 int baum_i_space_set_mass(baum_i_space *space, const double *mass)
 {
   for (int i = 0; i < space->structure->mass_block_count; i++) {
+    const baum_i_mass_block *block = &space->structure->mass_blocks[i];
     baum_i_space_body *body = &space->bodies[1 + i];
-    if (!body->fixed && !set_body(&space->structure->mass_blocks[i], mass, body)) {
+    body->heft = mass[block->value];
+    for (int c = 0; block->size == 6 && c < 9; c++) {
+      body->inertia[c / 3 * 4 + c % 3] = mass[block->value + 21 + c / 3 * 6 + c % 3];
+    }
+    if (!body->fixed && !set_body(block, mass, body)) {
       return i;
     }
   }
@@ -200,7 +205,8 @@ void baum_i_space_set_rest(baum_i_space *space, const double *r)
   for (int k = 0; k < space->node_count; k++) {
     const baum_i_space_node *node = &space->list[k];
     for (int i = 0; i < node->rows; i++) {
-      space->rest[node->place + i] = r[node->row[i]];
+      bool omitted = (node->omitted >> i & 1u) != 0;
+      space->rest[node->place + i] = omitted ? 0.0 : r[node->row[i]];
     }
   }
 }
@@ -234,11 +240,14 @@ static double entry(const baum_i_space *b, int32_t part, int row, int column)
   return b->sides[part + (row < 4 ? 4 * column + row : 12 + 2 * column + row - 4)];
 }
 
-double baum_i_space_undivided(const baum_i_space *space, int node)
+void baum_i_space_undivided(const baum_i_space *space, int node, double det[2])
 {
   const baum_i_space_node *at = &space->list[node];
   int n = at->rows;
   double s[BAUM_I_SPACE_ROWS][BAUM_I_SPACE_ROWS] = {{0.0}};
+  for (int i = 0; i < n; i++) {
+    s[i][i] = at->omitted >> i & 1u;
+  }
   for (int k = at->first_side; k < at->first_side + at->side_count; k++) {
     const baum_i_space_side *side = &space->side_list[k];
     double w = space->bodies[side->body].weight[0];
@@ -251,9 +260,10 @@ double baum_i_space_undivided(const baum_i_space *space, int node)
       }
     }
   }
-  double det = 1.0;
+  det[0] = 1.0;
+  det[1] = 1.0;
   for (int k = 0; k < n; k++) {
-    det *= s[k][k];
+    det[k < 3 ? 0 : 1] *= s[k][k];
     for (int i = k + 1; i < n; i++) {
       double factor = s[i][k] / s[k][k];
       for (int j = k + 1; j <= i; j++) {
@@ -261,5 +271,4 @@ double baum_i_space_undivided(const baum_i_space *space, int node)
       }
     }
   }
-  return det;
 }

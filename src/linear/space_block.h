@@ -42,6 +42,9 @@ typedef struct baum_i_space_layout {
    * points of two rigid bodies or particles in space coincide and all other rows compare
    * directions; -1: other rows */
   const int *pinned;
+  /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
+   * that its size is that of the joint */
+  const unsigned char *whole;
   const unsigned char *omitted; /* (nc) */
   const unsigned char *fixed;   /* (mass_block_count) non-zero: a = 0 */
 } baum_i_space_layout;
@@ -49,6 +52,7 @@ typedef struct baum_i_space_layout {
 typedef struct baum_i_space_node {
   int32_t rows;                   /* n */
   int32_t row[BAUM_I_SPACE_ROWS]; /* rows of the system */
+  uint32_t omitted;               /* a bit for each row of zeros */
   int32_t row_block;
   int32_t at;    /* start of its numbers in nodes[]: lambda, r, D */
   int32_t place; /* start of its vectors in rest[] */
@@ -84,14 +88,23 @@ typedef struct baum_i_space_coupling {
   int32_t at; /* start of its block in off[] */
 } baum_i_space_coupling;
 
+/* Pivots of a node: determinants of its first block, of up to three rows, and of the second after
+ * the elimination of the first. */
+typedef struct baum_i_space_measure {
+  double det[2];
+  double size[2]; /* products of the diagonal entries of S */
+} baum_i_space_measure;
+
 /* Constants of a body. */
 typedef struct baum_i_space_body {
-  double weight[4];  /* 1 / m, three times, and 0 */
-  double whiten[9];  /* L^-T, row-major */
-  double unwhite[9]; /* L^T, row-major */
-  double mass;
-  bool fixed;    /* W = 0 */
-  int32_t first; /* its first column */
+  double weight[4];   /* 1 / m, three times, and 0 */
+  double whiten[12];  /* L^-T, row-major, each row followed by 0 */
+  double inertia[12]; /* I likewise */
+  double unwhite[9];  /* L^T, row-major */
+  double mass;        /* 0: W = 0 */
+  double heft;        /* its mass, even if it is fixed */
+  bool fixed;         /* W = 0 */
+  int32_t first;      /* its first column */
   int32_t size;
   const int32_t *slots; /* (size) the place of each of its columns in [E | R] */
 } baum_i_space_body;
@@ -107,9 +120,10 @@ typedef struct baum_i_space {
   int zero_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
   int hub; /* mass block with too many sides; -1: none */
-  /* the pivots are looked at if a node's det D is below this times the product of the diagonal
+  /* pivots are weak if a determinant of a node is below this fraction of the product of the diagonal
    * entries of S */
   double weak_pivot;
+  double weakest; /* the smallest fraction, if pivots are weak */
 
   baum_i_space_body *bodies;        /* (body_count) */
   baum_i_space_node *list;          /* (node_count) in the order of elimination */
@@ -120,11 +134,10 @@ typedef struct baum_i_space {
                                      * pair sets */
   int32_t *targets; /* starts in off[] of blocks that receive products of couplings */
 
-  double *numbers; /* memory of all arrays below */
-  double *sides;   /* constants (structure.c), then E and R of all sides */
-  double *nodes;   /* lambda, r, and D, later its factors */
-  double *size;    /* (node_count) product of the diagonal entries of S */
-  double *det;     /* (node_count) det D */
+  double *numbers;                /* memory of all arrays below */
+  double *sides;                  /* constants (structure.c), then E and R of all sides */
+  double *nodes;                  /* lambda, r, and D, later its factors */
+  baum_i_space_measure *measures; /* (node_count) */
   double *off;     /* S below the diagonal, then U = S D^-1 without the last factor of D */
   double *free;    /* (body_count x 8) a0 */
   double *motion;  /* a */
@@ -175,8 +188,8 @@ void baum_i_space_find_residual(baum_i_space *space);
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
 
-/* Returns det S of a node before the elimination. */
-double baum_i_space_undivided(const baum_i_space *space, int node);
+/* Sets the determinants of a node's block of S, as in baum_i_space_measure. */
+void baum_i_space_undivided(const baum_i_space *space, int node, double det[2]);
 
 /* Hot functions for right-hand sides and for nodes whose sides come from J. */
 typedef struct baum_i_space_sides_kernel {

@@ -27,10 +27,9 @@ enum { MOST = BAUM_I_SPACE_ROWS, MOTION = BAUM_I_SPACE_MOTION };
 
 typedef baum_i_space_column column;
 
-/* Pivots are bad if the smallest ratio of det D to det S of the node is below this. */
-static const double bad_pivot = 1e-10;
-/* The solution is refined if det S of a node is below this times the product of its diagonal. */
-static const double weak_node = 1e-7;
+/* Pivots are bad if a determinant of a node is below this fraction of the product of the diagonal
+ * entries of S. */
+static const double bad_pivot = 1e-12;
 
 /* A residual of up to this fraction of its terms is at rounding level. */
 static const double rounding = 0x1p-46;
@@ -148,8 +147,8 @@ BAUM_I_INLINE double pivot_entry(const double *d, int n, int row, int col)
   return row < 4 ? d[4 * col + row] : d[4 * n + 2 * (col - 4) + row - 4];
 }
 
-/* Factors D of a node of n rows; returns det D. */
-BAUM_I_INLINE double factor_pivot(int n, const double *d, const double *b, pivot *t)
+/* Factors D of a node of n rows. */
+BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *t, double det[2])
 {
   int n1 = n < 3 ? n : 3;
   int n2 = n - n1;
@@ -161,7 +160,7 @@ BAUM_I_INLINE double factor_pivot(int n, const double *d, const double *b, pivot
   for (int i = 0; i < n; i++) {
     t->b[i] = b[i];
   }
-  double det = invert(n1, t->p);
+  det[0] = invert(n1, t->p);
   for (int k = 0; k < n2; k++) {
     for (int i = 0; i < 3; i++) {
       t->c[k][i] = d[4 * (3 + k) + i];
@@ -177,7 +176,7 @@ BAUM_I_INLINE double factor_pivot(int n, const double *d, const double *b, pivot
         (t->c[k][0] * t->y[j][0] + t->c[k][1] * t->y[j][1] + t->c[k][2] * t->y[j][2]);
     }
   }
-  return n2 > 0 ? det * invert(n2, t->z) : det;
+  det[1] = n2 > 0 ? invert(n2, t->z) : 1.0;
 }
 
 /* Stores the factors in place of D, and (P b1, Z b2') in place of b. */
@@ -295,7 +294,8 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   const baum_i_space_coupling *first = b->couplings + b->order.start[k];
   const baum_i_space_coupling *end = b->couplings + b->order.start[k + 1];
   pivot t;
-  b->det[k] = factor_pivot(n, d, numbers, &t);
+  baum_i_space_measure *measure = &b->measures[k];
+  factor_pivot(n, d, numbers, &t, measure->det);
   for (const baum_i_space_coupling *f = first; f < end; f++) {
     int rows = b->list[f->later].rows;
     if (rows == n) {
@@ -310,30 +310,26 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   return target;
 }
 
-/* Looks at pivots that are small compared with the diagonal of S. This is often so because a thin
- * shaft carries heavy bodies, which costs no digits; therefore they are compared with det S. */
-static baum_i_pivots judge(const baum_i_space *b)
+/* Returns the smallest ratio of a determinant to the diagonal entries of S. */
+static double weakest(const baum_i_space *b)
 {
-  baum_i_pivots verdict = BAUM_I_PIVOTS_GOOD;
+  double least = 1.0;
   for (int k = 0; k < b->node_count; k++) {
-    if (!(b->det[k] > b->weak_pivot * b->size[k])) {
-      double whole = baum_i_space_undivided(b, k);
-      if (!(b->det[k] > bad_pivot * whole && whole > 0.0)) {
-        return BAUM_I_PIVOTS_BAD;
-      }
-      if (!(b->det[k] > b->weak_pivot * whole && b->det[k] > weak_node * b->size[k])) {
-        verdict = BAUM_I_PIVOTS_WEAK;
-      }
+    const baum_i_space_measure *m = &b->measures[k];
+    for (int i = 0; i < 2; i++) {
+      double ratio = m->det[i] / m->size[i];
+      least = ratio >= least ? least : ratio; /* keeps NaN */
     }
   }
-  return verdict;
+  return least;
 }
 
 static baum_i_pivots eliminate(baum_i_space *b)
 {
   memcpy(b->motion, b->from, (size_t)(MOTION * b->body_count) * sizeof *b->motion);
   const int32_t *target = b->targets;
-  double margin = (double)INFINITY;
+  double weak = b->weak_pivot;
+  bool fine = true;
   for (int k = 0; k < b->node_count; k++) {
     switch (b->list[k].rows) {
     case 1: target = eliminate_node(1, b, k, target); break;
@@ -343,10 +339,14 @@ static baum_i_pivots eliminate(baum_i_space *b)
     case 5: target = eliminate_node(5, b, k, target); break;
     default: target = eliminate_node(6, b, k, target); break;
     }
-    double over = b->det[k] - b->weak_pivot * b->size[k];
-    margin = over > 0.0 ? margin : over; /* NaN counts as negative */
+    const baum_i_space_measure *m = &b->measures[k];
+    fine = fine && m->det[0] > weak * m->size[0] && m->det[1] > weak * m->size[1];
   }
-  return margin > 0.0 ? BAUM_I_PIVOTS_GOOD : judge(b);
+  if (fine) {
+    return BAUM_I_PIVOTS_GOOD;
+  }
+  b->weakest = weakest(b);
+  return b->weakest > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
 /* ---- substitute ---- */
@@ -623,7 +623,7 @@ static bool read_motion(const baum_i_space *b, double *a)
     const double *x = b->motion + (ptrdiff_t)MOTION * t;
     double six[6] = {x[0], x[1], x[2]};
     for (int i = 0; i < 3; i++) {
-      const double *w = body->whiten + 3 * (ptrdiff_t)i;
+      const double *w = body->whiten + 4 * (ptrdiff_t)i;
       six[3 + i] = w[0] * x[4] + w[1] * x[5] + w[2] * x[6];
     }
     for (int c = 0; c < body->size; c++) {

@@ -61,6 +61,63 @@ BAUM_I_INLINE baum_i_four baum_i_four_sums(const baum_i_four x[4])
 #endif
 }
 
+BAUM_I_INLINE baum_i_four baum_i_four_set(double x, double y, double z, double u)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_setr_pd(x, y, z, u);
+#else
+  return (baum_i_four){{x, y}, {z, u}};
+#endif
+}
+
+/* One number; i is a constant. */
+BAUM_I_INLINE double baum_i_four_get(baum_i_four x, int i)
+{
+  return i < 2 ? baum_i_four_low(x)[i] : baum_i_four_high(x)[i - 2];
+}
+
+/* Replaces one number; i is a constant. */
+BAUM_I_INLINE baum_i_four baum_i_four_put(baum_i_four x, int i, double s)
+{
+#ifdef BAUM_I_WIDE
+  baum_i_four all = _mm256_set1_pd(s);
+  switch (i) {
+  case 0: return _mm256_blend_pd(x, all, 1);
+  case 1: return _mm256_blend_pd(x, all, 2);
+  case 2: return _mm256_blend_pd(x, all, 4);
+  default: return _mm256_blend_pd(x, all, 8);
+  }
+#else
+  baum_i_pair *half = i < 2 ? &x.low : &x.high;
+  *half = i % 2 == 0 ? (baum_i_pair){s, (*half)[1]} : (baum_i_pair){(*half)[0], s};
+  return x;
+#endif
+}
+
+BAUM_I_INLINE double baum_i_four_sum(baum_i_four x)
+{
+  baum_i_pair halves = baum_i_four_low(x) + baum_i_four_high(x);
+  return halves[0] + halves[1];
+}
+
+/* (x_1, x_2, x_0, x_3) */
+BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_permute4x64_pd(x, 0xc9);
+#else
+  return (baum_i_four){{x.low[1], x.high[0]}, {x.low[0], x.high[1]}};
+#endif
+}
+
+/* The cross product of vectors of three numbers, and 0 or a rounding error. */
+BAUM_I_INLINE baum_i_four baum_i_four_cross(baum_i_four x, baum_i_four y)
+{
+  baum_i_four first = baum_i_four_times(x, baum_i_four_rotated(y));
+  baum_i_four second = baum_i_four_times(baum_i_four_rotated(x), y);
+  return baum_i_four_rotated(baum_i_four_minus(first, second));
+}
+
 BAUM_I_INLINE baum_i_four baum_i_four_zero(void)
 {
   return baum_i_four_all(0.0);

@@ -23,7 +23,7 @@ static void set_force(baum_i_space *b, const double *force)
       const double *w = body->whiten + i;
       f[i] = body->mass > 0.0 ? six[i] : 0.0;
       a[i] = body->weight[i] * six[i];
-      f[4 + i] = w[0] * six[3] + w[3] * six[4] + w[6] * six[5];
+      f[4 + i] = w[0] * six[3] + w[4] * six[4] + w[8] * six[5];
       a[4 + i] = f[4 + i];
     }
   }
@@ -37,9 +37,10 @@ static void take_side(const baum_i_space *b, const baum_i_space_node *node,
   const double *whiten = b->bodies[side->body].whiten;
   for (int i = 0; i < node->rows; i++) {
     const double *j = jacobian + rows->value + (ptrdiff_t)(node->row[i] - rows->row) * rows->cols;
+    bool omitted = (node->omitted >> i & 1u) != 0;
     double six[6];
     for (int c = 0; c < 6; c++) {
-      six[c] = side->from[c] < 0 ? 0.0 : j[side->from[c]];
+      six[c] = omitted || side->from[c] < 0 ? 0.0 : j[side->from[c]];
     }
     for (int c = 0; c < 3; c++) {
       ptrdiff_t at = baum_i_column_entry(3, i, c);
@@ -47,7 +48,7 @@ static void take_side(const baum_i_space *b, const baum_i_space_node *node,
         b->sides[side->move + at] = six[c];
       }
       b->sides[side->turn + at] =
-        whiten[c] * six[3] + whiten[3 + c] * six[4] + whiten[6 + c] * six[5];
+        whiten[c] * six[3] + whiten[4 + c] * six[4] + whiten[8 + c] * six[5];
     }
   }
 }
@@ -77,7 +78,10 @@ static void set_node(const baum_i_space *b, int k, const baum_i_block_rows *at)
   double right[8] = {0.0};
   double d_wide[MOST][8] = {{0.0}};
   for (int i = 0; i < n; i++) {
-    right[i] = right_of(b, node, i, at);
+    bool omitted = (node->omitted >> i & 1u) != 0;
+    double r = right_of(b, node, i, at);
+    right[i] = omitted ? 0.0 : r;
+    d_wide[i][i] = omitted ? 1.0 : 0.0;
   }
   baum_i_space_column rest = baum_i_column_load(right, 1, 0, true);
   baum_i_space_column sum = {.low = baum_i_four_zero()};
@@ -100,13 +104,15 @@ static void set_node(const baum_i_space *b, int k, const baum_i_block_rows *at)
   sum = baum_i_column_subtract(sum, rest, 1.0, tall);
   baum_i_column_store(numbers, 1, 0, tall, sum);
   baum_i_column_store(numbers + baum_i_space_vector(n), 1, 0, tall, rest);
-  b->size[k] = 1.0;
+  baum_i_space_measure *measure = &b->measures[k];
+  measure->size[0] = 1.0;
+  measure->size[1] = 1.0;
   for (int j = 0; j < n; j++) {
     memcpy(d + (ptrdiff_t)4 * j, d_wide[j], 4 * sizeof *d);
     if (j >= 4) {
       memcpy(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), d_wide[j] + 4, 2 * sizeof *d);
     }
-    b->size[k] *= d_wide[j][j];
+    measure->size[j < 3 ? 0 : 1] *= d_wide[j][j];
   }
 }
 

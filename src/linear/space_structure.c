@@ -110,13 +110,14 @@ static baum_status add_nodes(builder *u, int row_block)
   for (int row = rows->row; row < rows->row + rows->rows;) {
     baum_i_space_node node = {.row_block = row_block};
     for (; row < rows->row + rows->rows && node.rows < BAUM_I_SPACE_ROWS; row++) {
-      if (!omitted[row]) {
+      if (!omitted[row] || u->layout->whole[row_block]) {
+        node.omitted |= omitted[row] ? 1u << node.rows : 0u;
         node.row[node.rows++] = row;
       }
     }
     if (node.rows > 0) {
-      node.lean =
-        u->layout->pinned[row_block] >= 0 && node.rows >= 3 && node.row[2] == rows->row + 2;
+      node.lean = u->layout->pinned[row_block] >= 0 && node.rows >= 3 &&
+                  node.row[2] == rows->row + 2 && (node.omitted & 7u) == 0;
       BAUM_I_TRY(add_sides(u, rows, &node));
       baum_i_space_node *added = baum_i_vector_append(&u->nodes);
       if (!added) {
