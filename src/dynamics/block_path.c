@@ -14,6 +14,8 @@ enum { MOST_REFINEMENTS = 3 };
  * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
+/* Refinements gain fewer digits with uneven inertias. */
+static const double SETTLING_IN_SPACE = 1e-12;
 
 /* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding level.
  * A thin shaft that carries heavy bodies has such pivots at all times. */
@@ -333,7 +335,7 @@ static baum_status refine_space(baum_i_block_path *path, bool fair)
     change = kernel->correct(path->space);
     done = kernel->check(path->space) || change <= SETTLED;
   }
-  return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
+  return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last)
